@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a ROS message type is made of: the one description that the generator writes, the codec walks and the bridge
+// announces.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace bubblesim::messages {
+
+/// How one value of a field lies on the wire (http://wiki.ros.org/msg, "Field Types").
+enum class FieldKind : std::uint8_t {
+  kBool,
+  kInt8,
+  kUint8,  ///< also `char`
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64,
+  kString,    ///< uint32 length, then bytes
+  kTime,      ///< uint32 secs, uint32 nsecs
+  kDuration,  ///< int32 secs, int32 nsecs
+  kMessage,   ///< the fields of another type, in order
+};
+
+enum class ArrayKind : std::uint8_t {
+  kNone,
+  kFixed,     ///< `T[n]`: n values, no length on the wire
+  kVariable,  ///< `T[]`: uint32 count, then the values
+};
+
+struct MessageType;
+
+struct Field {
+  std::string name;
+  FieldKind kind = FieldKind::kBool;
+  ArrayKind array = ArrayKind::kNone;
+  std::uint32_t fixed_length = 0;        ///< of a kFixed array
+  const MessageType* message = nullptr;  ///< of a kMessage field; owned by the registry
+  /// Index of `name` among all field names known to the process (see field_key()): adapters keep their own
+  /// form of the name, such as an interned Python string, in a table under this index.
+  std::uint32_t key = 0;
+};
+
+struct Constant {
+  std::string name;
+  std::variant<bool, std::int64_t, std::uint64_t, double, std::string> value;
+};
+
+/// One message, or one half of a service. Lives as long as the process once the registry has handed it out.
+struct MessageType {
+  std::string name;         ///< `geometry_msgs/Twist`; halves of services: `std_srvs/SetBoolRequest`
+  std::string md5;          ///< as genmsg computes it; peers compare it when they connect
+  std::string definition;   ///< full text with nested types, as rosbag stores it
+  bool has_header = false;  ///< first field is std_msgs/Header: roscpp writes its sequence number
+  std::vector<Field> fields;
+  std::vector<Constant> constants;
+};
+
+struct ServiceType {
+  std::string name;  ///< `std_srvs/SetBool`
+  std::string md5;
+  const MessageType* request = nullptr;
+  const MessageType* response = nullptr;
+};
+
+/// Bytes that one value of a kind takes, or 0 when that depends on the value (strings, messages).
+std::uint32_t wire_size(FieldKind kind);
+
+/// The .msg spelling of a kind: "float32"; "message" for kMessage.
+std::string_view kind_name(FieldKind kind);
+
+}  // namespace bubblesim::messages
