@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Print the sources folder of the catkin workspace that a build folder belongs to, and the folder of a package there.
+
+`catkin build` configures each package alone, so CMake cannot see which others share its workspace. The output is a CMake
+list of two; its second part, or both, are empty when there is no such package, or no workspace.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from catkin_pkg.packages import find_packages
+
+
+def source_space(build_folder: Path) -> Path | None:
+    """Folder with the workspace's sources, or None outside a workspace."""
+    for folder in build_folder.parents:
+        if (folder / ".catkin_tools").is_dir():
+            located = subprocess.run(
+                ["catkin", "locate", "--workspace", folder, "--src"], capture_output=True, text=True, check=False
+            )
+            return Path(located.stdout.strip()) if located.returncode == 0 else folder / "src"
+        if (folder / ".catkin_workspace").is_file():  # catkin_make and catkin_make_isolated
+            return folder / "src"
+    return None
+
+
+def find_package(name: str, sources: Path) -> Path | None:
+    """Folder of the package `name` below `sources`; None when there is none."""
+    return next((sources / path for path, package in find_packages(sources).items() if package.name == name), None)
+
+
+if __name__ == "__main__":
+    workspace = source_space(Path(sys.argv[2]))
+    package = find_package(sys.argv[1], workspace) if workspace and workspace.is_dir() else None
+    print(f"{workspace or ''};{package or ''}", end="")
