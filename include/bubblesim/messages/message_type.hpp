@@ -3,6 +3,7 @@
 // announces.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -73,6 +74,12 @@ struct ServiceType {
 
 /// Bytes that one value of a kind takes, or 0 when that depends on the value (strings, messages).
 std::uint32_t wire_size(FieldKind kind);
+
+/// Bytes of a message, a field or one element of an array field when it has its default value. No value takes fewer,
+/// and the defaults are all zero bytes: 0, false, "", time 0, no elements.
+std::size_t default_size(const MessageType& type);
+std::size_t default_size(const Field& field);
+std::size_t default_element_size(const Field& field);
 
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);

@@ -11,13 +11,14 @@
 
 namespace bubblesim::messages {
 
-/// The type of that name (`pkg/Type`, also `pkg/msg/Type`), or nullptr when it is not listed. Thread-safe.
+/// The type of that name (`pkg/Type`, also `pkg/msg/Type`), or nullptr when it is not listed. Halves of services are
+/// found, too (`std_srvs/SetBoolRequest`). Thread-safe.
 const MessageType* find_message(std::string_view name);
 
 /// The service of that name (`pkg/Type`, also `pkg/srv/Type`), or nullptr when it is not listed. Thread-safe.
 const ServiceType* find_service(std::string_view name);
 
-/// Names of all listed types, sorted; types that only occur nested in others are included.
+/// Names of all listed types, sorted; types that only occur nested in others are included, halves of services are not.
 std::vector<std::string> message_names();
 std::vector<std::string> service_names();
 

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Turns the lists of message and service types into C++ tables. CMake runs it when it configures the build.
+
+One C++ file for each message package, one that lists the packages, and tables.cmake, which names these files and all
+that was read. Files that would not change are left alone. Problems of the lists are printed all at once; the exit
+code is then 1 and nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+try:
+    import em  # type: ignore[import-untyped]
+    import genmsg.gentools  # type: ignore[import-untyped]
+    import rules
+    from packages import build_index
+    from specs import Specs, read_list
+except ImportError as error:
+    sys.exit(f"{error}; install ros-base-dev and use Debian's Python: cmake -DPython3_EXECUTABLE=/usr/bin/python3")
+
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class TypeTable:
+    """What the template prints of one message or of one half of a service; strings are C++ literals."""
+
+    label: str
+    name: str
+    md5: str
+    definition: str
+    has_header: str
+    fields: list[rules.FieldRow]
+    constants: list[rules.ConstantRow]
+
+
+@dataclass(frozen=True)
+class ServiceTable:
+    """What the template prints of one service."""
+
+    name: str
+    md5: str
+    request: TypeTable
+    response: TypeTable
+
+
+def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
+    """The tables of a genmsg.MsgSpec; kind ("msg" or "srv") keeps the C++ names of both apart."""
+    return TypeTable(
+        label=f"{kind}_{rules.split_name(spec.full_name)[1]}",
+        name=rules.cpp_string(spec.full_name),
+        md5=genmsg.gentools.compute_md5(specs.context, spec),
+        definition=rules.cpp_string(genmsg.gentools.compute_full_text(specs.context, spec)),
+        has_header="true" if rules.has_header(spec.types) else "false",
+        fields=[rules.field_row(f.name, f.base_type, f.is_array, f.array_len) for f in spec.parsed_fields()],
+        constants=[rules.constant_row(c.name, c.type, c.val) for c in spec.constants],
+    )
+
+
+def service_table(specs: Specs, name: str, spec: Any) -> ServiceTable:
+    """The tables of a genmsg.SrvSpec."""
+    return ServiceTable(
+        name=rules.cpp_string(name),
+        md5=genmsg.gentools.compute_md5(specs.context, spec),
+        request=type_table(specs, spec.request, "srv"),
+        response=type_table(specs, spec.response, "srv"),
+    )
+
+
+def expand(template: str, context: dict[str, Any]) -> str:
+    """The text of a file from templates/, filled in."""
+    return str(em.expand((HERE / "templates" / template).read_text(encoding="utf-8"), context))
+
+
+def write_if_changed(path: Path, text: str) -> None:
+    """Keeps the date of a file whose text stays the same, so that it is not compiled again."""
+    data = text.encode("utf-8", errors="surrogateescape")
+    if not path.is_file() or path.read_bytes() != data:
+        path.write_bytes(data)
+
+
+def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
+    """Writes all files and removes those of packages that are no longer needed."""
+    output.mkdir(parents=True, exist_ok=True)
+    packages = sorted({rules.split_name(name)[0] for name in [*specs.messages, *specs.services]})
+    texts: dict[Path, str] = {}
+    for package in packages:
+        mine = [name for name in sorted(specs.messages) if rules.split_name(name)[0] == package]
+        messages = [type_table(specs, specs.messages[name], "msg") for name in mine]
+        served = [name for name in sorted(specs.services) if rules.split_name(name)[0] == package]
+        services = [service_table(specs, name, specs.services[name]) for name in served]
+        types = messages + [half for service in services for half in (service.request, service.response)]
+        context = {"package": package, "types": types, "messages": messages, "services": services}
+        texts[output / f"package_{package}.cpp"] = expand("package.cpp.em", context)
+    texts[output / "all_packages.cpp"] = expand("all_packages.cpp.em", {"packages": packages})
+    for path, text in texts.items():
+        write_if_changed(path, text)
+    for path in output.glob("package_*.cpp"):
+        if path not in texts:
+            path.unlink()
+    manifest = expand("tables.cmake.em", {"sources": sorted(texts), "inputs": sorted(inputs)})
+    write_if_changed(output / "tables.cmake", manifest)
+
+
+def parse_arguments(arguments: list[str]) -> argparse.Namespace:
+    """The command line; `paths` options take lists as the environment variables of the same meaning do."""
+
+    def paths(separator: str) -> Any:
+        return lambda text: [Path(part) for part in text.split(separator) if part]
+
+    parser = argparse.ArgumentParser(prog="generate.py", description=__doc__.partition("\n")[0])
+    parser.add_argument("--messages", type=Path, default=HERE / "messages.txt", help="list of message types")
+    parser.add_argument("--services", type=Path, default=HERE / "services.txt", help="list of service types")
+    parser.add_argument("--output", type=Path, required=True, help="folder for the generated files")
+    parser.add_argument("--project", type=Path, default=HERE.parent, help="root of this project, as the build sees it")
+    parser.add_argument("--build", type=Path, help="build folder, to find the workspace by (default: --output)")
+    parser.add_argument("--prefix-path", type=paths(";"), default=[], help="CMake's CMAKE_PREFIX_PATH, a;b")
+    ros_path = os.environ.get("ROS_PACKAGE_PATH", "")
+    parser.add_argument("--ros-package-path", type=paths(":"), default=ros_path, help="default: $ROS_PACKAGE_PATH")
+    return parser.parse_args(arguments)
+
+
+def shown_path(path: Path) -> str:
+    """A path as errors show it: from the current folder if it is below."""
+    path = path.resolve()
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
+
+
+def main(arguments: list[str]) -> int:
+    """Runs the generator; returns the exit code."""
+    options = parse_arguments(arguments)
+    index = build_index(
+        options.project.absolute(),
+        (options.build or options.output).absolute(),
+        options.prefix_path,
+        options.ros_package_path,
+    )
+    problems: list[str] = []
+    specs = Specs(index)
+    messages = read_list(options.messages, shown_path(options.messages), problems)
+    services = read_list(options.services, shown_path(options.services), problems)
+    specs.load(messages, "msg", problems)
+    specs.load(services, "srv", problems)
+    if problems:
+        print("\n".join(problems), file=sys.stderr)
+        return 1
+    own = [options.messages, options.services, *HERE.glob("*.py"), *HERE.glob("templates/*.em")]
+    inputs = {path.absolute() for path in [*own, *specs.files, *index.watched]}
+    write_tables(specs, sorted(inputs), options.output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

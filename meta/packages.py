@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Finds the definition texts of messages and services: workspace first, then this project, then what is installed."""
+
+from __future__ import annotations
+
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from catkin_pkg.packages import find_package_paths  # type: ignore[import-untyped]
+
+SEPARATOR = "=" * 80 + "\n"  # between a type's own text and those of its nested types
+_LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+_DEFINITION = re.compile(r"struct Definition<.*?return\s+((?:\"(?:[^\"\\]|\\.)*\"\s*)+);", re.DOTALL)
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+
+
+@dataclass(frozen=True)
+class Definition:
+    """The text of one .msg or .srv and the file that it came from."""
+
+    text: str
+    file: Path
+
+
+@dataclass
+class PackageIndex:
+    """Which folders hold the packages of each name, those that win first."""
+
+    folders: dict[str, list[Path]] = field(default_factory=dict)
+    include_folders: list[Path] = field(default_factory=list)
+    watched: list[Path] = field(default_factory=list)  # a package added here may shadow another
+
+    def add(self, name: str, folder: Path) -> None:
+        """Adds a package behind those of the same name that are known."""
+        known = self.folders.setdefault(name, [])
+        if folder not in known:
+            known.append(folder)
+
+    def add_source_space(self, folder: Path) -> None:
+        """Adds the packages anywhere below a folder, by the names in their package.xml."""
+        self.watched.append(folder)
+        for relative in sorted(find_package_paths(str(folder), exclude_subspaces=True)):
+            name = _package_name(folder / relative / "package.xml")
+            if name:
+                self.add(name, (folder / relative).resolve())
+
+    def add_share(self, folder: Path) -> None:
+        """Adds the packages directly below a folder such as /usr/share; they are called as their folders are."""
+        for kind in ("msg", "srv"):
+            for definitions in sorted(folder.glob(f"*/{kind}")):
+                self.add(definitions.parent.name, definitions.parent)
+
+    def find(self, name: str, kind: str) -> Definition | None:
+        """The definition of `package/Type`; kind is "msg" or "srv"."""
+        package, _, short = name.partition("/")
+        for folder in self.folders.get(package, []):
+            file = folder / kind / f"{short}.{kind}"
+            if file.is_file():
+                # Comments may be in any encoding, and the text takes part in no checksum but as it is.
+                return Definition(file.read_text(encoding="utf-8", errors="surrogateescape"), file)
+        return self._find_in_headers(package, short, kind)
+
+    def names(self, kind: str) -> list[str]:
+        """All names that find() would find among .msg or .srv files (headers left out)."""
+        return sorted(
+            {
+                f"{package}/{file.stem}"
+                for package, folders in self.folders.items()
+                for folder in folders
+                for file in (folder / kind).glob(f"*.{kind}")
+            }
+        )
+
+    def has_package(self, package: str) -> bool:
+        """Whether a package has definitions, be it only in C++ headers."""
+        found = any((folder / kind).is_dir() for folder in self.folders.get(package, []) for kind in ("msg", "srv"))
+        return found or any((folder / package).is_dir() for folder in self.include_folders)
+
+    def _find_in_headers(self, package: str, short: str, kind: str) -> Definition | None:
+        """Debian has packages with message headers but without the .msg files, which are in ros-*-msgs."""
+        halves = [short] if kind == "msg" else [f"{short}Request", f"{short}Response"]
+        for include in self.include_folders:
+            files = [include / package / f"{half}.h" for half in halves]
+            texts = [own_text(header_definition(file)) for file in files if file.is_file()]
+            if len(texts) == len(halves) and all(text is not None for text in texts):
+                return Definition("---\n".join(text or "" for text in texts), files[0])
+        return None
+
+
+def header_definition(header: Path) -> str | None:
+    """The full definition text that gencpp put into a message header, None when there is none."""
+    match = _DEFINITION.search(header.read_text(encoding="utf-8", errors="surrogateescape"))
+    if match is None:
+        return None
+    text = "".join(_LITERAL.findall(match[1]))
+    return re.sub(r"\\(.)", lambda escape: _ESCAPES.get(escape[1], escape[1]), text)
+
+
+def own_text(full_definition: str | None) -> str | None:
+    """A full definition without the nested types that follow."""
+    return None if full_definition is None else full_definition.split(SEPARATOR, 1)[0]
+
+
+def build_index(project: Path, build: Path, prefixes: Iterable[Path], package_path: Iterable[Path]) -> PackageIndex:
+    """Looks through everything in the order in which it wins.
+
+    project: root of this project; build: its build folder, which may be the only one of the two inside the workspace;
+    prefixes: CMAKE_PREFIX_PATH; package_path: ROS_PACKAGE_PATH.
+    """
+    index = PackageIndex()
+    for source_space in _unique(_source_space(folder) for folder in _workspaces([project, build])):
+        index.add_source_space(source_space)
+    index.add_share(project / "msg")
+    for prefix in [*prefixes, Path("/usr")]:
+        for source_space in _devel_source_spaces(prefix):
+            index.add_source_space(source_space)
+        index.add_share(prefix / "share")
+        index.include_folders.append(prefix / "include")
+    for folder in package_path:
+        if folder.name == "share":
+            index.add_share(folder)
+        elif folder.is_dir():
+            index.add_source_space(folder)
+    return index
+
+
+def _package_name(manifest: Path) -> str | None:
+    try:
+        return (ElementTree.parse(manifest).findtext("name") or "").strip() or None
+    except (OSError, ElementTree.ParseError):
+        return None  # catkin reports a broken package.xml better than we could
+
+
+def _workspaces(starts: Iterable[Path]) -> Iterator[Path]:
+    for start in starts:
+        for folder in [start, *start.parents]:
+            if (folder / ".catkin_tools").exists() or (folder / ".catkin_workspace").exists():
+                yield folder
+                break
+
+
+def _source_space(workspace: Path) -> Path:
+    for profile in sorted(workspace.glob(".catkin_tools/profiles/*/config.yaml")):
+        match = re.search(r"^source_space:\s*(\S+)\s*$", profile.read_text(encoding="utf-8"), re.MULTILINE)
+        if match and (workspace / match[1]).is_dir():
+            return workspace / match[1]
+    return workspace / "src"
+
+
+def _devel_source_spaces(prefix: Path) -> Iterator[Path]:
+    """A devel space names the source folders that it was built from in its .catkin file."""
+    marker = prefix / ".catkin"
+    if marker.is_file():
+        for entry in marker.read_text(encoding="utf-8").split(";"):
+            if entry.strip() and Path(entry.strip()).is_dir():
+                yield Path(entry.strip())
+
+
+def _unique(folders: Iterable[Path]) -> Iterator[Path]:
+    seen: set[str] = set()
+    for folder in folders:
+        if folder.is_dir() and os.path.realpath(folder) not in seen:
+            seen.add(os.path.realpath(folder))
+            yield folder

@@ -1,0 +1,52 @@
+@# Context:
+@#   package   name of the message package, such as "geometry_msgs"
+@#   types     list of generate.TypeTable: its messages, then the halves of its services
+@#   messages  those of `types` that are messages
+@#   services  list of generate.ServiceTable
+// generated from the definitions of @package that meta/messages.txt and meta/services.txt ask for, do not edit
+#include "message_tables.hpp"
+
+namespace bubblesim::messages::tables {
+namespace {
+@[for type in types]@
+
+@[if type.fields]@
+constexpr FieldRow kFields_@(type.label)[] = {
+@[for row in type.fields]@
+    {@row.name, FieldKind::@row.kind, ArrayKind::@row.array, @row.length, @row.message},
+@[end for]@
+};
+@[end if]@
+@[if type.constants]@
+constexpr ConstantRow kConstants_@(type.label)[] = {
+@[for row in type.constants]@
+    {@row.name, FieldKind::@row.kind, @row.value},
+@[end for]@
+};
+@[end if]@
+constexpr MessageRow k_@(type.label) = {
+    @type.name, "@type.md5", @type.has_header,
+    @(f"kFields_{type.label}" if type.fields else "{}"), @(f"kConstants_{type.label}" if type.constants else "{}"),
+    @type.definition};
+@[end for]@
+
+@[if messages]@
+constexpr const MessageRow* kMessages[] = {
+@[for type in messages]@
+    &k_@(type.label),
+@[end for]@
+};
+@[end if]@
+@[if services]@
+constexpr ServiceRow kServices[] = {
+@[for service in services]@
+    {@service.name, "@service.md5", &k_@(service.request.label), &k_@(service.response.label)},
+@[end for]@
+};
+@[end if]@
+
+}  // namespace
+
+PackageTable package_@(package)() { return {@("kMessages" if messages else "{}"), @("kServices" if services else "{}")}; }
+
+}  // namespace bubblesim::messages::tables

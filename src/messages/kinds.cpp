@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of field kinds.
+#include <array>
+
+#include "bubblesim/messages/message_type.hpp"
+
+namespace bubblesim::messages {
+namespace {
+
+struct KindRow {
+  std::string_view name;
+  std::uint32_t wire_size;
+};
+
+// In the order of FieldKind.
+constexpr std::array<KindRow, 15> kKinds{{
+    {"bool", 1},
+    {"int8", 1},
+    {"uint8", 1},
+    {"int16", 2},
+    {"uint16", 2},
+    {"int32", 4},
+    {"uint32", 4},
+    {"int64", 8},
+    {"uint64", 8},
+    {"float32", 4},
+    {"float64", 8},
+    {"string", 0},
+    {"time", 8},
+    {"duration", 8},
+    {"message", 0},
+}};
+
+}  // namespace
+
+std::uint32_t wire_size(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].wire_size; }
+
+std::string_view kind_name(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
+
+std::size_t default_size(const MessageType& type) {
+  std::size_t size = 0;
+  for (const Field& field : type.fields) size += default_size(field);
+  return size;
+}
+
+std::size_t default_element_size(const Field& field) {
+  if (field.kind == FieldKind::kMessage) return default_size(*field.message);
+  if (field.kind == FieldKind::kString) return sizeof(std::uint32_t);
+  return wire_size(field.kind);
+}
+
+std::size_t default_size(const Field& field) {
+  if (field.array == ArrayKind::kVariable) return sizeof(std::uint32_t);
+  return default_element_size(field) * (field.array == ArrayKind::kFixed ? field.fixed_length : 1);
+}
+
+}  // namespace bubblesim::messages

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The form in which meta/generate.py writes message types: constant tables that cost nothing until the registry turns
+// them into MessageType objects.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bubblesim/messages/message_type.hpp"
+
+namespace bubblesim::messages::tables {
+
+/// A constant array and its length.
+template <class T>
+struct Rows {
+  const T* first = nullptr;
+  std::size_t count = 0;
+
+  constexpr Rows() = default;
+  template <std::size_t N>
+  constexpr Rows(const T (&rows)[N]) : first(rows), count(N) {}
+
+  constexpr const T* begin() const { return first; }
+  constexpr const T* end() const { return first + count; }
+};
+
+struct FieldRow {
+  const char* name;
+  FieldKind kind;
+  ArrayKind array;
+  std::uint32_t fixed_length;
+  const char* message;  ///< name of the nested type, or nullptr
+};
+
+struct ConstantRow {
+  const char* name;
+  FieldKind kind;
+  const char* value;  ///< decimal number (bool: 0 or 1), or the text of a string constant
+};
+
+struct MessageRow {
+  const char* name;
+  const char* md5;
+  bool has_header;
+  Rows<FieldRow> fields;
+  Rows<ConstantRow> constants;
+  const char* definition;
+};
+
+struct ServiceRow {
+  const char* name;
+  const char* md5;
+  const MessageRow* request;
+  const MessageRow* response;
+};
+
+struct PackageTable {
+  Rows<const MessageRow*> messages;
+  Rows<ServiceRow> services;
+};
+
+/// Generated: the tables of all packages, nested types' packages included.
+std::vector<PackageTable> all_packages();
+
+}  // namespace bubblesim::messages::tables

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns the generated tables into MessageType objects, at the first question about any of them.
+#include "bubblesim/messages/registry.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "message_tables.hpp"
+
+namespace bubblesim::messages {
+namespace {
+
+template <class T>
+T number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw std::logic_error("generated message tables: '" + std::string(text) + "' is no number");
+  }
+  return value;
+}
+
+Constant make_constant(const tables::ConstantRow& row) {
+  switch (row.kind) {
+    case FieldKind::kString:
+      return {row.name, std::string(row.value)};
+    case FieldKind::kBool:
+      return {row.name, number<int>(row.value) != 0};
+    case FieldKind::kFloat32:
+    case FieldKind::kFloat64:
+      return {row.name, number<double>(row.value)};
+    case FieldKind::kUint64:
+      return {row.name, number<std::uint64_t>(row.value)};
+    default:
+      return {row.name, number<std::int64_t>(row.value)};
+  }
+}
+
+/// `pkg/msg/Type` -> `pkg/Type`; other names stay as they are.
+std::string without_folder(std::string_view name, std::string_view folder) {
+  const std::size_t slash = name.find('/');
+  const bool has_folder = slash != name.npos && name.substr(slash + 1, folder.size()) == folder;
+  if (!has_folder) return std::string(name);
+  return std::string(name.substr(0, slash + 1)).append(name.substr(slash + 1 + folder.size()));
+}
+
+template <class T>
+std::vector<std::string> sorted_names(const std::deque<T>& types) {
+  std::vector<std::string> names;
+  names.reserve(types.size());
+  for (const T& type : types) names.push_back(type.name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class Registry {
+ public:
+  Registry() {
+    const std::vector<tables::PackageTable> packages = tables::all_packages();
+    for (const auto& package : packages) {
+      for (const auto* row : package.messages) add(*row, messages_);
+    }
+    for (const auto& package : packages) {
+      for (const auto& row : package.services) {
+        const MessageType* request = add(*row.request, halves_);
+        const MessageType* response = add(*row.response, halves_);
+        services_.push_back({row.name, row.md5, request, response});
+        service_by_name_.emplace(services_.back().name, &services_.back());
+      }
+    }
+    for (const auto& [field, name] : unresolved_) field->message = find(name);
+    unresolved_.clear();
+  }
+
+  const MessageType* find_message(std::string_view name) const { return at(message_by_name_, name, "msg/"); }
+  const ServiceType* find_service(std::string_view name) const { return at(service_by_name_, name, "srv/"); }
+  const std::deque<MessageType>& messages() const { return messages_; }
+  const std::deque<ServiceType>& services() const { return services_; }
+
+ private:
+  template <class T>
+  using ByName = std::unordered_map<std::string_view, const T*>;
+
+  const MessageType* add(const tables::MessageRow& row, std::deque<MessageType>& types) {
+    MessageType& type = types.emplace_back();
+    type.name = row.name;
+    type.md5 = row.md5;
+    type.definition = row.definition;
+    type.has_header = row.has_header;
+    type.fields.reserve(row.fields.count);  // unresolved_ points into it
+    for (const auto& field : row.fields) {
+      type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name)});
+      if (field.message != nullptr) unresolved_.emplace_back(&type.fields.back(), field.message);
+    }
+    for (const auto& constant : row.constants) type.constants.push_back(make_constant(constant));
+    message_by_name_.emplace(type.name, &type);
+    return &type;
+  }
+
+  const MessageType* find(std::string_view name) const {
+    const auto found = message_by_name_.find(name);
+    if (found == message_by_name_.end()) {
+      throw std::logic_error("generated message tables: " + std::string(name) + " is missing");
+    }
+    return found->second;
+  }
+
+  template <class T>
+  static const T* at(const ByName<T>& types, std::string_view name, std::string_view folder) {
+    auto found = types.find(name);
+    if (found == types.end()) found = types.find(without_folder(name, folder));
+    return found == types.end() ? nullptr : found->second;
+  }
+
+  // Deques: their elements stay where they are.
+  std::deque<MessageType> messages_;
+  std::deque<MessageType> halves_;
+  std::deque<ServiceType> services_;
+  ByName<MessageType> message_by_name_;
+  ByName<ServiceType> service_by_name_;
+  std::vector<std::pair<Field*, const char*>> unresolved_;
+};
+
+const Registry& registry() {
+  // Never destroyed: threads of the bridge may still use a type while the process ends.
+  static const Registry& instance = *std::make_unique<Registry>().release();
+  return instance;
+}
+
+}  // namespace
+
+const MessageType* find_message(std::string_view name) { return registry().find_message(name); }
+
+const ServiceType* find_service(std::string_view name) { return registry().find_service(name); }
+
+std::vector<std::string> message_names() { return sorted_names(registry().messages()); }
+
+std::vector<std::string> service_names() { return sorted_names(registry().services()); }
+
+std::uint32_t field_key(std::string_view name) {
+  static std::mutex mutex;
+  static auto& keys = *std::make_unique<std::map<std::string, std::uint32_t, std::less<>>>().release();
+  const std::lock_guard lock(mutex);
+  const auto found = keys.find(name);
+  if (found != keys.end()) return found->second;
+  return keys.emplace(name, static_cast<std::uint32_t>(keys.size())).first->second;
+}
+
+}  // namespace bubblesim::messages

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/messages/wire.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace bubblesim::messages {
+
+WireBuffer::WireBuffer(WireBuffer&& other) noexcept
+    : storage_(std::move(other.storage_)),
+      size_(std::exchange(other.size_, kPrefix)),
+      capacity_(std::exchange(other.capacity_, 0)) {}
+
+WireBuffer& WireBuffer::operator=(WireBuffer&& other) noexcept {
+  storage_ = std::move(other.storage_);
+  size_ = std::exchange(other.size_, kPrefix);
+  capacity_ = std::exchange(other.capacity_, 0);
+  return *this;
+}
+
+std::unique_ptr<std::uint8_t[]> WireBuffer::release() {
+  if (!storage_) grow(0);  // an empty message has a prefix, too
+  size_ = kPrefix;
+  capacity_ = 0;
+  return std::move(storage_);
+}
+
+void WireBuffer::grow(std::size_t extra) {
+  // Some bytes usually follow a large array (PointCloud2: is_dense); they must not make it move once more.
+  const std::size_t needed = size_ + extra;
+  const std::size_t capacity = std::max(2 * capacity_, needed + needed / 8 + 120);
+  // Not make_unique: that would fill the memory with zeros first.
+  std::unique_ptr<std::uint8_t[]> storage(new std::uint8_t[capacity]);
+  if (storage_) std::memcpy(storage.get(), storage_.get(), size_);
+  storage_ = std::move(storage);
+  capacity_ = capacity;
+}
+
+void WireView::throw_truncated(std::size_t wanted) const {
+  throw WireError("the message ends early: " + std::to_string(wanted) + " more bytes expected, " +
+                  std::to_string(left()) + " left");
+}
+
+}  // namespace bubblesim::messages
