@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulator as a ROS 1 node: moves the message bytes of child scripts, publishes /clock, tells ROS time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bubblesim/messages/bridge.hpp"
+
+namespace bubblesim {
+
+struct RosBridgeOptions {
+  /// Name of the node unless the command line says `__name:=other`.
+  std::string node_name = "sim_ros_interface";
+  /// Called from drain() with true when the service ~pause is called, with false for ~unpause (both std_srvs/Empty).
+  /// Without it the services are not offered.
+  std::function<void(bool paused)> on_pause;
+};
+
+/// One per process, for roscpp is global. All calls come from the simulation's thread; what may wait for the master
+/// runs on a thread of the bridge's own, so the simulation never stands still for ROS.
+class RosBridge final : public messages::Bridge {
+ public:
+  /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. Returns within about a
+  /// second: connected when a master answers, else after a line on stderr that names the URI tried and the cure; it
+  /// then connects as soon as a master appears. Without ROS_MASTER_URI, http://localhost:11311 is used.
+  /// Throws std::invalid_argument for an unusable master URI or node name, std::logic_error for a second bridge.
+  RosBridge(int& argc, char** argv, RosBridgeOptions options = {});
+
+  /// Takes everything off the master; ends within 2 s even if the master is gone or hangs.
+  ~RosBridge() override;
+
+  RosBridge(const RosBridge&) = delete;
+  RosBridge& operator=(const RosBridge&) = delete;
+
+  messages::EndpointId advertise(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
+                                 bool latch) override;
+  messages::EndpointId subscribe(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
+                                 messages::MessageCallback callback) override;
+  bool wants_messages(messages::EndpointId publisher) const override;
+  const messages::MessageType& message_type(messages::EndpointId endpoint) const override;
+  void publish(messages::EndpointId publisher, messages::WireBuffer message) override;
+  void shutdown_publisher(messages::EndpointId publisher) override;
+  void shutdown_subscriber(messages::EndpointId subscriber) override;
+  void drain() override;
+  messages::BridgeTime now() const override;
+
+  /// To be called once a pass: publishes the simulation time [s] on /clock and makes it what now() returns under
+  /// /use_sim_time. While a script advertises /clock itself, only the latter.
+  void publish_clock(double sim_time);
+
+  /// Whether the node is registered at a master.
+  bool connected() const;
+  std::string master_uri() const;
+  /// Full name, such as `/sim_ros_interface`.
+  std::string node_name() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One publisher or subscriber of a script, as roscpp sees it: raw bytes under the type's name and md5.
+//
+// They stand on roscpp's TopicManager rather than on ros::NodeHandle: every ros::Publisher::publish() takes a lock that
+// roscpp holds during calls to the master, so a master that hangs would stop the simulation; and no C++ message class
+// exists for the bytes that pass here.
+//
+// register_*/unregister_* belong to the master thread, everything else to the simulation's thread.
+#pragma once
+
+#include <ros/forwards.h>
+#include <ros/serialized_message.h>
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "bubblesim/messages/bridge.hpp"
+
+namespace bubblesim {
+
+/// Runs callbacks so that what they throw does not unwind through roscpp, and hands out the first of it later.
+class CallbackGuard {
+ public:
+  template <class Function>
+  void run(Function&& function) {
+    try {
+      std::forward<Function>(function)();
+    } catch (...) {
+      if (!first_) first_ = std::current_exception();
+    }
+  }
+  void rethrow() {
+    if (first_) std::rethrow_exception(std::exchange(first_, nullptr));
+  }
+
+ private:
+  std::exception_ptr first_;
+};
+
+class PublisherEndpoint {
+ public:
+  PublisherEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size, bool latch);
+
+  const std::string& topic() const { return topic_; }
+  const messages::MessageType& type() const { return type_; }
+  bool wants_messages() const { return latch_ || has_subscribers(); }
+  void publish(messages::WireBuffer message);
+
+  void register_at_master();
+  void unregister_from_master();
+
+ private:
+  struct Latch {
+    std::mutex mutex;
+    ros::SerializedMessage message;
+  };
+
+  bool has_subscribers() const;
+  void send(ros::SerializedMessage message);
+
+  const std::string topic_;
+  const messages::MessageType& type_;
+  const std::uint32_t queue_size_;
+  const std::shared_ptr<Latch> latch_;  // null: does not latch; shared with roscpp's network thread
+  ros::SubscriberCallbacksPtr callbacks_;
+  ros::PublicationPtr publication_;  // set by the master thread, then announced by registered_
+  std::atomic<bool> registered_{false};
+};
+
+class SubscriberEndpoint {
+ public:
+  /// Callbacks run through `guard` when `queue` is called.
+  SubscriberEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size,
+                     messages::MessageCallback callback, ros::CallbackQueueInterface& queue, CallbackGuard& guard);
+
+  const std::string& topic() const { return topic_; }
+  const messages::MessageType& type() const { return type_; }
+  /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
+  void silence();
+
+  void register_at_master();
+  void unregister_from_master();
+
+ private:
+  class Receiver;
+
+  const std::string topic_;
+  const messages::MessageType& type_;
+  const std::uint32_t queue_size_;
+  ros::CallbackQueueInterface& queue_;
+  const boost::shared_ptr<Receiver> receiver_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "master_thread.hpp"
+
+#include <pthread.h>
+#include <ros/init.h>
+#include <ros/master.h>
+#include <signal.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdio>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "interrupt.hpp"
+
+namespace bubblesim {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kRetryInterval = 250ms;
+// How stop() spends its 2 s: what a healthy master needs, then breaking off calls one by one.
+constexpr auto kLetJobFinish = 200ms;
+constexpr auto kLetMasterAnswer = 1000ms;
+constexpr auto kGiveUp = 1900ms;
+constexpr auto kInterruptInterval = 2ms;
+
+/// A thread that takes no signals, so that SIGINT and SIGTERM reach the thread that waits for them.
+template <class Function>
+std::thread start_without_signals(Function&& function) {
+  sigset_t all;
+  sigset_t previous;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &previous);
+  std::thread thread(std::forward<Function>(function));
+  pthread_sigmask(SIG_SETMASK, &previous, nullptr);
+  return thread;
+}
+
+}  // namespace
+
+struct MasterThread::Shared {
+  Job on_absent;
+  Job on_connected;
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Job> jobs;
+  std::atomic<State> state{State::kTrying};  // written under the mutex, so that waiting for it works
+  bool said_absent = false;
+  bool stopping = false;
+  bool finished = false;
+  std::thread thread;
+
+  void set_absent(std::unique_lock<std::mutex>& lock);
+  bool find_master();
+  void work();
+  void run();
+};
+
+void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
+  state = State::kAbsent;
+  changed.notify_all();
+  if (std::exchange(said_absent, true)) return;
+  lock.unlock();
+  on_absent();
+  lock.lock();
+}
+
+/// False when it is time to stop. NodeHandle and ros::start() would wait for ever, so they come after this.
+bool MasterThread::Shared::find_master() {
+  for (;;) {
+    const bool found = ros::master::check();
+    std::unique_lock lock(mutex);
+    if (stopping) return false;
+    if (found) return true;
+    set_absent(lock);
+    if (changed.wait_for(lock, kRetryInterval, [this] { return stopping; })) return false;
+  }
+}
+
+void MasterThread::Shared::work() {
+  for (;;) {
+    Job job;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [this] { return stopping || !jobs.empty(); });
+      if (stopping) return;
+      job = std::move(jobs.front());
+      jobs.pop_front();
+    }
+    try {
+      job();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "plugin 'ROSInterface': %s\n", error.what());
+    }
+  }
+}
+
+void MasterThread::Shared::run() {
+  if (find_master()) {
+    ros::start();
+    bool go_on = false;
+    {
+      const std::lock_guard lock(mutex);
+      go_on = !stopping;
+    }
+    if (go_on) {
+      on_connected();
+      {
+        const std::lock_guard lock(mutex);
+        state = State::kConnected;
+      }
+      changed.notify_all();
+      work();
+    }
+    ros::shutdown();  // or wait for the one that stop() began
+  }
+  {
+    const std::lock_guard lock(mutex);
+    finished = true;
+  }
+  changed.notify_all();
+}
+
+MasterThread::MasterThread(Job on_absent, Job on_connected) : shared_(std::make_shared<Shared>()) {
+  shared_->on_absent = std::move(on_absent);
+  shared_->on_connected = std::move(on_connected);
+  shared_->thread = start_without_signals([shared = shared_] { shared->run(); });
+}
+
+MasterThread::~MasterThread() { stop(); }
+
+void MasterThread::wait_for_first_answer(std::chrono::milliseconds timeout) {
+  std::unique_lock lock(shared_->mutex);
+  const auto answered = [this] { return shared_->state != State::kTrying; };
+  if (!shared_->changed.wait_for(lock, timeout, answered)) shared_->set_absent(lock);
+}
+
+MasterThread::State MasterThread::state() const { return shared_->state; }
+
+void MasterThread::post(Job job) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->jobs.push_back(std::move(job));
+  }
+  shared_->changed.notify_all();
+}
+
+bool MasterThread::stop() {
+  if (!shared_->thread.joinable()) return true;
+  const auto begin = Clock::now();
+  std::unique_lock lock(shared_->mutex);
+  shared_->stopping = true;
+  shared_->changed.notify_all();
+  const auto finished_by = [&](Clock::time_point end) {
+    return shared_->changed.wait_until(lock, end, [this] { return shared_->finished; });
+  };
+  std::thread shutdown;
+  if (!finished_by(begin + kLetJobFinish)) {
+    // roscpp repeats a registration until the master answers or the node shuts down.
+    if (ros::isStarted()) shutdown = start_without_signals([] { ros::shutdown(); });
+    finished_by(begin + kLetMasterAnswer);
+    while (!shared_->finished && Clock::now() < begin + kGiveUp) {
+      if (!shutdown.joinable() && ros::isStarted()) shutdown = start_without_signals([] { ros::shutdown(); });
+      interrupt_master_calls();
+      finished_by(Clock::now() + kInterruptInterval);
+    }
+  }
+  const bool finished = shared_->finished;
+  lock.unlock();
+  for (std::thread* thread : {&shutdown, &shared_->thread}) {
+    if (!thread->joinable()) continue;
+    if (finished) {
+      thread->join();
+    } else {
+      thread->detach();
+    }
+  }
+  return finished;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one thread that talks to the ROS master, which may be absent, slow or hanging: it waits for a master to appear,
+// starts roscpp, and then works through jobs (registrations) in order.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+namespace bubblesim {
+
+class MasterThread {
+ public:
+  enum class State {
+    kTrying,     ///< no answer yet to the first call
+    kAbsent,     ///< the master does not answer; tried again four times a second
+    kConnected,  ///< roscpp is started
+  };
+
+  using Job = std::function<void()>;
+
+  /// ros::init() must have been called. `on_absent` runs once if the first try fails or takes too long, `on_connected`
+  /// once roscpp is started, before any job; both on the new thread.
+  MasterThread(Job on_absent, Job on_connected);
+  ~MasterThread();
+
+  MasterThread(const MasterThread&) = delete;
+  MasterThread& operator=(const MasterThread&) = delete;
+
+  /// Blocks until the state is no longer kTrying, or until the time is up: then the master counts as absent.
+  void wait_for_first_answer(std::chrono::milliseconds timeout);
+
+  State state() const;
+
+  /// Runs `job` after those posted before, once connected. Jobs not begun when stop() is called are dropped.
+  void post(Job job);
+
+  /// Ends the node and the thread, within 2 s. False if a call that cannot be interrupted (a name lookup) keeps the
+  /// thread alive: then nothing that jobs and roscpp refer to may be destroyed.
+  bool stop();
+
+ private:
+  struct Shared;
+  const std::shared_ptr<Shared> shared_;  // the thread's too, which may have to be left behind
+};
+
+}  // namespace bubblesim
