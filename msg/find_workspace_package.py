@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Print the sources folder of the catkin workspace that a build folder belongs to, and the folder of a package there.
 
-`catkin build` configures each package alone, so CMake cannot see which others share its workspace. The output is a CMake
-list of two; its second part, or both, are empty when there is no such package, or no workspace.
+`catkin build` configures each package alone, so CMake cannot see which others share its workspace. The output is a
+CMake list of two; its second part, or both, are empty when there is no such package, or no workspace.
 """
 
 import subprocess

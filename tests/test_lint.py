@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The house style, held by the tools that know it."""
+
+import subprocess
+import sys
+
+import pytest
+
+from ros_support import REPOSITORY
+
+CPP_FOLDERS = ("include", "src", "tests", "benchmarks")
+
+
+def check(*command: str) -> None:
+    """Fails the test with what the tool says."""
+    run = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        pytest.fail(f"{' '.join(command)[:200]}\n{run.stdout}{run.stderr}", pytrace=False)
+
+
+def test_ruff_finds_nothing() -> None:
+    check(sys.executable, "-m", "ruff", "check")
+
+
+def test_python_is_formatted() -> None:
+    check(sys.executable, "-m", "ruff", "format", "--check")
+
+
+def test_types_hold() -> None:
+    check(sys.executable, "-m", "mypy", "--strict", "python", "meta")
+
+
+def test_cpp_is_formatted() -> None:
+    files = [path for folder in CPP_FOLDERS for path in (REPOSITORY / folder).rglob("*.?pp")]
+    check("clang-format", "--dry-run", "-Werror", *map(str, files))
+
+
+def test_shell_scripts_parse() -> None:
+    for name in ("setup", "test", "demo", "environment.bash"):
+        check("bash", "-n", f"scripts/{name}")
