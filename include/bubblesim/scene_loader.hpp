@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a name or an SDFormat file to a SceneDescription.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bubblesim/scene.hpp"
+
+namespace bubblesim {
+
+/// Folders that are searched for <name>.sdf: those of BUBBLESIM_SCENE_PATH (colon-separated), then the scenes shipped.
+std::vector<std::filesystem::path> scene_folders();
+
+/// Names of the scenes in these folders, sorted.
+std::vector<std::string> scene_names();
+
+/// Loads a scene by name ("tricycle") or path ("my/robot.sdf"). A file that holds a model and no world is put
+/// on a ground plane. Throws SceneError with every problem of the file at once.
+SceneDescription load_scene(const std::string& name_or_path);
+
+}  // namespace bubblesim

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene that runs: the world, its sensors, the clock, and the pass that moves them on.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/sensor.hpp"
+#include "bubblesim/world.hpp"
+
+namespace bubblesim {
+
+/// Takes part in each pass: child scripts, the ROS bridge. Its phases are called in the order in which they stand here.
+class Participant {
+ public:
+  virtual ~Participant() = default;
+  /// Takes in what came from outside; also called while the simulation is paused.
+  virtual void drain() {}
+  /// Commands the world before the physics run.
+  virtual void actuate(World& world, double time);
+  /// Looks at the world after physics and sensors.
+  virtual void sense(const World& world, double time);
+  /// Tells the outside.
+  virtual void publish(const World& world, double time);
+};
+
+class Simulation {
+ public:
+  explicit Simulation(SceneDescription scene, std::uint64_t seed = 0);
+  ~Simulation();
+
+  /// Participants are not owned and act in the order in which they were added.
+  void add(Participant& participant);
+
+  /// One pass of time_step() seconds. Throws Diverged.
+  void step();
+  /// The part of a pass that goes on while paused.
+  void drain();
+
+  /// Seconds of simulation time; 0 in the first pass, constant through a pass.
+  double time() const { return static_cast<double>(passes_) * scene_.time_step; }
+  double time_step() const { return scene_.time_step; }
+  const SceneDescription& scene() const { return scene_; }
+  std::uint64_t seed() const { return seed_; }
+
+  World& world() { return world_; }
+  const World& world() const { return world_; }
+
+  /// What the sensor measured in its last due pass. A sensor that nobody read for a while measures when it is asked.
+  ProximityReading read_proximity(ObjectId sensor);
+  /// Measures now, whatever the sensor's rate.
+  ProximityReading measure_proximity(ObjectId sensor);
+
+  /// Equal for equal histories, in every process.
+  std::uint64_t state_hash() const;
+
+ private:
+  struct SensorSlot;
+
+  SensorSlot& proximity_slot(ObjectId sensor);
+  void update_sensors();
+
+  SceneDescription scene_;
+  std::uint64_t seed_;
+  World world_;
+  std::vector<SensorSlot> sensors_;
+  std::vector<Participant*> participants_;
+  std::uint64_t passes_ = 0;
+};
+
+}  // namespace bubblesim

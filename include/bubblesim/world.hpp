@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The physical state of a scene: bodies, joints and shapes in ODE.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "bubblesim/scene.hpp"
+#include "bubblesim/scene_tree.hpp"
+
+namespace bubblesim {
+
+/// What a ray hit.
+struct RayHit {
+  double distance = 0;  ///< m, from the ray's origin
+  Vector3 normal;       ///< of the surface, world axes
+  ObjectId link = kNoObject;
+};
+
+/// A shape as it stands now, for drawings and tools.
+struct PlacedShape {
+  ObjectId link = kNoObject;
+  bool is_static = false;
+  Geometry geometry;
+  Pose pose;  ///< in the world
+};
+
+/// All setters check what they are given and throw InvalidInput, naming object and value, before anything is changed:
+/// a bad value never reaches the physics. Handles that name no object, or one of the wrong kind, throw NoSuchObject.
+class World {
+ public:
+  /// Throws InvalidInput when the scene asks for something that cannot be built.
+  World(const SceneDescription& scene, std::uint64_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const SceneTree& tree() const;
+
+  /// Lets `duration` seconds pass in steps of `step` seconds. Throws Diverged when a body leaves the finite world
+  /// (over 1e6 m away or faster than 1e6 m/s): the world is then of no more use.
+  void advance(double duration, double step);
+
+  /// Pose in the world. A model's is the one of its frame, carried by its canonical link; a joint's is attached to the
+  /// joint's parent, `joint_moving_pose` to its child.
+  Pose pose(ObjectId object) const;
+  Pose joint_moving_pose(ObjectId joint) const;
+  /// Velocity of the object's origin.
+  Twist velocity(ObjectId object) const;
+  /// Puts a model (with all its links) or a single link somewhere else; velocities are kept.
+  void set_pose(ObjectId object, const Pose& pose);
+  /// Of a model (all its links move as one rigid body) or a single link.
+  void set_velocity(ObjectId object, const Twist& velocity);
+
+  /// `axis` is 0, or 1 for the second axis of a revolute2 joint. Radians or metres.
+  double joint_position(ObjectId joint, int axis = 0) const;
+  double joint_velocity(ObjectId joint, int axis = 0) const;
+  double target_position(ObjectId joint, int axis = 0) const;
+  double target_velocity(ObjectId joint, int axis = 0) const;
+  double max_force(ObjectId joint, int axis = 0) const;
+  MotorMode motor_mode(ObjectId joint, int axis = 0) const;
+  /// A target takes effect in the motor's mode: a position in a position-controlled joint, a velocity in the others.
+  void set_target_position(ObjectId joint, double position, int axis = 0);
+  void set_target_velocity(ObjectId joint, double velocity, int axis = 0);
+  void set_max_force(ObjectId joint, double force, int axis = 0);
+
+  /// The nearest thing that a ray of length `max_distance` meets, leaving out the model `ignored_model`.
+  std::optional<RayHit> cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,
+                                 ObjectId ignored_model = kNoObject) const;
+  std::vector<PlacedShape> shapes() const;
+
+  /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the physics' random state:
+  /// equal for equal histories.
+  std::uint64_t state_hash() const;
+
+  struct State;  // see src/sim/world_state.hpp
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether numbers are fit for the physics, which aborts or spoils everything when they are not.
+#pragma once
+
+#include <cmath>
+
+#include "bubblesim/math.hpp"
+
+namespace bubblesim {
+
+/// Bounds of the finite world: ODE's broad phase breaks down a few orders of magnitude beyond.
+constexpr double kMaxDistance = 1e6;  ///< m from the origin
+constexpr double kMaxSpeed = 1e6;     ///< m/s and rad/s
+
+/// False for NaN too.
+inline bool within(double value, double bound) { return std::abs(value) <= bound; }
+inline bool within(const Vector3& v, double bound) {
+  return within(v.X(), bound) && within(v.Y(), bound) && within(v.Z(), bound);
+}
+
+}  // namespace bubblesim

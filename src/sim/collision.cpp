@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What touches what, and the contact joints that come of it.
+#include <algorithm>
+#include <array>
+
+#include "world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr int kMaxContactsPerPair = 8;
+
+bool may_touch(const Collider& a, const Collider& b) {
+  if ((a.surface.collide_bitmask & b.surface.collide_bitmask) == 0) return false;
+  return a.model != b.model || (a.self_collide && a.link != b.link);
+}
+
+void touch(void* data, dGeomID first, dGeomID second) {
+  auto& state = *static_cast<World::State*>(data);
+  const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
+  const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
+  if (!may_touch(a, b)) return;
+  dBodyID body_a = dGeomGetBody(first);
+  dBodyID body_b = dGeomGetBody(second);
+  if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
+
+  std::array<dContactGeom, kMaxContactsPerPair> found;
+  const int count = dCollide(first, second, kMaxContactsPerPair, found.data(), sizeof(dContactGeom));
+  dContact contact{};
+  // Approximation 1 makes mu a coefficient; without it ODE takes mu as a force and wheels drift outwards.
+  contact.surface.mode = dContactApprox1;
+  contact.surface.mu = std::min(a.surface.mu, b.surface.mu);
+  for (int i = 0; i < count; ++i) {
+    contact.geom = found[static_cast<std::size_t>(i)];
+    dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &contact);
+    dJointAttach(joint, body_a, body_b);
+  }
+}
+
+}  // namespace
+
+void find_contacts(World::State& state) {
+  dJointGroupEmpty(state.contacts.get());
+  dSpaceCollide(state.movers.get(), &state, touch);
+  dSpaceCollide2(reinterpret_cast<dGeomID>(state.movers.get()), reinterpret_cast<dGeomID>(state.statics.get()), &state,
+                 touch);
+  dSpaceCollide2(reinterpret_cast<dGeomID>(state.movers.get()), reinterpret_cast<dGeomID>(state.planes.get()), &state,
+                 touch);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/error.hpp"
+
+#include <utility>
+
+namespace bubblesim {
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.text();
+  return text;
+}
+
+}  // namespace
+
+std::string Problem::text() const {
+  std::string text = file;
+  if (line > 0) text += ":" + std::to_string(line);
+  if (!text.empty()) text += ": ";
+  if (!object.empty()) text += object + ": ";
+  return text + message;
+}
+
+SceneError::SceneError(std::vector<Problem> found) : std::runtime_error(joined(found)), problems(std::move(found)) {}
+
+}  // namespace bubblesim

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ball: the child turns about a point.
+#include "kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Ball final : public Joint {
+ public:
+  Ball(dWorldID world, const Pose& pose, JointBodies bodies) : Joint({}) {
+    dJointID joint = dJointCreateBall(world, nullptr);  // owned by the ODE world
+    dJointAttach(joint, bodies.child, bodies.parent);
+    dJointSetBallAnchor(joint, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+  }
+
+  double position(int) const override { return 0; }
+  double velocity(int) const override { return 0; }
+
+ private:
+  void set_parameter(int, int, double) override {}
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_ball(dWorldID world, const JointDescription&, const Pose& pose, JointBodies bodies) {
+  return std::make_unique<Ball>(world, pose, bodies);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// fixed: child and parent move as one.
+#include "kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Fixed final : public Joint {
+ public:
+  Fixed(dWorldID world, JointBodies bodies) : Joint({}) {
+    dJointID joint = dJointCreateFixed(world, nullptr);  // owned by the ODE world
+    dJointAttach(joint, bodies.child, bodies.parent);
+    dJointSetFixed(joint);
+  }
+
+  double position(int) const override { return 0; }
+  double velocity(int) const override { return 0; }
+
+ private:
+  void set_parameter(int, int, double) override {}
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_fixed(dWorldID world, const JointDescription&, const Pose&, JointBodies bodies) {
+  return std::make_unique<Fixed>(world, bodies);
+}
+
+}  // namespace bubblesim

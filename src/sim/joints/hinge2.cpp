@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// revolute2: a steered wheel in one joint. The first axis is fixed in the parent, the second in the child.
+#include "kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Hinge2 final : public Joint {
+ public:
+  Hinge2(dWorldID world, const JointDescription& description, const Pose& pose, JointBodies bodies)
+      : Joint(description.axes), joint_(dJointCreateHinge2(world, nullptr)) {
+    // Hinge2 needs two bodies, steered side first.
+    dJointAttach(joint_, bodies.parent, bodies.child);
+    dJointSetHinge2Anchor(joint_, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+    const Vector3 steering = pose.Rot().RotateVector(description.axes[0].direction);
+    const Vector3 rolling = pose.Rot().RotateVector(description.axes[1].direction);
+    const dVector3 axis1 = {steering.X(), steering.Y(), steering.Z()};
+    const dVector3 axis2 = {rolling.X(), rolling.Y(), rolling.Z()};
+    dJointSetHinge2Axes(joint_, axis1, axis2);
+    apply_axes();
+  }
+
+  double position(int axis) const override {
+    return axis == 0 ? dJointGetHinge2Angle1(joint_) : dJointGetHinge2Angle2(joint_);
+  }
+  double velocity(int axis) const override {
+    return axis == 0 ? dJointGetHinge2Angle1Rate(joint_) : dJointGetHinge2Angle2Rate(joint_);
+  }
+
+ private:
+  void set_parameter(int axis, int parameter, double value) override {
+    dJointSetHinge2Param(joint_, axis * dParamGroup + parameter, value);
+  }
+
+  dJointID joint_;  // owned by the ODE world
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_hinge2(dWorldID world, const JointDescription& description, const Pose& pose,
+                                   JointBodies bodies) {
+  return std::make_unique<Hinge2>(world, description, pose, bodies);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every joint kind has in common: axes with a motor, limits, friction and damping.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <vector>
+
+#include "bubblesim/scene.hpp"
+
+namespace bubblesim {
+
+/// The two bodies that a joint connects; a null body is the world.
+struct JointBodies {
+  dBodyID parent = nullptr;
+  dBodyID child = nullptr;
+};
+
+class Joint {
+ public:
+  explicit Joint(std::vector<AxisDescription> axes);
+  virtual ~Joint() = default;
+  Joint(const Joint&) = delete;
+  Joint& operator=(const Joint&) = delete;
+
+  int axis_count() const { return static_cast<int>(axes_.size()); }
+  const AxisDescription& axis(int index) const { return axes_[static_cast<std::size_t>(index)].description; }
+
+  /// Radians or metres, counted from the pose in which the joint was made; the child moves relative to the parent.
+  virtual double position(int axis) const = 0;
+  virtual double velocity(int axis) const = 0;
+
+  double target_position(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_position; }
+  double target_velocity(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_velocity; }
+  void set_target_position(int axis, double position);
+  void set_target_velocity(int axis, double velocity);
+  void set_max_force(int axis, double force);
+
+  /// Sets ODE's motors for the next substep of `step` seconds. Only position control has work to do in each.
+  void drive(double step);
+
+ protected:
+  /// Hands limits, friction and damping to ODE; to be called once the ODE joint exists.
+  void apply_axes();
+  /// dJointSet<Kind>Param of axis 0 or 1, without the group offset.
+  virtual void set_parameter(int axis, int parameter, double value) = 0;
+
+ private:
+  struct Axis {
+    AxisDescription description;
+    double target_position = 0;
+    double target_velocity = 0;
+  };
+  void apply_motor(int index);
+
+  std::vector<Axis> axes_;
+  std::vector<int> position_controlled_;
+};
+
+/// Makes the joint in ODE. `pose` is the joint's frame in the world. Throws InvalidInput for a type that is not known.
+std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const Pose& pose,
+                                  JointBodies bodies);
+
+/// The kinds that make_joint() knows, and how many axes each takes.
+struct JointKind {
+  const char* type;
+  int axes;
+  std::unique_ptr<Joint> (*make)(dWorldID, const JointDescription&, const Pose&, JointBodies);
+};
+const std::vector<JointKind>& joint_kinds();
+
+}  // namespace bubblesim

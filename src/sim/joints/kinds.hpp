@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The maker of each joint kind; a new kind adds its file, its line here and its line in registry.cpp.
+#pragma once
+
+#include "joint.hpp"
+
+namespace bubblesim {
+
+std::unique_ptr<Joint> make_hinge(dWorldID, const JointDescription&, const Pose&, JointBodies);
+std::unique_ptr<Joint> make_slider(dWorldID, const JointDescription&, const Pose&, JointBodies);
+std::unique_ptr<Joint> make_fixed(dWorldID, const JointDescription&, const Pose&, JointBodies);
+std::unique_ptr<Joint> make_ball(dWorldID, const JointDescription&, const Pose&, JointBodies);
+std::unique_ptr<Joint> make_hinge2(dWorldID, const JointDescription&, const Pose&, JointBodies);
+
+}  // namespace bubblesim

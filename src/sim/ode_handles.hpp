@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Owning handles for ODE's objects, and the process-wide set-up that ODE needs.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <type_traits>
+
+namespace bubblesim::ode {
+
+/// A unique_ptr deleter that calls one of ODE's destroy functions.
+template <auto kDestroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* handle) const {
+    kDestroy(handle);
+  }
+};
+
+using WorldHandle = std::unique_ptr<std::remove_pointer_t<dWorldID>, Destroy<dWorldDestroy>>;
+using SpaceHandle = std::unique_ptr<std::remove_pointer_t<dSpaceID>, Destroy<dSpaceDestroy>>;
+using JointGroupHandle = std::unique_ptr<std::remove_pointer_t<dJointGroupID>, Destroy<dJointGroupDestroy>>;
+using ThreadingHandle =
+    std::unique_ptr<std::remove_pointer_t<dThreadingImplementationID>, Destroy<dThreadingFreeImplementation>>;
+
+/// Initializes ODE once for the process and once for the calling thread, and makes its assertions throw Diverged
+/// instead of aborting the process.
+void prepare_this_thread();
+
+}  // namespace bubblesim::ode

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "own_elements.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "bubblesim/nearest_names.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr const char* kPrefix = "bubblesim:";
+
+struct OwnElement {
+  const char* name;
+  std::vector<std::string> parents;
+};
+
+const std::vector<OwnElement>& own_elements() {
+  static const std::vector<OwnElement> elements = {
+      {"bubblesim:time_step", {"world"}},      // seconds of one simulation pass
+      {"bubblesim:child_script", {"model"}},   // file beside the scene
+      {"bubblesim:motor", {"axis", "axis2"}},  // velocity or position
+  };
+  return elements;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// `/Model/joint` from the names of an element's ancestors.
+std::string object_path(sdf::ElementPtr element) {
+  std::string path;
+  for (; element != nullptr; element = element->GetParent()) {
+    const std::string kind = element->GetName();
+    if (kind == "world" || kind == "sdf") break;
+    if (element->HasAttribute("name")) path = "/" + element->GetAttribute("name")->GetAsString() + path;
+  }
+  return path;
+}
+
+void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problems) {
+  const std::string name = element->GetName();
+  const auto report = [&](const std::string& message) {
+    problems.push_back({element->FilePath(), element->LineNumber().value_or(0), object_path(element), message});
+  };
+  std::vector<std::string> known;
+  for (const OwnElement& own : own_elements()) {
+    known.emplace_back(own.name);
+    if (name != own.name) continue;
+    const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
+    if (std::find(own.parents.begin(), own.parents.end(), parent) == own.parents.end()) {
+      report("<" + name + "> stands in <" + parent + ">, it belongs in <" + own.parents.front() + ">");
+    }
+    return;
+  }
+  report("unknown element <" + name + ">" + did_you_mean(name, known));
+}
+
+sdf::ElementPtr own_child(const sdf::ElementPtr& parent, const std::string& name) {
+  for (sdf::ElementPtr child = parent->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
+    if (child->GetName() == name) return child;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& problems) {
+  for (sdf::ElementPtr child = root->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
+    if (child->GetName().rfind(kPrefix, 0) == 0) check_element(child, problems);
+    check_own_elements(child, problems);
+  }
+}
+
+std::optional<std::string> own_text(const sdf::ElementPtr& parent, const std::string& name) {
+  const sdf::ElementPtr child = own_child(parent, name);
+  if (child == nullptr) return std::nullopt;
+  return trimmed(child->Get<std::string>());
+}
+
+std::optional<double> own_number(const sdf::ElementPtr& parent, const std::string& name,
+                                 std::vector<Problem>& problems) {
+  const std::optional<std::string> text = own_text(parent, name);
+  if (!text) return std::nullopt;
+  double number = 0;
+  const auto parsed = std::from_chars(text->data(), text->data() + text->size(), number);
+  if (parsed.ec == std::errc() && parsed.ptr == text->data() + text->size()) return number;
+  const sdf::ElementPtr child = own_child(parent, name);
+  problems.push_back({child->FilePath(), child->LineNumber().value_or(0), object_path(child),
+                      "<" + name + "> is '" + *text + "', it must be a number"});
+  return std::nullopt;
+}
+
+}  // namespace bubblesim

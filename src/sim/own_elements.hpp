@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The elements that bubblesim adds to SDFormat, in the namespace `bubblesim:`.
+#pragma once
+
+#include <optional>
+#include <sdf/Element.hh>
+#include <string>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+
+namespace bubblesim {
+
+/// Reports elements of our namespace that do not exist or stand in the wrong place, anywhere below `root`.
+void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& problems);
+
+/// The text of one of our elements, if it is there.
+std::optional<std::string> own_text(const sdf::ElementPtr& parent, const std::string& name);
+
+/// The number in one of our elements, if it is there; a text that is no number is reported.
+std::optional<double> own_number(const sdf::ElementPtr& parent, const std::string& name,
+                                 std::vector<Problem>& problems);
+
+}  // namespace bubblesim

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ray_shapes.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace bubblesim {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Where along the ray it is inside a convex shape, and the normal where it enters.
+struct Interval {
+  double enter = -kNever;
+  double leave = kNever;
+  Vector3 normal;
+
+  /// Keeps the part between two parallel planes `axis` * x = +-half.
+  void clip_slab(double origin, double direction, double half, const Vector3& axis) {
+    if (direction == 0) {
+      if (std::abs(origin) > half) leave = -kNever;
+      return;
+    }
+    const double first = (std::copysign(half, -direction) - origin) / direction;
+    const double last = (std::copysign(half, direction) - origin) / direction;
+    if (first > enter) {
+      enter = first;
+      normal = direction > 0 ? -axis : axis;
+    }
+    leave = std::min(leave, last);
+  }
+};
+
+/// Interval in which a t^2 + 2 b t + c <= 0.
+std::optional<std::pair<double, double>> inside_quadric(double a, double b, double c) {
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0 || a == 0) return std::nullopt;
+  const double root = std::sqrt(discriminant);
+  return std::make_pair((-b - root) / a, (-b + root) / a);
+}
+
+struct Intersector {
+  const Ray& ray;
+
+  std::optional<ShapeHit> operator()(const Box& box) const {
+    Interval inside;
+    inside.clip_slab(ray.origin.X(), ray.direction.X(), box.size.X() / 2, Vector3::UnitX);
+    inside.clip_slab(ray.origin.Y(), ray.direction.Y(), box.size.Y() / 2, Vector3::UnitY);
+    inside.clip_slab(ray.origin.Z(), ray.direction.Z(), box.size.Z() / 2, Vector3::UnitZ);
+    return entry(inside);
+  }
+
+  std::optional<ShapeHit> operator()(const Sphere& sphere) const {
+    const auto roots =
+        inside_quadric(1, ray.origin.Dot(ray.direction), ray.origin.SquaredLength() - sphere.radius * sphere.radius);
+    if (!roots) return std::nullopt;
+    return entry({roots->first, roots->second, (ray.origin + ray.direction * roots->first) / sphere.radius});
+  }
+
+  std::optional<ShapeHit> operator()(const Cylinder& cylinder) const {
+    const Vector3& o = ray.origin;
+    const Vector3& d = ray.direction;
+    Interval inside;
+    const double a = d.X() * d.X() + d.Y() * d.Y();
+    const double c = o.X() * o.X() + o.Y() * o.Y() - cylinder.radius * cylinder.radius;
+    if (a == 0) {
+      if (c > 0) return std::nullopt;
+    } else {
+      const auto roots = inside_quadric(a, o.X() * d.X() + o.Y() * d.Y(), c);
+      if (!roots) return std::nullopt;
+      const Vector3 side = o + d * roots->first;
+      inside = {roots->first, roots->second, Vector3(side.X(), side.Y(), 0) / cylinder.radius};
+    }
+    inside.clip_slab(o.Z(), d.Z(), cylinder.length / 2, Vector3::UnitZ);
+    return entry(inside);
+  }
+
+  std::optional<ShapeHit> operator()(const Plane& plane) const {
+    const Vector3 normal = plane.normal.Normalized();
+    const double height = normal.Dot(ray.origin);
+    const double descent = -normal.Dot(ray.direction);
+    if (height < 0 || descent <= 0) return std::nullopt;
+    return ShapeHit{height / descent, normal};
+  }
+
+ private:
+  static std::optional<ShapeHit> entry(const Interval& inside) {
+    if (inside.enter < 0 || inside.enter > inside.leave) return std::nullopt;
+    return ShapeHit{inside.enter, inside.normal};
+  }
+};
+
+}  // namespace
+
+std::optional<ShapeHit> intersect(const Ray& ray, const Geometry& geometry, double max_distance) {
+  std::optional<ShapeHit> hit = std::visit(Intersector{ray}, geometry);
+  if (hit && hit->distance > max_distance) hit.reset();
+  return hit;
+}
+
+}  // namespace bubblesim

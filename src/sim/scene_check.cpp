@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_check.hpp"
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "bubblesim/nearest_names.hpp"
+#include "checks.hpp"
+#include "describe.hpp"
+#include "joints/joint.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kMaxSize = 1e5;  // m, kg, kg m^2
+
+/// Collects problems; knows which object it looks at.
+class SceneChecker {
+ public:
+  explicit SceneChecker(const SceneDescription& scene) : scene_(scene) {}
+
+  std::vector<Problem> check() {
+    at({scene_.file.string(), 0}, "");
+    require(scene_.physics_step >= 1e-5 && scene_.physics_step <= 1, "the physics step", text(scene_.physics_step),
+            "1e-5 to 1 s");
+    require(scene_.time_step >= 1e-4 && scene_.time_step <= 10, "the time step of a pass", text(scene_.time_step),
+            "1e-4 to 10 s");
+    const double substeps = scene_.time_step / scene_.physics_step;
+    require(substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6, "the time step of a pass",
+            text(scene_.time_step) + " s", "a whole number of physics steps (" + text(scene_.physics_step) + " s)");
+    require(within(scene_.gravity, 1e4), "gravity", text(scene_.gravity), "finite and at most 1e4 m/s^2");
+    for (const ModelDescription& model : scene_.models) check_model(model);
+    return std::move(problems_);
+  }
+
+ private:
+  void at(const Source& source, std::string object) {
+    source_ = source;
+    object_ = std::move(object);
+  }
+
+  void report(std::string message) { problems_.push_back({source_.file, source_.line, object_, std::move(message)}); }
+
+  void require(bool fine, const std::string& what, const std::string& found, const std::string& wanted) {
+    if (!fine) report(what + " is " + found + ", it must be " + wanted);
+  }
+
+  void check_pose(const Pose& pose) {
+    require(within(pose.Pos(), kMaxDistance), "the position", text(pose.Pos()), "finite and within 1e6 m");
+    const Quaternion& q = pose.Rot();
+    const double norm = std::sqrt(q.W() * q.W() + q.X() * q.X() + q.Y() * q.Y() + q.Z() * q.Z());
+    require(within(norm - 1, 1e-3), "the orientation (x, y, z, w)", text(q), "a rotation");
+  }
+
+  void check_model(const ModelDescription& model) {
+    at(model.source, "/" + model.name);
+    check_pose(model.pose);
+    if (model.links.empty()) report("has no link, so there is nothing to simulate; add a <link>");
+    std::set<std::string> names;
+    const auto once = [&](const Source& source, const std::string& name) {
+      at(source, "/" + model.name + "/" + name);
+      if (!names.insert(name).second) report("the name '" + name + "' is used twice in this model");
+    };
+    for (const LinkDescription& link : model.links) {
+      once(link.source, link.name);
+      check_link(model, link);
+    }
+    for (const JointDescription& joint : model.joints) {
+      once(joint.source, joint.name);
+      check_joint(model, joint);
+    }
+    at(model.source, "/" + model.name);
+    if (!model.canonical_link.empty()) check_link_name(model, model.canonical_link, "canonical link");
+  }
+
+  void check_link(const ModelDescription& model, const LinkDescription& link) {
+    const std::string path = "/" + model.name + "/" + link.name;
+    check_pose(link.pose);
+    if (!model.is_static) {
+      require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg", "above 0 and at most 1e6 kg");
+      check_inertia(link);
+    }
+    for (const CollisionDescription& collision : link.collisions) {
+      at(collision.source, path + "/" + collision.name);
+      check_pose(collision.pose);
+      check_geometry(model, collision.geometry);
+      require(collision.surface.mu >= 0, "the friction mu", text(collision.surface.mu), "0 or more");
+    }
+    for (const SensorDescription& sensor : link.sensors) {
+      at(sensor.source, path + "/" + sensor.name);
+      check_pose(sensor.pose);
+      require(sensor.update_rate >= 0 && within(sensor.update_rate, 1e5), "the update rate",
+              text(sensor.update_rate) + " Hz", "0 (every pass) to 1e5 Hz");
+      std::visit([this](const auto& kind) { check_sensor(kind); }, sensor.kind);
+    }
+  }
+
+  void check_inertia(const LinkDescription& link) {
+    const Vector3& d = link.inertia_diagonal;
+    const Vector3& p = link.inertia_products;  // xy, xz, yz
+    require(within(link.centre_of_mass, kMaxSize), "the centre of mass", text(link.centre_of_mass), "finite");
+    // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive.
+    const double minor2 = d.X() * d.Y() - p.X() * p.X();
+    const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
+                               p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
+    require(within(d, 1e9) && within(p, 1e9) && d.X() > 0 && minor2 > 0 && determinant > 0, "the inertia",
+            "ixx iyy izz " + text(d) + ", ixy ixz iyz " + text(p), "a positive definite matrix");
+  }
+
+  void check_length(const char* what, double value) {
+    require(value > 0 && value <= kMaxSize, what, text(value) + " m", "above 0 and at most 1e5 m");
+  }
+
+  void check_geometry(const ModelDescription& model, const Geometry& geometry) {
+    if (const auto* box = std::get_if<Box>(&geometry)) {
+      check_length("the box's x size", box->size.X());
+      check_length("the box's y size", box->size.Y());
+      check_length("the box's z size", box->size.Z());
+    } else if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
+      check_length("the sphere's radius", sphere->radius);
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+      check_length("the cylinder's radius", cylinder->radius);
+      check_length("the cylinder's length", cylinder->length);
+    } else if (const auto* plane = std::get_if<Plane>(&geometry)) {
+      require(within(plane->normal, 1e6) && plane->normal.Length() > 1e-9, "the plane's normal", text(plane->normal),
+              "a direction");
+      if (!model.is_static) report("a plane is infinite and cannot move; make the model <static>true</static>");
+    }
+  }
+
+  void check_sensor(const SonarDescription& sonar) {
+    require(sonar.max_range > 0 && sonar.max_range <= kMaxSize, "the maximal range", text(sonar.max_range) + " m",
+            "above 0");
+    require(sonar.min_range >= 0 && sonar.min_range < sonar.max_range, "the minimal range",
+            text(sonar.min_range) + " m", "0 or more and below the maximal range");
+    require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",
+            text(sonar.half_angle) + " rad", "from 0 to below pi/2");
+  }
+
+  void check_link_name(const ModelDescription& model, const std::string& name, const std::string& role) {
+    std::vector<std::string> names;
+    for (const LinkDescription& link : model.links) {
+      if (link.name == name) return;
+      names.push_back(link.name);
+    }
+    report("the " + role + " '" + name + "' is no link of this model" + did_you_mean(name, names));
+  }
+
+  void check_joint(const ModelDescription& model, const JointDescription& joint) {
+    check_pose(joint.pose);
+    if (joint.parent != "world") check_link_name(model, joint.parent, "parent");
+    check_link_name(model, joint.child, "child");
+    if (joint.parent == joint.child) report("connects the link '" + joint.parent + "' with itself");
+    std::vector<std::string> types;
+    const JointKind* kind = nullptr;
+    for (const JointKind& known : joint_kinds()) {
+      types.emplace_back(known.type);
+      if (joint.type == known.type) kind = &known;
+    }
+    if (kind == nullptr) {
+      std::string list;
+      for (const std::string& type : types) list += (list.empty() ? "" : ", ") + type;
+      report("joints of type '" + joint.type + "' are not supported; supported are " + list);
+      return;
+    }
+    require(static_cast<int>(joint.axes.size()) == kind->axes, "the number of axes", std::to_string(joint.axes.size()),
+            std::to_string(kind->axes) + " for a " + joint.type + " joint");
+    for (const AxisDescription& axis : joint.axes) check_axis(axis);
+    if (joint.type == "revolute2" && joint.axes.size() == 2) {
+      if (joint.parent == "world") report("a revolute2 joint needs a link as its parent, not the world");
+      const double parallel = joint.axes[0].direction.Cross(joint.axes[1].direction).Length();
+      require(parallel > 1e-3, "the second axis", text(joint.axes[1].direction), "not parallel to the first");
+    }
+  }
+
+  void check_axis(const AxisDescription& axis) {
+    require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction), "a direction other than zero");
+    require(axis.lower <= axis.upper, "the lower limit", text(axis.lower),
+            "at most the upper limit " + text(axis.upper));
+    require(axis.max_force >= 0, "the effort limit", text(axis.max_force), "0 or more");
+    require(axis.max_velocity > 0, "the velocity limit", text(axis.max_velocity), "above 0");
+    require(axis.friction >= 0 && within(axis.friction, 1e9), "the friction", text(axis.friction), "0 or more");
+    require(axis.damping >= 0 && within(axis.damping, 1e9), "the damping", text(axis.damping), "0 or more");
+  }
+
+  const SceneDescription& scene_;
+  Source source_;
+  std::string object_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> check_scene(const SceneDescription& scene) { return SceneChecker(scene).check(); }
+
+}  // namespace bubblesim

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads SDFormat through its own DOM and reports all that is wrong with a file at once.
+#include "bubblesim/scene_loader.hpp"
+
+#include <cmath>
+#include <sdf/sdf.hh>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/nearest_names.hpp"
+#include "own_elements.hpp"
+#include "scene_check.hpp"
+
+namespace bubblesim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// SDFormat writes a limit that does not exist as +-1e16.
+constexpr double kNoLimit = 1e15;
+
+Source source_of(const sdf::ElementPtr& element) { return {element->FilePath(), element->LineNumber().value_or(0)}; }
+
+/// The child `name` of an element where it is written, or the element itself.
+Source source_of(const sdf::ElementPtr& element, const std::string& name) {
+  return source_of(element->HasElement(name) ? element->GetElement(name) : element);
+}
+
+const char* sdf_type(sdf::JointType type) {
+  switch (type) {
+    case sdf::JointType::BALL:
+      return "ball";
+    case sdf::JointType::CONTINUOUS:
+      return "continuous";
+    case sdf::JointType::FIXED:
+      return "fixed";
+    case sdf::JointType::GEARBOX:
+      return "gearbox";
+    case sdf::JointType::PRISMATIC:
+      return "prismatic";
+    case sdf::JointType::REVOLUTE:
+      return "revolute";
+    case sdf::JointType::REVOLUTE2:
+      return "revolute2";
+    case sdf::JointType::SCREW:
+      return "screw";
+    case sdf::JointType::UNIVERSAL:
+      return "universal";
+    case sdf::JointType::INVALID:
+      break;
+  }
+  return "invalid";
+}
+
+class SceneLoader {
+ public:
+  explicit SceneLoader(fs::path file) : file_(std::move(file)) {}
+
+  SceneDescription load() {
+    sdf::ParserConfig config;
+    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
+    config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
+    sdf::Root root;
+    take(root.Load(file_.string(), config), "");
+    SceneDescription scene;
+    scene.name = file_.stem().string();
+    scene.file = file_;
+    if (root.Element() != nullptr) check_own_elements(root.Element(), problems_);
+    if (root.WorldCount() > 0) {
+      read_world(*root.WorldByIndex(0), scene);
+    } else if (root.Model() != nullptr) {
+      scene.models.push_back(ground_plane());
+      scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose()));
+    } else if (problems_.empty()) {
+      problems_.push_back({file_.string(), 0, "", "holds neither a <world> nor a <model>"});
+    }
+    // Values that could not be read stand at their defaults: checking those would only hide the cause.
+    if (problems_.empty() || root.WorldCount() > 0) {
+      for (Problem& problem : check_scene(scene)) problems_.push_back(std::move(problem));
+    }
+    if (!problems_.empty()) throw SceneError(std::move(problems_));
+    return scene;
+  }
+
+ private:
+  void take(const sdf::Errors& errors, const std::string& object) {
+    for (const sdf::Error& error : errors) {
+      problems_.push_back(
+          {error.FilePath().value_or(file_.string()), error.LineNumber().value_or(0), object, error.Message()});
+    }
+  }
+
+  void report(const Source& source, const std::string& object, std::string message) {
+    problems_.push_back({source.file, source.line, object, std::move(message)});
+  }
+
+  template <class T>
+  Pose resolved(const T& element, const std::string& object, const std::string& frame = "") {
+    Pose pose;
+    take(element.SemanticPose().Resolve(pose, frame), object);
+    return pose;
+  }
+
+  static ModelDescription ground_plane() {
+    CollisionDescription plane;
+    plane.name = "collision";
+    plane.geometry = Plane{};
+    LinkDescription link;
+    link.name = "link";
+    link.collisions.push_back(plane);
+    ModelDescription model;
+    model.name = "ground_plane";
+    model.is_static = true;
+    model.links.push_back(link);
+    return model;
+  }
+
+  void read_world(const sdf::World& world, SceneDescription& scene) {
+    scene.gravity = world.Gravity();
+    if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
+    if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
+    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
+      const sdf::Model& model = *world.ModelByIndex(i);
+      scene.models.push_back(read_model(model, resolved(model, "/" + model.Name())));
+    }
+  }
+
+  ModelDescription read_model(const sdf::Model& model, const Pose& pose) {
+    const std::string path = "/" + model.Name();
+    ModelDescription description;
+    description.name = model.Name();
+    description.pose = pose;
+    description.is_static = model.Static();
+    description.self_collide = model.SelfCollide();
+    description.canonical_link = model.CanonicalLinkName();
+    description.source = source_of(model.Element());
+    if (const auto script = own_text(model.Element(), "bubblesim:child_script")) {
+      description.child_script = file_.parent_path() / *script;
+      if (!fs::is_regular_file(description.child_script)) {
+        report(source_of(model.Element(), "bubblesim:child_script"), path,
+               "the child script " + description.child_script.string() + " does not exist");
+      }
+    }
+    if (model.ModelCount() > 0) report(description.source, path, "models inside a model are not supported");
+    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
+      description.links.push_back(read_link(*model.LinkByIndex(i), path));
+    }
+    for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
+      description.joints.push_back(read_joint(*model.JointByIndex(i), path));
+    }
+    return description;
+  }
+
+  LinkDescription read_link(const sdf::Link& link, const std::string& model_path) {
+    const std::string path = model_path + "/" + link.Name();
+    LinkDescription description;
+    description.name = link.Name();
+    description.pose = resolved(link, path);
+    description.source = source_of(link.Element());
+    const auto& inertial = link.Inertial();
+    const ignition::math::Matrix3d inertia = inertial.Moi();
+    description.mass = inertial.MassMatrix().Mass();
+    description.centre_of_mass = inertial.Pose().Pos();
+    description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
+    description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+    for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
+      const sdf::Collision& collision = *link.CollisionByIndex(i);
+      if (auto read = read_collision(collision, path)) description.collisions.push_back(std::move(*read));
+    }
+    for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
+      const sdf::Sensor& sensor = *link.SensorByIndex(i);
+      if (auto read = read_sensor(sensor, path)) description.sensors.push_back(std::move(*read));
+    }
+    return description;
+  }
+
+  std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const std::string& link_path) {
+    CollisionDescription description;
+    description.name = collision.Name();
+    description.source = source_of(collision.Element());
+    const std::string path = link_path + "/" + collision.Name();
+    description.pose = resolved(collision, path);
+    const sdf::Geometry& geometry = *collision.Geom();
+    if (const auto* box = geometry.BoxShape()) {
+      description.geometry = Box{box->Size()};
+    } else if (const auto* sphere = geometry.SphereShape()) {
+      description.geometry = Sphere{sphere->Radius()};
+    } else if (const auto* cylinder = geometry.CylinderShape()) {
+      description.geometry = Cylinder{cylinder->Radius(), cylinder->Length()};
+    } else if (const auto* plane = geometry.PlaneShape()) {
+      description.geometry = Plane{plane->Normal()};
+    } else {
+      report(source_of(collision.Element(), "geometry"), path,
+             "this geometry is not supported; supported are box, sphere, cylinder, plane");
+      return std::nullopt;
+    }
+    read_surface(collision.Element(), description.surface);
+    return description;
+  }
+
+  static void read_surface(const sdf::ElementPtr& collision, Surface& surface) {
+    if (!collision->HasElement("surface")) return;
+    const sdf::ElementPtr element = collision->GetElement("surface");
+    if (element->HasElement("friction") && element->GetElement("friction")->HasElement("ode")) {
+      surface.mu = element->GetElement("friction")->GetElement("ode")->Get<double>("mu", surface.mu).first;
+    }
+    if (element->HasElement("contact")) {
+      const auto mask = element->GetElement("contact")->Get<unsigned int>("collide_bitmask", surface.collide_bitmask);
+      surface.collide_bitmask = static_cast<std::uint16_t>(mask.first);
+    }
+  }
+
+  std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& link_path) {
+    const std::string path = link_path + "/" + sensor.Name();
+    const sdf::ElementPtr element = sensor.Element();
+    SensorDescription description;
+    description.name = sensor.Name();
+    description.source = source_of(element);
+    description.pose = resolved(sensor, path);
+    description.update_rate = sensor.UpdateRate();
+    if (sensor.Type() != sdf::SensorType::SONAR) {
+      report(description.source, path,
+             "sensors of type '" + sensor.TypeStr() + "' are not supported; supported are sonar");
+      return std::nullopt;
+    }
+    if (!element->HasElement("sonar")) {
+      report(description.source, path, "a sonar needs a <sonar> element with <min>, <max> and <radius>");
+      return std::nullopt;
+    }
+    const sdf::ElementPtr sonar = element->GetElement("sonar");
+    SonarDescription cone;
+    cone.min_range = sonar->Get<double>("min", cone.min_range).first;
+    cone.max_range = sonar->Get<double>("max", cone.max_range).first;
+    cone.half_angle = std::atan2(sonar->Get<double>("radius", 0.0).first, cone.max_range);  // radius at max
+    description.kind = cone;
+    return description;
+  }
+
+  JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path) {
+    const std::string path = model_path + "/" + joint.Name();
+    JointDescription description;
+    description.name = joint.Name();
+    description.type = sdf_type(joint.Type());
+    description.source = source_of(joint.Element());
+    take(joint.ResolveParentLink(description.parent), path);
+    take(joint.ResolveChildLink(description.child), path);
+    description.pose = resolved(joint, path, "__model__");
+    const bool wants_axes = description.type != "fixed" && description.type != "ball";
+    for (unsigned int i = 0; wants_axes && i < 2; ++i) {
+      if (joint.Axis(i) != nullptr) description.axes.push_back(read_axis(*joint.Axis(i), joint, path));
+    }
+    return description;
+  }
+
+  AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, const std::string& path) {
+    const auto limit = [](double value, double none) { return std::abs(value) < kNoLimit ? value : none; };
+    const double none = std::numeric_limits<double>::infinity();
+    AxisDescription description;
+    take(axis.ResolveXyz(description.direction, joint.Name()), path);
+    if (joint.Type() != sdf::JointType::CONTINUOUS) {
+      description.lower = limit(axis.Lower(), -none);
+      description.upper = limit(axis.Upper(), none);
+    }
+    // A negative effort or velocity means that there is no limit.
+    description.max_force = axis.Effort() < 0 ? none : limit(axis.Effort(), none);
+    description.max_velocity = axis.MaxVelocity() < 0 ? none : limit(axis.MaxVelocity(), none);
+    description.friction = axis.Friction();
+    description.damping = axis.Damping();
+    if (const auto motor = own_text(axis.Element(), "bubblesim:motor")) {
+      if (*motor == "velocity") {
+        description.motor = MotorMode::kVelocity;
+      } else if (*motor == "position") {
+        description.motor = MotorMode::kPosition;
+      } else {
+        report(source_of(axis.Element(), "bubblesim:motor"), path,
+               "<bubblesim:motor> is '" + *motor + "', it must be velocity or position" +
+                   did_you_mean(*motor, {"velocity", "position"}));
+      }
+    }
+    return description;
+  }
+
+  fs::path file_;
+  std::vector<Problem> problems_;
+};
+
+fs::path scene_file(const std::string& name_or_path) {
+  const fs::path path(name_or_path);
+  if (path.has_parent_path() || path.extension() == ".sdf") {
+    if (fs::is_regular_file(path)) return fs::absolute(path);
+    throw SceneError({{name_or_path, 0, "", "no such file"}});
+  }
+  std::string searched;
+  for (const fs::path& folder : scene_folders()) {
+    if (fs::path file = folder / (name_or_path + ".sdf"); fs::is_regular_file(file)) return file;
+    searched += " " + folder.string();
+  }
+  throw SceneError({{"", 0, "",
+                     "no scene is named '" + name_or_path + "'" + did_you_mean(name_or_path, scene_names()) +
+                         " (searched in" + searched + "; a path to an .sdf file works too)"}});
+}
+
+}  // namespace
+
+SceneDescription load_scene(const std::string& name_or_path) { return SceneLoader(scene_file(name_or_path)).load(); }
+
+}  // namespace bubblesim

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/scene_tree.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/nearest_names.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// One level of a path: `name`, `name[2]` or `name{2}`.
+struct Segment {
+  std::string_view name;
+  std::optional<std::size_t> among_siblings;
+  std::optional<std::size_t> in_scene;
+};
+
+Segment parse_segment(std::string_view text) {
+  Segment segment{text, {}, {}};
+  const std::size_t open = text.find_first_of("[{");
+  if (open == std::string_view::npos || (text.back() != ']' && text.back() != '}')) return segment;
+  std::size_t number = 0;
+  const char* end = text.data() + text.size() - 1;
+  const auto parsed = std::from_chars(text.data() + open + 1, end, number);
+  if (parsed.ec != std::errc() || parsed.ptr != end) return segment;
+  segment.name = text.substr(0, open);
+  (text[open] == '[' ? segment.among_siblings : segment.in_scene) = number;
+  return segment;
+}
+
+/// Whether `name` fits `pattern`, in which `*` stands for any characters.
+bool fits(std::string_view name, std::string_view pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return name == pattern;
+  if (name.substr(0, star) != pattern.substr(0, star)) return false;
+  for (std::size_t skip = star; skip <= name.size(); ++skip) {
+    if (fits(name.substr(skip), pattern.substr(star + 1))) return true;
+  }
+  return false;
+}
+
+std::vector<std::string_view> split(std::string_view path) {
+  std::vector<std::string_view> parts;
+  while (!path.empty()) {
+    const std::size_t slash = std::min(path.find('/'), path.size());
+    if (slash > 0) parts.push_back(path.substr(0, slash));
+    path.remove_prefix(std::min(slash + 1, path.size()));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string_view kind_name(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::kModel:
+      return "model";
+    case ObjectKind::kLink:
+      return "link";
+    case ObjectKind::kJoint:
+      return "joint";
+    case ObjectKind::kSensor:
+      return "sensor";
+  }
+  return "object";
+}
+
+ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index) {
+  const auto id = static_cast<ObjectId>(objects_.size());
+  objects_.push_back({id, kind, std::move(name), parent, {}, index});
+  if (parent != kNoObject) objects_[static_cast<std::size_t>(parent)].children.push_back(id);
+  return id;
+}
+
+const Object& SceneTree::at(ObjectId id) const {
+  if (id < 0 || static_cast<std::size_t>(id) >= objects_.size()) {
+    throw NoSuchObject("no object has the handle " + std::to_string(id));
+  }
+  return objects_[static_cast<std::size_t>(id)];
+}
+
+std::vector<ObjectId> SceneTree::top_level() const {
+  std::vector<ObjectId> ids;
+  for (const Object& object : objects_) {
+    if (object.parent == kNoObject) ids.push_back(object.id);
+  }
+  return ids;
+}
+
+ObjectId SceneTree::model_of(ObjectId id) const {
+  const Object* object = &at(id);
+  while (object->kind != ObjectKind::kModel && object->parent != kNoObject) object = &at(object->parent);
+  return object->id;
+}
+
+std::string SceneTree::indexed_name(const Object& object) const {
+  const std::vector<ObjectId> siblings = object.parent == kNoObject ? top_level() : at(object.parent).children;
+  std::size_t same_name = 0;
+  std::size_t position = 0;
+  for (const ObjectId sibling : siblings) {
+    if (sibling == object.id) position = same_name;
+    if (at(sibling).name == object.name) ++same_name;
+  }
+  return same_name > 1 ? object.name + "[" + std::to_string(position) + "]" : object.name;
+}
+
+std::string SceneTree::path(ObjectId id) const {
+  const Object& object = at(id);
+  return (object.parent == kNoObject ? "" : path(object.parent)) + "/" + indexed_name(object);
+}
+
+std::string SceneTree::short_path(ObjectId id) const {
+  std::string ending;
+  for (ObjectId level = id; level != kNoObject; level = at(level).parent) {
+    ending = "/" + indexed_name(at(level)) + ending;
+    const std::vector<ObjectId> found = matches(ending, kNoObject);
+    if (found.size() == 1 && found.front() == id) return ending;
+  }
+  return path(id);
+}
+
+std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) const {
+  std::vector<std::string_view> parts = split(path);
+  ObjectId start = kNoObject;  // the scene
+  if (!path.empty() && path.front() != '/' && !parts.empty()) {
+    const std::string_view anchor = parts.front();
+    if (from == kNoObject) return {};
+    if (anchor == ".") {
+      start = from;
+    } else if (anchor == "..") {
+      start = at(from).parent;
+    } else if (anchor == ":") {
+      start = model_of(from);
+    } else if (anchor == "::") {
+      start = at(model_of(from)).parent;
+      if (start != kNoObject) start = model_of(start);
+    } else {
+      return {};
+    }
+    parts.erase(parts.begin());
+    if (parts.empty()) return start == kNoObject ? std::vector<ObjectId>{} : std::vector<ObjectId>{start};
+  }
+  if (parts.empty()) return {};
+
+  std::vector<ObjectId> roots{start};
+  for (const std::string_view part : parts) {
+    const Segment segment = parse_segment(part);
+    std::vector<ObjectId> found;
+    for (const ObjectId root : roots) {
+      // Breadth first, so that what lies nearer to the root comes first.
+      std::vector<ObjectId> level = root == kNoObject ? top_level() : at(root).children;
+      while (!level.empty()) {
+        std::vector<ObjectId> next;
+        ObjectId last_parent = kNoObject;
+        std::size_t sibling = 0;
+        for (const ObjectId id : level) {
+          const Object& object = at(id);
+          if (object.parent != last_parent) sibling = 0;
+          last_parent = object.parent;
+          if (fits(object.name, segment.name) && (!segment.among_siblings || *segment.among_siblings == sibling++)) {
+            found.push_back(id);
+          }
+          next.insert(next.end(), object.children.begin(), object.children.end());
+        }
+        level = std::move(next);
+      }
+    }
+    if (segment.in_scene) {
+      found =
+          *segment.in_scene < found.size() ? std::vector<ObjectId>{found[*segment.in_scene]} : std::vector<ObjectId>{};
+    }
+    std::vector<ObjectId> unique;
+    for (const ObjectId id : found) {
+      if (std::find(unique.begin(), unique.end(), id) == unique.end()) unique.push_back(id);
+    }
+    roots = std::move(unique);
+  }
+  return roots;
+}
+
+ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index) const {
+  const std::vector<ObjectId> found = matches(path, from);
+  if (index < found.size()) return found[index];
+
+  const std::string shown(path);
+  if (!found.empty()) {
+    throw NoSuchObject("only " + std::to_string(found.size()) + " objects match '" + shown +
+                       "', there is none with index " + std::to_string(index));
+  }
+  std::vector<std::string> known;
+  for (const Object& object : objects_) {
+    known.push_back(this->path(object.id));
+    known.push_back("/" + object.name);
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  const bool is_path = !path.empty() && (path.front() == '/' || path.front() == '.' || path.front() == ':');
+  throw NoSuchObject("no object matches '" + shown + "'" +
+                     (is_path ? "" : " (a path starts with '/', './', '../', ':/' or '::/')") +
+                     did_you_mean(shown.substr(std::min(shown.find('/'), shown.size())), known));
+}
+
+}  // namespace bubblesim

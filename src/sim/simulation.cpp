@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/simulation.hpp"
+
+#include <string>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "fnv1a.hpp"
+
+namespace bubblesim {
+
+void Participant::actuate(World&, double) {}
+void Participant::sense(const World&, double) {}
+void Participant::publish(const World&, double) {}
+
+struct Simulation::SensorSlot {
+  ObjectId id = kNoObject;
+  std::unique_ptr<Sensor> sensor;
+  double period = 0;    // s
+  double due = 0;       // s of simulation time
+  bool wanted = false;  // somebody read it since it last measured
+  bool measured = false;
+};
+
+Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+    : scene_(std::move(scene)), seed_(seed), world_(scene_, seed) {
+  for (const Object& object : world_.tree().objects()) {
+    if (object.kind != ObjectKind::kSensor) continue;
+    sensors_.emplace_back().id = object.id;
+  }
+  auto slot = sensors_.begin();
+  for (const ModelDescription& model : scene_.models) {
+    for (const LinkDescription& link : model.links) {
+      for (const SensorDescription& description : link.sensors) {
+        slot->sensor = make_sensor(description, slot->id, world_);
+        slot->period = description.update_rate > 0 ? 1 / description.update_rate : 0;
+        ++slot;
+      }
+    }
+  }
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::add(Participant& participant) { participants_.push_back(&participant); }
+
+void Simulation::drain() {
+  for (Participant* participant : participants_) participant->drain();
+}
+
+void Simulation::step() {
+  const double now = time();
+  drain();
+  for (Participant* participant : participants_) participant->actuate(world_, now);
+  world_.advance(scene_.time_step, scene_.physics_step);
+  update_sensors();
+  for (Participant* participant : participants_) participant->sense(world_, now);
+  for (Participant* participant : participants_) participant->publish(world_, now);
+  ++passes_;
+}
+
+void Simulation::update_sensors() {
+  // Half a pass of tolerance: a due time that lies on a pass must not slip to the next by rounding.
+  const double until = time() + scene_.time_step / 2;
+  for (SensorSlot& slot : sensors_) {
+    if (slot.due > until) continue;
+    slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
+    slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
+    if (slot.wanted) slot.sensor->update(world_);
+    slot.wanted = false;
+  }
+}
+
+Simulation::SensorSlot& Simulation::proximity_slot(ObjectId sensor) {
+  for (SensorSlot& slot : sensors_) {
+    if (slot.id == sensor && slot.sensor->proximity()) return slot;
+  }
+  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " +
+                     std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a proximity sensor");
+}
+
+ProximityReading Simulation::read_proximity(ObjectId sensor) {
+  SensorSlot& slot = proximity_slot(sensor);
+  if (!slot.measured) slot.sensor->update(world_);
+  slot.measured = true;
+  slot.wanted = true;
+  return *slot.sensor->proximity();
+}
+
+ProximityReading Simulation::measure_proximity(ObjectId sensor) {
+  SensorSlot& slot = proximity_slot(sensor);
+  slot.sensor->update(world_);
+  return *slot.sensor->proximity();
+}
+
+std::uint64_t Simulation::state_hash() const {
+  Fnv1a hash;
+  hash.add(passes_);
+  hash.add(seed_);
+  hash.add(world_.state_hash());
+  return hash.value();
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joints as scripts and programs see them.
+#include <string>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "checks.hpp"
+#include "describe.hpp"
+#include "world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
+
+const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
+  const Object& object = state.tree.at(id);
+  if (object.kind != ObjectKind::kJoint) {
+    throw NoSuchObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
+  }
+  return state.joints[object.index];
+}
+
+/// A joint and one of its axes. The second axis of a joint is an object of its own.
+struct JointAxis {
+  Joint& joint;
+  int index;
+};
+
+JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
+  const PlacedJoint& placed = placed_joint(state, id);
+  if (placed.object != id) axis = 1;
+  if (placed.joint == nullptr) throw NoSuchObject(state.shown(id) + " belongs to a static model: it does not move");
+  if (axis < 0 || axis >= placed.joint->axis_count()) {
+    throw NoSuchObject(state.shown(id) + " has " + std::to_string(placed.joint->axis_count()) +
+                       " axes: there is none with index " + std::to_string(axis));
+  }
+  return {*placed.joint, axis};
+}
+
+void check_target(const World::State& state, ObjectId id, const char* what, double value) {
+  if (within(value, kMaxTarget)) return;
+  throw InvalidInput(state.shown(id) + ": the " + what + " " + text(value) +
+                     " is not usable: it must be finite and at most 1e6");
+}
+
+}  // namespace
+
+Pose World::joint_moving_pose(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return state_->link_pose(placed.child) * placed.in_child;
+}
+
+double World::joint_position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.position(found.index);
+}
+
+double World::joint_velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.velocity(found.index);
+}
+
+double World::target_position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.target_position(found.index);
+}
+
+double World::target_velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.target_velocity(found.index);
+}
+
+double World::max_force(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.axis(found.index).max_force;
+}
+
+MotorMode World::motor_mode(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.axis(found.index).motor;
+}
+
+void World::set_target_position(ObjectId joint, double position, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  check_target(*state_, joint, "target position", position);
+  found.joint.set_target_position(found.index, position);
+}
+
+void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  check_target(*state_, joint, "target velocity", velocity);
+  found.joint.set_target_velocity(found.index, velocity);
+}
+
+void World::set_max_force(ObjectId joint, double force, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  if (!(force >= 0)) {
+    throw InvalidInput(state_->shown(joint) + ": the force limit " + text(force) +
+                       " is not usable: it must be zero or more");
+  }
+  found.joint.set_max_force(found.index, force);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a world's objects are and how they move.
+#include <cmath>
+#include <string>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "checks.hpp"
+#include "describe.hpp"
+#include "world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// The links that move with a model or link; throws when it is neither or does not move at all.
+std::vector<ObjectId> moving_links(const World::State& state, ObjectId id) {
+  const Object& object = state.tree.at(id);
+  if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
+    throw InvalidInput(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
+                       ": it moves with its link; move that or the model");
+  }
+  std::vector<ObjectId> links =
+      object.kind == ObjectKind::kModel ? state.models[object.index].links : std::vector<ObjectId>{id};
+  if (state.link(links.front()).body == nullptr) {
+    throw InvalidInput(state.shown(id) + " is static: it stays where the scene put it");
+  }
+  return links;
+}
+
+/// The link that carries an object; kNoObject for what is fixed to the world.
+ObjectId carrier(const World::State& state, const Object& object) {
+  switch (object.kind) {
+    case ObjectKind::kModel:
+      return state.models[object.index].canonical_link;
+    case ObjectKind::kLink:
+      return object.id;
+    case ObjectKind::kJoint:
+      return state.joints[object.index].parent;
+    case ObjectKind::kSensor:
+      return object.parent;
+  }
+  return kNoObject;
+}
+
+}  // namespace
+
+Vector3 to_vector(const dReal* values) { return {values[0], values[1], values[2]}; }
+
+Pose body_pose(dBodyID body) {
+  const dReal* q = dBodyGetQuaternion(body);
+  return {to_vector(dBodyGetPosition(body)), Quaternion(q[0], q[1], q[2], q[3])};
+}
+
+Pose World::State::link_pose(ObjectId id) const {
+  const Link& placed = link(id);
+  if (placed.body == nullptr) return placed.pose;
+  Pose pose = body_pose(placed.body);
+  pose.Pos() -= pose.Rot().RotateVector(placed.centre_of_mass);
+  return pose;
+}
+
+Pose World::pose(ObjectId object) const {
+  const Object& found = state_->tree.at(object);
+  const ObjectId link = carrier(*state_, found);
+  const Pose base = link == kNoObject ? Pose::Zero : state_->link_pose(link);
+  switch (found.kind) {
+    case ObjectKind::kModel:
+      return base * state_->models[found.index].in_canonical_link;
+    case ObjectKind::kLink:
+      return base;
+    case ObjectKind::kJoint:
+      return base * state_->joints[found.index].in_parent;
+    case ObjectKind::kSensor:
+      return base * state_->sensors[found.index];
+  }
+  return base;
+}
+
+Twist World::velocity(ObjectId object) const {
+  const ObjectId link = carrier(*state_, state_->tree.at(object));
+  dBodyID body = link == kNoObject ? nullptr : state_->link(link).body;
+  if (body == nullptr) return {};
+  const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
+  const Vector3 angular = to_vector(dBodyGetAngularVel(body));
+  return {to_vector(dBodyGetLinearVel(body)) + angular.Cross(lever), angular};
+}
+
+void World::set_pose(ObjectId object, const Pose& pose) {
+  const std::vector<ObjectId> links = moving_links(*state_, object);
+  if (!within(pose.Pos(), kMaxDistance)) {
+    throw InvalidInput(state_->shown(object) + ": the position " + text(pose.Pos()) +
+                       " is not usable: it must be finite and within 1e6 m of the origin");
+  }
+  const Quaternion& q = pose.Rot();
+  if (!within(std::sqrt(q.W() * q.W() + q.X() * q.X() + q.Y() * q.Y() + q.Z() * q.Z()) - 1, 1e-3)) {
+    throw InvalidInput(state_->shown(object) + ": the orientation " + text(q) +
+                       " (x, y, z, w) is not usable: it must be a quaternion of length 1");
+  }
+  const Pose wanted(pose.Pos(), q.Normalized());
+  const Pose before = this->pose(object);
+  for (const ObjectId id : links) {
+    const Link& link = state_->link(id);
+    const Pose moved = wanted * (before.Inverse() * state_->link_pose(id));
+    const Vector3 centre = moved.CoordPositionAdd(link.centre_of_mass);
+    const dQuaternion rotation = {moved.Rot().W(), moved.Rot().X(), moved.Rot().Y(), moved.Rot().Z()};
+    dBodySetPosition(link.body, centre.X(), centre.Y(), centre.Z());
+    dBodySetQuaternion(link.body, rotation);
+  }
+}
+
+void World::set_velocity(ObjectId object, const Twist& velocity) {
+  const std::vector<ObjectId> links = moving_links(*state_, object);
+  if (!within(velocity.linear, kMaxSpeed) || !within(velocity.angular, kMaxSpeed)) {
+    throw InvalidInput(state_->shown(object) + ": the velocity " + text(velocity.linear) + " m/s, " +
+                       text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
+  }
+  const Vector3 origin = pose(object).Pos();
+  for (const ObjectId id : links) {
+    dBodyID body = state_->link(id).body;
+    const Vector3 linear = velocity.linear + velocity.angular.Cross(to_vector(dBodyGetPosition(body)) - origin);
+    dBodySetLinearVel(body, linear.X(), linear.Y(), linear.Z());
+    dBodySetAngularVel(body, velocity.angular.X(), velocity.angular.Y(), velocity.angular.Z());
+  }
+}
+
+}  // namespace bubblesim
