@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Holds a RosBridge and obeys lines on stdin: `command arguments...`. Each is answered by one line, `= result` or
+// `! error`; what subscribers get is printed as `message ID VALUE`, what drain() throws as `drain threw TEXT`.
+// Ends on SIGTERM, `quit` or end of input. test_bridge.py is its other half.
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "bubblesim/ros_bridge.hpp"
+
+namespace {
+
+using bubblesim::RosBridge;
+using bubblesim::messages::EndpointId;
+using bubblesim::messages::MessageCallback;
+using bubblesim::messages::MessageType;
+using bubblesim::messages::WireBuffer;
+using bubblesim::messages::WireView;
+
+std::atomic<bool> ending{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+MessageType make_type(const char* name, const char* md5, const char* definition, bool has_header = false) {
+  MessageType type;
+  type.name = name;
+  type.md5 = md5;
+  type.definition = definition;
+  type.has_header = has_header;
+  return type;
+}
+
+const std::map<std::string, MessageType>& types() {
+  static const std::map<std::string, MessageType> all{
+      {"float", make_type("std_msgs/Float32", "73fcbf46b49191e672908e50842a83d4", "float32 data\n")},
+      {"string", make_type("std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1", "string data\n")},
+      {"empty", make_type("std_msgs/Empty", "d41d8cd98f00b204e9800998ecf8427e", "\n")},
+      {"clock", make_type("rosgraph_msgs/Clock", "a9c97c1d230cfc112e270351a944ee47", "time clock\n")},
+      {"temperature", make_type("sensor_msgs/Temperature", "ff71b307acdbe7c871a5a6d7ed359100",
+                                "Header header\nfloat64 temperature\nfloat64 variance\n"
+                                "================================================================================\n"
+                                "MSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n",
+                                true)},
+  };
+  return all;
+}
+
+WireBuffer encode(const MessageType& type, const std::string& text) {
+  WireBuffer message;
+  if (type.name == "std_msgs/Float32") {
+    message.put(std::stof(text));
+  } else if (type.name == "std_msgs/String") {
+    message.put(static_cast<std::uint32_t>(text.size()));
+    message.put_bytes(text.data(), text.size());
+  } else if (type.name == "rosgraph_msgs/Clock") {
+    message.put(static_cast<std::uint32_t>(std::stoul(text)));
+    message.put(std::uint32_t{0});
+  } else if (type.has_header && text != "truncated") {
+    for (int i = 0; i < 4; ++i) message.put(std::uint32_t{0});  // seq, stamp, length of frame_id
+    message.put(std::stod(text));
+    message.put(0.0);
+  }
+  return message;
+}
+
+std::string decode(const MessageType& type, WireView message) {
+  if (type.name == "std_msgs/Float32") return std::to_string(message.get<float>());
+  if (type.name == "std_msgs/Empty") return std::to_string(message.left());
+  if (type.name == "rosgraph_msgs/Clock") {
+    const auto sec = message.get<std::uint32_t>();
+    return std::to_string(sec) + " " + std::to_string(message.get<std::uint32_t>());
+  }
+  const auto length = message.get<std::uint32_t>();
+  return std::string(reinterpret_cast<const char*>(message.take(length)), length);
+}
+
+class Probe {
+ public:
+  explicit Probe(RosBridge& bridge) : bridge_(bridge) {}
+
+  std::string obey(const std::string& line) {
+    std::istringstream words(line);
+    std::string command;
+    words >> command;
+    const auto found = commands_.find(command);
+    if (found == commands_.end()) return "! unknown command " + command;
+    try {
+      return "= " + found->second(words);
+    } catch (const std::exception& error) {
+      return std::string("! ") + error.what();
+    }
+  }
+
+ private:
+  using Words = std::istringstream;
+
+  template <class T>
+  static T read(Words& words) {
+    T value{};
+    words >> value;
+    return value;
+  }
+
+  std::string advertise(Words& words) {
+    const auto topic = read<std::string>(words);
+    const auto& type = types().at(read<std::string>(words));
+    return std::to_string(bridge_.advertise(topic, type, 100, read<std::string>(words) == "latch"));
+  }
+
+  /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down.
+  std::string subscribe(Words& words) {
+    const auto topic = read<std::string>(words);
+    const auto& type = types().at(read<std::string>(words));
+    const auto how = read<std::string>(words);
+    const auto id = std::make_shared<EndpointId>(0);
+    *id = bridge_.subscribe(topic, type, 100, [this, id, how, &type](WireView message) {
+      std::cout << "message " << *id << " " << decode(type, message) << std::endl;
+      if (how == "throw") throw std::runtime_error("subscriber " + std::to_string(*id));
+      if (how == "once") bridge_.shutdown_subscriber(*id);
+    });
+    return std::to_string(*id);
+  }
+
+  std::string publish(Words& words) {
+    const auto id = read<EndpointId>(words);
+    bridge_.publish(id, encode(bridge_.message_type(id), read<std::string>(words)));
+    return "";
+  }
+
+  std::string now(Words&) {
+    const auto time = bridge_.now();
+    return std::to_string(time.sec) + " " + std::to_string(time.nanosec);
+  }
+
+  std::string clock(Words& words) {
+    bridge_.publish_clock(read<double>(words));
+    return "";
+  }
+
+  RosBridge& bridge_;
+  const std::map<std::string, std::function<std::string(Words&)>> commands_{
+      {"advertise", [this](Words& words) { return advertise(words); }},
+      {"subscribe", [this](Words& words) { return subscribe(words); }},
+      {"publish", [this](Words& words) { return publish(words); }},
+      {"now", [this](Words& words) { return now(words); }},
+      {"clock", [this](Words& words) { return clock(words); }},
+      {"wants", [this](Words& words) { return bridge_.wants_messages(read<EndpointId>(words)) ? "yes" : "no"; }},
+      {"connected", [this](Words&) { return bridge_.connected() ? "yes" : "no"; }},
+      {"name", [this](Words&) { return bridge_.node_name(); }},
+      {"shutdown_publisher",
+       [this](Words& words) { return bridge_.shutdown_publisher(read<EndpointId>(words)), std::string(); }},
+      {"shutdown_subscriber",
+       [this](Words& words) { return bridge_.shutdown_subscriber(read<EndpointId>(words)), std::string(); }},
+  };
+};
+
+bool has_input() {
+  constexpr int kPassMilliseconds = 5;
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return std::cin.rdbuf()->in_avail() > 0 || poll(&input, 1, kPassMilliseconds) > 0;
+}
+
+void run(RosBridge& bridge) {
+  Probe probe(bridge);
+  std::cout << "ready" << std::endl;
+  std::string line;
+  while (!ending) {
+    if (has_input()) {
+      if (!std::getline(std::cin, line) || line == "quit") return;
+      std::cout << probe.obey(line) << std::endl;
+    }
+    try {
+      bridge.drain();
+    } catch (const std::exception& error) {
+      std::cout << "drain threw " << error.what() << std::endl;
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);  // so that in_avail() sees lines that were read ahead
+  struct sigaction action {};
+  action.sa_handler = [](int) { ending = true; };
+  sigaction(SIGTERM, &action, nullptr);
+  try {
+    bubblesim::RosBridgeOptions options;
+    options.on_pause = [](bool paused) { std::cout << (paused ? "paused" : "unpaused") << std::endl; };
+    RosBridge bridge(argc, argv, options);
+    if (argc > 1) throw std::invalid_argument(std::string("left over argument ") + argv[1]);
+    run(bridge);
+  } catch (const std::exception& error) {
+    std::cout << "! " << error.what() << std::endl;
+    return 2;
+  }
+  std::cout << "ended" << std::endl;
+  return 0;
+}
