@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bubblesim._core.messages: what message types there are, and their bytes.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <variant>
+
+#include "bindings.hpp"
+#include "bubblesim/messages/registry.hpp"
+#include "message_codec.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+using messages::MessageType;
+using messages::ServiceType;
+
+[[noreturn]] void throw_unlisted(const std::string& what, const std::string& name, const std::string& list,
+                                 const std::vector<std::string>& similar) {
+  std::string hint;
+  for (const std::string& candidate : similar) hint += (hint.empty() ? "" : " or ") + candidate;
+  if (!hint.empty()) hint = "; did you mean " + hint + "?";
+  const std::string text = name + " is not among the " + what + " types of this build" + hint +
+                           (hint.empty() ? ";" : "") + " to add it, write its line into " + list +
+                           " and run 'catkin build'";
+  PyErr_SetString(message_error(), text.c_str());
+  throw py::error_already_set();
+}
+
+const MessageType& message_type(const std::string& name) {
+  if (const MessageType* type = messages::find_message(name)) return *type;
+  throw_unlisted("message", name, "meta/messages.txt", messages::similar_message_names(name));
+}
+
+const ServiceType& service_type(const std::string& name) {
+  if (const ServiceType* type = messages::find_service(name)) return *type;
+  throw_unlisted("service", name, "meta/services.txt", messages::similar_service_names(name));
+}
+
+py::bytes encode_to_bytes(const std::string& name, const py::object& message) {
+  messages::WireBuffer out;
+  encode(message_type(name), message.ptr(), out);
+  return {reinterpret_cast<const char*>(out.data()), out.size()};
+}
+
+py::object decode_buffer(const std::string& name, const py::buffer& data, TimeForm time) {
+  const MessageType& type = message_type(name);
+  const py::buffer_info info = data.request();
+  if (PyBuffer_IsContiguous(info.view(), 'C') == 0) {
+    PyErr_SetString(message_error(), (name + ": the bytes of a message must lie in one piece").c_str());
+    throw py::error_already_set();
+  }
+  const auto size = static_cast<std::size_t>(info.size * info.itemsize);
+  return decode(type, messages::WireView(static_cast<const std::uint8_t*>(info.ptr), size), {time});
+}
+
+py::object constant_value(const messages::Constant& constant) {
+  return std::visit([](const auto& value) -> py::object { return py::cast(value); }, constant.value);
+}
+
+py::dict constants(const std::string& name) {
+  py::dict values;
+  for (const auto& constant : message_type(name).constants) values[py::str(constant.name)] = constant_value(constant);
+  return values;
+}
+
+py::str text_of(const std::string& bytes) {
+  PyObject* text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+/// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]".
+std::string spelling(const messages::Field& field) {
+  const std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
+  switch (field.array) {
+    case messages::ArrayKind::kFixed:
+      return base + "[" + std::to_string(field.fixed_length) + "]";
+    case messages::ArrayKind::kVariable:
+      return base + "[]";
+    default:
+      return base;
+  }
+}
+
+py::dict fields(const std::string& name) {
+  py::dict types;
+  for (const auto& field : message_type(name).fields) types[py::str(field.name)] = spelling(field);
+  return types;
+}
+
+}  // namespace
+
+void bind_messages(py::module_& core) {
+  init_message_codec();
+  core.attr("MessageError") = py::reinterpret_borrow<py::object>(message_error());
+
+  py::module_ m = core.def_submodule("messages", "The message types of this build, and their bytes on the wire.");
+  m.attr("MessageError") = core.attr("MessageError");
+  py::enum_<TimeForm>(m, "TimeForm", "What decode() makes of times and durations.")
+      .value("SECS_NSECS", TimeForm::kSecsNsecs, "{'secs': int, 'nsecs': int}")
+      .value("SEC_NANOSEC", TimeForm::kSecNanosec, "{'sec': int, 'nanosec': int}")
+      .value("FLOAT", TimeForm::kFloat, "seconds; a double has no room for the nanoseconds of today's date");
+
+  m.def("encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
+        "Wire bytes of a dict. Missing fields get their default; anything that does not fit raises MessageError.");
+  m.def("decode", &decode_buffer, py::arg("type_name"), py::arg("data"), py::arg("time_form") = TimeForm::kSecsNsecs,
+        "The dict of wire bytes. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
+  m.def(
+      "default", [](const std::string& name, TimeForm time) { return default_message(message_type(name), {time}); },
+      py::arg("type_name"), py::arg("time_form") = TimeForm::kSecsNsecs, "A dict with all fields at their defaults.");
+
+  m.def("message_names", &messages::message_names, "All types, sorted; those that only occur in others are included.");
+  m.def("service_names", &messages::service_names, "All service types, sorted.");
+  m.def(
+      "md5", [](const std::string& name) { return message_type(name).md5; }, py::arg("type_name"));
+  m.def(
+      "service_md5", [](const std::string& name) { return service_type(name).md5; }, py::arg("type_name"));
+  m.def(
+      "service_halves",
+      [](const std::string& name) {
+        const ServiceType& type = service_type(name);
+        return py::make_tuple(type.request->name, type.response->name);
+      },
+      py::arg("type_name"), "Names of the request's and the response's type, which encode() and decode() take.");
+  m.def(
+      "definition", [](const std::string& name) { return text_of(message_type(name).definition); },
+      py::arg("type_name"), "The .msg text, followed by those of nested types.");
+  m.def("fields", &fields, py::arg("type_name"), "Field name -> type, in the order of the message.");
+  m.def("constants", &constants, py::arg("type_name"), "Constant name -> value.");
+}
+
+}  // namespace bubblesim::bindings

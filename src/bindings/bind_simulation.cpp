@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bubblesim.Simulation, the errors of the core and the shapes of a scene.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "bindings.hpp"
+#include "bubblesim/error.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "bubblesim/simulation.hpp"
+#include "numpy_values.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+
+/// A shape with its place, as tools that draw a scene want it.
+struct CollisionShape {
+  std::string object_path;
+  std::string kind;
+  std::vector<double> size;
+  Pose pose;
+  bool is_static;
+};
+
+struct ShapeText {
+  std::string kind;
+  std::vector<double> size;
+};
+
+struct ShapeDescriber {
+  ShapeText operator()(const Box& box) const { return {"box", {box.size.X(), box.size.Y(), box.size.Z()}}; }
+  ShapeText operator()(const Sphere& sphere) const { return {"sphere", {sphere.radius}}; }
+  ShapeText operator()(const Cylinder& cylinder) const { return {"cylinder", {cylinder.radius, cylinder.length}}; }
+  ShapeText operator()(const Plane& plane) const {
+    return {"plane", {plane.normal.X(), plane.normal.Y(), plane.normal.Z()}};
+  }
+};
+
+std::vector<CollisionShape> collisions(const Simulation& simulation) {
+  std::vector<CollisionShape> shapes;
+  for (const PlacedShape& shape : simulation.world().shapes()) {
+    ShapeText text = std::visit(ShapeDescriber{}, shape.geometry);
+    shapes.push_back({simulation.world().tree().path(shape.link), std::move(text.kind), std::move(text.size),
+                      shape.pose, shape.is_static});
+  }
+  return shapes;
+}
+
+/// Steps without the GIL, but looks at Python's signals now and then so that Ctrl-C ends a long call.
+void step(Simulation& simulation, std::uint64_t passes) {
+  constexpr std::uint64_t kPassesBetweenSignals = 256;
+  for (std::uint64_t done = 0; done < passes; ++done) {
+    if (done % kPassesBetweenSignals == kPassesBetweenSignals - 1) {
+      const py::gil_scoped_acquire gil;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+    simulation.step();
+  }
+}
+
+void bind_errors(py::module_& module) {
+  static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
+  static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
+  static py::exception<Diverged> diverged(module, "Diverged", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr raised) {
+    try {
+      if (raised) std::rethrow_exception(raised);
+    } catch (const SceneError& error) {
+      scene_error(error.what());
+    } catch (const NoSuchObject& error) {
+      no_such_object(error.what());
+    } catch (const Diverged& error) {
+      diverged(error.what());
+    }
+  });
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  bind_errors(module);
+
+  py::class_<CollisionShape>(module, "CollisionShape", "A collision shape and where it stands.")
+      .def_readonly("object_path", &CollisionShape::object_path, "Path of the link that it belongs to.")
+      .def_readonly("kind", &CollisionShape::kind, "'box', 'sphere', 'cylinder' or 'plane'.")
+      .def_readonly("size", &CollisionShape::size,
+                    "Metres. box: x, y, z; sphere: radius; cylinder: radius, length; plane: its normal.")
+      .def_property_readonly("position", [](const CollisionShape& s) { return to_numpy(s.pose.Pos()); })
+      .def_property_readonly(
+          "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
+      .def_readonly("is_static", &CollisionShape::is_static);
+
+  py::class_<Simulation>(module, "Simulation", R"(A scene that runs.
+
+Equal seeds and equal commands give equal states, bit by bit, in every process.
+
+:param scene: name of a scene ("tricycle") or path of an .sdf file.
+:param seed: of everything random in the simulation.
+:raises SceneError: with all problems of the file, each with file:line and object.)")
+      .def(py::init([](const std::string& scene, std::uint64_t seed) {
+             return std::make_unique<Simulation>(load_scene(scene), seed);
+           }),
+           py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
+      .def("step", &step, py::arg("passes") = 1, py::call_guard<py::gil_scoped_release>(),
+           "Simulates `passes` passes of `time_step` seconds, without holding the GIL.\n\n"
+           ":raises Diverged: when a body leaves the finite world; load the scene again then.")
+      .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
+      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
+      .def_property_readonly("seed", &Simulation::seed)
+      .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
+      .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
+      .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
+      .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
+      .def_property_readonly(
+          "child_scripts",
+          [](const Simulation& s) {
+            std::vector<std::pair<std::string, std::filesystem::path>> scripts;
+            for (const ModelDescription& model : s.scene().models) {
+              if (!model.child_script.empty()) scripts.emplace_back("/" + model.name, model.child_script);
+            }
+            return scripts;
+          },
+          "Pairs of object path and script file.");
+
+  module.def("scene_names", &scene_names, "Names of all scenes that are found.");
+  module.def("scene_folders", &scene_folders, "Folders that are searched for scenes.");
+}
+
+}  // namespace bubblesim::bindings

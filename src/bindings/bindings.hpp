@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of the Python module bubblesim._core, one bind_<concept>.cpp each.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace bubblesim::bindings {
+
+void bind_messages(pybind11::module_& core);
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "conversion_failure.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include "message_codec.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+constexpr Py_ssize_t kShownLetters = 40;
+
+/// repr() of a value, or nothing when that fails.
+std::string repr(PyObject* value) {
+  const auto text = pybind11::reinterpret_steal<pybind11::object>(PyObject_ASCII(value));
+  const char* letters = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
+  if (letters == nullptr) {
+    PyErr_Clear();
+    return {};
+  }
+  const std::string shown(letters);
+  return shown.size() > 2 * kShownLetters ? shown.substr(0, 2 * kShownLetters) + "..." : shown;
+}
+
+}  // namespace
+
+std::string describe(PyObject* value) {
+  if (value == Py_None) return "None";
+  const std::string type = Py_TYPE(value)->tp_name;
+  if (PyUnicode_Check(value)) {
+    if (PyUnicode_GetLength(value) <= kShownLetters) return type + " " + repr(value);
+    const auto start = pybind11::reinterpret_steal<pybind11::object>(PyUnicode_Substring(value, 0, kShownLetters));
+    return type + " " + repr(start.ptr()) + "...";
+  }
+  if (PyNumber_Check(value) && !PySequence_Check(value)) return type + " " + repr(value);
+  if (PyList_Check(value) || PyTuple_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value)) {
+    return type + " of " + std::to_string(Py_SIZE(value));
+  }
+  return type;
+}
+
+bool clear_conversion_error() {
+  const bool ours = PyErr_ExceptionMatches(PyExc_TypeError) != 0 || PyErr_ExceptionMatches(PyExc_ValueError) != 0 ||
+                    PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
+  if (ours) PyErr_Clear();
+  return ours;
+}
+
+bool ConversionFailure::set(std::string reason) {
+  reason_ = std::move(reason);
+  return false;
+}
+
+bool ConversionFailure::expected(std::string_view expected, PyObject* found) {
+  return set("expected " + std::string(expected) + ", found " + describe(found));
+}
+
+bool ConversionFailure::inside(std::string_view field) {
+  const bool joins = !path_.empty() && path_.front() != '[';
+  path_ = std::string(field) + (joins ? "." : "") + path_;
+  return false;
+}
+
+bool ConversionFailure::inside(std::size_t index) {
+  const bool joins = !path_.empty() && path_.front() != '[';
+  path_ = "[" + std::to_string(index) + "]" + (joins ? "." : "") + path_;
+  return false;
+}
+
+void ConversionFailure::raise(std::string_view type_name) const {
+  if (PyErr_Occurred() == nullptr) {
+    const std::string text = std::string(type_name) + ": " + (path_.empty() ? "" : path_ + ": ") + reason_;
+    PyErr_SetString(message_error(), text.c_str());
+  }
+  throw pybind11::error_already_set();
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The walk from wire bytes to a dict.
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "bubblesim/messages/registry.hpp"
+#include "field_names.hpp"
+#include "message_codec.hpp"
+#include "numeric_arrays.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+using messages::ArrayKind;
+using messages::Field;
+using messages::FieldKind;
+using messages::MessageType;
+using messages::WireView;
+
+/// Elements without content (std_msgs/Empty[]) cost a sender four bytes however many there are.
+constexpr std::uint32_t kMostEmptyElements = 1U << 16U;
+
+class Decoder {
+ public:
+  Decoder(WireView bytes, CodecOptions options) : bytes_(bytes), options_(options) {}
+
+  /// All functions return an empty object when `failure` says why or a Python exception is set.
+  ConversionFailure failure;
+
+  py::object message(const MessageType& type) {
+    auto dict = steal(PyDict_New());
+    if (!dict) return dict;
+    for (const Field& field : type.fields) {
+      const py::object value = this->field(field);
+      if (!value) {
+        failure.inside(field.name);
+        return {};
+      }
+      PyObject* const name = python_name(field);
+      if (name == nullptr || PyDict_SetItem(dict.ptr(), name, value.ptr()) != 0) return {};
+    }
+    return dict;
+  }
+
+  bool at_end() {
+    return bytes_.left() == 0 || failure.set(std::to_string(bytes_.left()) + " surplus bytes after the last field");
+  }
+
+ private:
+  static py::object steal(PyObject* object) { return py::reinterpret_steal<py::object>(object); }
+
+  py::object field(const Field& field) {
+    if (field.array == ArrayKind::kNone) return element(field);
+    std::uint32_t count = field.fixed_length;
+    if (field.array == ArrayKind::kVariable) {
+      if (!has(sizeof(count))) return {};
+      count = bytes_.get<std::uint32_t>();
+    }
+    // Before memory for them is taken: a wrong count may be anything.
+    const std::size_t least_size = default_element_size(field);
+    if (!has(count * least_size)) return {};
+    if (is_number(field.kind)) return steal(decode_numbers(field.kind, bytes_.take(count * least_size), count));
+    if (least_size == 0 && count > kMostEmptyElements) {
+      failure.set("an array of " + std::to_string(count) + " elements without content");
+      return {};
+    }
+    return list(field, count);
+  }
+
+  py::object list(const Field& field, std::uint32_t count) {
+    auto items = steal(PyList_New(count));
+    for (std::uint32_t i = 0; items && i < count; ++i) {
+      py::object item = element(field);
+      if (!item) {
+        failure.inside(i);
+        return {};
+      }
+      PyList_SET_ITEM(items.ptr(), i, item.release().ptr());
+    }
+    return items;
+  }
+
+  py::object element(const Field& field) {
+    if (field.kind == FieldKind::kMessage) return message(*field.message);
+    if (field.kind == FieldKind::kString) return string();
+    if (!has(wire_size(field.kind))) return {};
+    switch (field.kind) {
+      case FieldKind::kBool:
+        return steal(PyBool_FromLong(bytes_.get<std::uint8_t>() != 0 ? 1 : 0));
+      case FieldKind::kInt8:
+        return steal(PyLong_FromLong(bytes_.get<std::int8_t>()));
+      case FieldKind::kUint8:
+        return steal(PyLong_FromLong(bytes_.get<std::uint8_t>()));
+      case FieldKind::kInt16:
+        return steal(PyLong_FromLong(bytes_.get<std::int16_t>()));
+      case FieldKind::kUint16:
+        return steal(PyLong_FromLong(bytes_.get<std::uint16_t>()));
+      case FieldKind::kInt32:
+        return steal(PyLong_FromLong(bytes_.get<std::int32_t>()));
+      case FieldKind::kUint32:
+        return steal(PyLong_FromUnsignedLong(bytes_.get<std::uint32_t>()));
+      case FieldKind::kInt64:
+        return steal(PyLong_FromLongLong(bytes_.get<std::int64_t>()));
+      case FieldKind::kUint64:
+        return steal(PyLong_FromUnsignedLongLong(bytes_.get<std::uint64_t>()));
+      case FieldKind::kFloat32:
+        return steal(PyFloat_FromDouble(bytes_.get<float>()));
+      case FieldKind::kFloat64:
+        return steal(PyFloat_FromDouble(bytes_.get<double>()));
+      case FieldKind::kTime:
+        return time<std::uint32_t>();
+      case FieldKind::kDuration:
+        return time<std::int32_t>();
+      default:
+        failure.set("field of an unknown kind");
+        return {};
+    }
+  }
+
+  py::object string() {
+    if (!has(sizeof(std::uint32_t))) return {};
+    const auto size = bytes_.get<std::uint32_t>();
+    if (!has(size)) return {};
+    // Surrogates stand for bytes that are no UTF-8; encoding turns them back.
+    const auto* letters = reinterpret_cast<const char*>(bytes_.take(size));
+    return steal(PyUnicode_DecodeUTF8(letters, size, "surrogateescape"));
+  }
+
+  template <class T>
+  py::object time() {
+    const auto secs = bytes_.get<T>();
+    const auto nsecs = bytes_.get<T>();
+    if (options_.time == TimeForm::kFloat) return steal(PyFloat_FromDouble(secs + 1e-9 * nsecs));
+    static const Field names[2][2] = {{part("secs"), part("nsecs")}, {part("sec"), part("nanosec")}};
+    const Field* parts = names[options_.time == TimeForm::kSecNanosec ? 1 : 0];
+    const auto dict = steal(PyDict_New());
+    const auto whole = steal(PyLong_FromLongLong(secs));
+    const auto rest = steal(PyLong_FromLongLong(nsecs));
+    const bool made = dict && whole && rest && PyDict_SetItem(dict.ptr(), python_name(parts[0]), whole.ptr()) == 0 &&
+                      PyDict_SetItem(dict.ptr(), python_name(parts[1]), rest.ptr()) == 0;
+    return made ? dict : py::object();
+  }
+
+  static Field part(const char* name) {
+    Field field;
+    field.name = name;
+    field.key = messages::field_key(name);
+    return field;
+  }
+
+  bool has(std::size_t size) {
+    return size <= bytes_.left() || failure.set("the message ends early: " + std::to_string(size) +
+                                                " more bytes expected, " + std::to_string(bytes_.left()) + " left");
+  }
+
+  WireView bytes_;
+  CodecOptions options_;
+};
+
+}  // namespace
+
+py::object decode(const MessageType& type, WireView bytes, CodecOptions options) {
+  Decoder decoder(bytes, options);
+  py::object message = decoder.message(type);
+  if (!message || !decoder.at_end()) decoder.failure.raise(type.name);
+  return message;
+}
+
+py::object default_message(const MessageType& type, CodecOptions options) {
+  const std::vector<std::uint8_t> zeros(default_size(type) + 1);  // one more, so that data() is never null
+  return decode(type, WireView(zeros.data(), zeros.size() - 1), options);
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The walk from a dict to wire bytes.
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "bubblesim/nearest_names.hpp"
+#include "field_names.hpp"
+#include "message_codec.hpp"
+#include "numeric_arrays.hpp"
+#include "python_values.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+using messages::ArrayKind;
+using messages::Field;
+using messages::FieldKind;
+using messages::MessageType;
+
+class Encoder {
+ public:
+  explicit Encoder(messages::WireBuffer& out) : out_(out) {}
+
+  /// All functions return false when `failure` says why or a Python exception is set.
+  ConversionFailure failure;
+
+  bool message(const MessageType& type, PyObject* value) {
+    if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
+    const auto held = py::reinterpret_borrow<py::object>(value);  // own code of some value may drop it
+    Py_ssize_t used = 0;
+    Py_ssize_t position = 0;
+    for (const Field& field : type.fields) {
+      PyObject* const name = python_name(field);
+      if (name == nullptr) return false;
+      // Dicts keep the order of their making, which mostly is that of the fields: try the next entry before searching.
+      Py_ssize_t next = position;
+      PyObject* key = nullptr;
+      PyObject* item = nullptr;
+      if (PyDict_Next(value, &next, &key, &item) != 0 && key == name) {
+        position = next;
+      } else {
+        item = PyDict_GetItemWithError(value, name);
+      }
+      if (item != nullptr) {
+        ++used;
+        if (!this->field(field, item)) return failure.inside(field.name);
+      } else {
+        if (PyErr_Occurred() != nullptr) return false;
+        put_default(field);
+      }
+    }
+    return used == PyDict_GET_SIZE(value) || unknown_key(type, value);
+  }
+
+ private:
+  bool field(const Field& field, PyObject* value) {
+    if (field.array == ArrayKind::kNone) return element(field, value);
+    if (is_number(field.kind)) return encode_numbers(field, value, out_, failure);
+    const auto held = py::reinterpret_borrow<py::object>(value);
+    const py::object items = as_items(field, value, failure);
+    if (!items) return false;
+    const Py_ssize_t count = PySequence_Fast_GET_SIZE(items.ptr());
+    if (!begin_array(field, static_cast<std::size_t>(count), out_, failure)) return false;
+    for (Py_ssize_t i = 0; i < count; ++i) {
+      // Reading an item may run code that changes the list.
+      if (i >= PySequence_Fast_GET_SIZE(items.ptr())) return failure.set("the list became shorter while it was read");
+      if (!element(field, PySequence_Fast_GET_ITEM(items.ptr(), i))) {
+        return failure.inside(static_cast<std::size_t>(i));
+      }
+    }
+    return true;
+  }
+
+  bool element(const Field& field, PyObject* value) {
+    switch (field.kind) {
+      case FieldKind::kBool:
+        return number<bool>(value);
+      case FieldKind::kInt8:
+        return number<std::int8_t>(value);
+      case FieldKind::kUint8:
+        return number<std::uint8_t>(value);
+      case FieldKind::kInt16:
+        return number<std::int16_t>(value);
+      case FieldKind::kUint16:
+        return number<std::uint16_t>(value);
+      case FieldKind::kInt32:
+        return number<std::int32_t>(value);
+      case FieldKind::kUint32:
+        return number<std::uint32_t>(value);
+      case FieldKind::kInt64:
+        return number<std::int64_t>(value);
+      case FieldKind::kUint64:
+        return number<std::uint64_t>(value);
+      case FieldKind::kFloat32:
+        return number<float>(value);
+      case FieldKind::kFloat64:
+        return number<double>(value);
+      case FieldKind::kString:
+        return string(value);
+      case FieldKind::kTime:
+        return time<std::uint32_t>(value);
+      case FieldKind::kDuration:
+        return time<std::int32_t>(value);
+      case FieldKind::kMessage:
+        return message(*field.message, value);
+    }
+    return failure.set("field of an unknown kind");
+  }
+
+  template <class T>
+  bool number(PyObject* value) {
+    T number{};
+    if (!read_number(value, number, failure)) return false;
+    out_.put(number);
+    return true;
+  }
+
+  bool string(PyObject* value) {
+    std::string_view bytes;
+    PyObject* owner = nullptr;
+    if (!read_string(value, bytes, owner, failure)) return false;
+    const bool fits = bytes.size() <= std::numeric_limits<std::uint32_t>::max();
+    if (fits) {
+      out_.put(static_cast<std::uint32_t>(bytes.size()));
+      out_.put_bytes(bytes.data(), bytes.size());
+    }
+    Py_XDECREF(owner);
+    return fits || failure.set("a string of " + std::to_string(bytes.size()) + " bytes does not fit into a message");
+  }
+
+  template <class T>
+  bool time(PyObject* value) {
+    TimeParts<T> parts;
+    if (!read_time(value, parts, failure)) return false;
+    out_.put(parts.secs);
+    out_.put(parts.nsecs);
+    return true;
+  }
+
+  void put_default(const Field& field) {
+    const std::size_t size = default_size(field);
+    if (size != 0) std::memset(out_.extend(size), 0, size);
+  }
+
+  bool unknown_key(const MessageType& type, PyObject* dict) {
+    std::vector<std::string> names;
+    for (const Field& field : type.fields) names.push_back(field.name);
+    Py_ssize_t position = 0;
+    PyObject* key = nullptr;
+    while (PyDict_Next(dict, &position, &key, nullptr) != 0) {
+      const char* letters = PyUnicode_Check(key) ? PyUnicode_AsUTF8(key) : nullptr;
+      if (letters == nullptr) {
+        PyErr_Clear();
+        return failure.expected("field names of " + type.name + " as keys", key);
+      }
+      if (std::find(names.begin(), names.end(), letters) != names.end()) continue;
+      std::string valid;
+      for (const std::string& name : names) valid += (valid.empty() ? "" : ", ") + name;
+      return failure.set(type.name + " has no field '" + letters + "'" + did_you_mean(letters, names) +
+                         (did_you_mean(letters, names).empty() ? ";" : "") +
+                         " its fields: " + (valid.empty() ? "none" : valid));
+    }
+    return true;  // a value's own code changed the dict meanwhile: all that is there now was written or is known
+  }
+
+  messages::WireBuffer& out_;
+};
+
+}  // namespace
+
+void encode(const MessageType& type, PyObject* message, messages::WireBuffer& out) {
+  Encoder encoder(out);
+  if (!encoder.message(type, message)) encoder.failure.raise(type.name);
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Array fields of bools and numbers, which cross as whole buffers wherever that is possible.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+
+#include "bubblesim/messages/message_type.hpp"
+#include "bubblesim/messages/wire.hpp"
+#include "conversion_failure.hpp"
+
+namespace bubblesim::bindings {
+
+/// Loads NumPy's C interface. Throws pybind11::error_already_set.
+void init_numeric_arrays();
+
+inline bool is_number(messages::FieldKind kind) {
+  return kind <= messages::FieldKind::kFloat64 && kind != messages::FieldKind::kString;
+}
+
+/// Writes the count of a variable array or checks that of a fixed one. False: described in `failure`.
+bool begin_array(const messages::Field& field, std::size_t count, messages::WireBuffer& out,
+                 ConversionFailure& failure);
+
+/// The items of a sequence that is no text: a list or tuple, the value itself if it is one. Empty: described.
+pybind11::object as_items(const messages::Field& field, PyObject* value, ConversionFailure& failure);
+
+/// False: described in `failure`, or a Python exception is set.
+bool encode_numbers(const messages::Field& field, PyObject* value, messages::WireBuffer& out,
+                    ConversionFailure& failure);
+
+/// `count` elements at `bytes` as a new bytes (uint8) or numpy array. nullptr: memory is out.
+PyObject* decode_numbers(messages::FieldKind kind, const std::uint8_t* bytes, std::size_t count);
+
+}  // namespace bubblesim::bindings
