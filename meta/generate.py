@@ -18,6 +18,7 @@ from typing import Any
 try:
     import em  # type: ignore[import-untyped]
     import genmsg.gentools  # type: ignore[import-untyped]
+
     import rules
     from packages import build_index
     from specs import Specs, read_list

@@ -11,6 +11,7 @@ from typing import Any
 
 import genmsg  # type: ignore[import-untyped]
 import genmsg.msg_loader  # type: ignore[import-untyped]
+
 import rules
 from packages import PackageIndex
 
