@@ -13,6 +13,7 @@ import xmlrpc.client
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 import pytest
 
@@ -86,12 +87,11 @@ class RosCore:
     def __init__(self, directory: Path, port: int | None = None) -> None:
         self.port = port or free_port()
         self.env = ros_environment(self.port, directory)
-        self._master = xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
         self.process = start(
             ["roscore", "-p", str(self.port)], self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
         wait_until(lambda: "/rosout" in self.nodes(), "roscore to start")
-        _, _, self._master_pid = self._master.getPid("/test")  # type: ignore[misc]
+        self._master_pid = int(self._ask_master("getPid", "/test"))
 
     def __enter__(self) -> "RosCore":
         return self
@@ -107,16 +107,22 @@ class RosCore:
         it does not answer."""
         kinds = ("publishers", "subscribers", "services")
         try:
-            _, _, books = self._master.getSystemState("/test")  # type: ignore[misc]
+            books = self._ask_master("getSystemState", "/test")
         except (OSError, xmlrpc.client.Error):
             return {kind: {} for kind in kinds}
-        return {kind: dict(book) for kind, book in zip(kinds, books)}  # type: ignore[arg-type]
+        return {kind: dict(book) for kind, book in zip(kinds, books, strict=True)}
+
+    def _ask_master(self, method: str, *arguments: Any) -> Any:
+        master: Any = xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
+        code, message, value = getattr(master, method)(*arguments)
+        assert code == 1, message
+        return value
 
     def nodes(self) -> set[str]:
         return {node for book in self.state().values() for nodes in book.values() for node in nodes}
 
     def set_param(self, name: str, value: object) -> None:
-        self._master.setParam("/test", name, value)
+        self._ask_master("setParam", "/test", name, value)
 
     def run(self, *command: str) -> str:
         """Output of a ROS tool that ends by itself, such as `rosnode list`."""

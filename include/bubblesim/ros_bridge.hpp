@@ -22,9 +22,9 @@ struct RosBridgeOptions {
 /// runs on a thread of the bridge's own, so the simulation never stands still for ROS.
 class RosBridge final : public messages::Bridge {
  public:
-  /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. Returns within about a
-  /// second: connected when a master answers, else after a line on stderr that names the URI tried and the cure; it
-  /// then connects as soon as a master appears. Without ROS_MASTER_URI, http://localhost:11311 is used.
+  /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. When a
+  /// master answers within a second it returns connected; else after a line on stderr that names the URI tried and the
+  /// cure, and connects as soon as a master appears. Without ROS_MASTER_URI, http://localhost:11311 is used.
   /// Throws std::invalid_argument for an unusable master URI or node name, std::logic_error for a second bridge.
   RosBridge(int& argc, char** argv, RosBridgeOptions options = {});
 

@@ -57,15 +57,21 @@ struct MasterThread::Shared {
   bool finished = false;
   std::thread thread;
 
+  void set_state(State next);
   void set_absent(std::unique_lock<std::mutex>& lock);
   bool find_master();
   void work();
   void run();
 };
 
-void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
-  state = State::kAbsent;
+/// The mutex must be held.
+void MasterThread::Shared::set_state(State next) {
+  state = next;
   changed.notify_all();
+}
+
+void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
+  set_state(State::kAbsent);
   if (std::exchange(said_absent, true)) return;
   lock.unlock();
   on_absent();
@@ -78,7 +84,10 @@ bool MasterThread::Shared::find_master() {
     const bool found = ros::master::check();
     std::unique_lock lock(mutex);
     if (stopping) return false;
-    if (found) return true;
+    if (found) {
+      set_state(State::kStarting);
+      return true;
+    }
     set_absent(lock);
     if (changed.wait_for(lock, kRetryInterval, [this] { return stopping; })) return false;
   }
@@ -114,9 +123,8 @@ void MasterThread::Shared::run() {
       on_connected();
       {
         const std::lock_guard lock(mutex);
-        state = State::kConnected;
+        set_state(State::kConnected);
       }
-      changed.notify_all();
       work();
     }
     ros::shutdown();  // or wait for the one that stop() began
@@ -136,10 +144,15 @@ MasterThread::MasterThread(Job on_absent, Job on_connected) : shared_(std::make_
 
 MasterThread::~MasterThread() { stop(); }
 
-void MasterThread::wait_for_first_answer(std::chrono::milliseconds timeout) {
+void MasterThread::wait_for_first_answer(std::chrono::milliseconds answer_timeout,
+                                         std::chrono::milliseconds start_timeout) {
   std::unique_lock lock(shared_->mutex);
-  const auto answered = [this] { return shared_->state != State::kTrying; };
-  if (!shared_->changed.wait_for(lock, timeout, answered)) shared_->set_absent(lock);
+  const auto left = [this](State state) { return [this, state] { return shared_->state != state; }; };
+  if (shared_->changed.wait_for(lock, answer_timeout, left(State::kTrying))) {
+    shared_->changed.wait_for(lock, start_timeout, left(State::kStarting));
+  } else {
+    shared_->set_absent(lock);
+  }
 }
 
 MasterThread::State MasterThread::state() const { return shared_->state; }

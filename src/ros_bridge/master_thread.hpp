@@ -14,6 +14,7 @@ class MasterThread {
   enum class State {
     kTrying,     ///< no answer yet to the first call
     kAbsent,     ///< the master does not answer; tried again four times a second
+    kStarting,   ///< a master answers
     kConnected,  ///< roscpp is started
   };
 
@@ -27,8 +28,9 @@ class MasterThread {
   MasterThread(const MasterThread&) = delete;
   MasterThread& operator=(const MasterThread&) = delete;
 
-  /// Blocks until the state is no longer kTrying, or until the time is up: then the master counts as absent.
-  void wait_for_first_answer(std::chrono::milliseconds timeout);
+  /// Blocks until the state is kAbsent or kConnected. A master that does not answer in `answer_timeout` counts as
+  /// absent; one that does but then takes longer than `start_timeout` is not waited for.
+  void wait_for_first_answer(std::chrono::milliseconds answer_timeout, std::chrono::milliseconds start_timeout);
 
   State state() const;
 

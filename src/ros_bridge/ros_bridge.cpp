@@ -33,6 +33,8 @@ using messages::MessageType;
 using messages::WireBuffer;
 
 constexpr std::uint32_t kClockQueueSize = 10;
+constexpr std::chrono::milliseconds kAnswerTimeout{800};
+constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 const MessageType& clock_type() {
@@ -141,7 +143,7 @@ void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) 
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
   init_node(argc, argv, options.node_name);
   impl_ = std::make_unique<Impl>(std::move(options));
-  impl_->master.wait_for_first_answer(std::chrono::milliseconds(800));
+  impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout);
 }
 
 RosBridge::~RosBridge() {

@@ -2,6 +2,6 @@
 import sys
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1])]
+from ros_support import roscore as roscore
 
-from ros_support import roscore  # noqa: E402, F401  (a fixture of all tests here)
+sys.path.insert(0, str(Path(__file__).parent))  # for bridge_probe.py

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from probe import Probe
+from bridge_probe import Probe
+
 from ros_support import free_port, ros_environment
 
 

@@ -4,7 +4,8 @@
 import time
 from pathlib import Path
 
-from probe import Probe
+from bridge_probe import Probe
+
 from ros_support import RosCore, free_port, ros_environment, wait_until
 
 NAME = "/sim_ros_interface"
@@ -195,3 +196,15 @@ def test_simulation_does_not_wait_for_a_hanging_master(roscore: RosCore) -> None
         for _ in range(3):
             assert probe.ask("publish", publisher, 1.0) == ""
             time.sleep(0.1)
+
+
+def test_simulation_survives_a_second_node_of_its_name(roscore: RosCore) -> None:
+    with Probe(roscore.env) as first:
+        publisher = first.ask("advertise", "/map", "float", "latch")
+        wait_until(lambda: NAME in roscore.state()["publishers"].get("/map", []), "the first node")
+        with Probe(roscore.env):
+            first.wait_for(lambda: first.ask("connected") == "no", "the first node to be told to go")
+            assert first.ask("publish", publisher, 1.0) == ""
+            assert "invalid" not in first.ask("advertise", "/other", "float")
+        assert first.terminate() < BOUND + SLACK
+        assert first.process.returncode == 0

@@ -4,9 +4,11 @@
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
-from probe import Probe
+from bridge_probe import Probe
+
 from ros_support import RosCore, start, stop, wait_until
 
 
@@ -24,6 +26,10 @@ def rostopic_echo(core: RosCore, topic: str, log: Path) -> Iterator[None]:
 
 def is_registered(core: RosCore, kind: str, topic: str) -> bool:
     return "/sim_ros_interface" in core.state()[kind].get(topic, [])
+
+
+def has_got(probe: Probe, subscriber: str, messages: list[str]) -> bool:
+    return probe.messages(subscriber) == messages
 
 
 def publish_from_outside(core: RosCore, topic: str, type_name: str, *values: str) -> None:
@@ -122,7 +128,7 @@ def test_two_subscribers_of_a_topic_get_each_message(roscore: RosCore) -> None:
         probe.wait_for(lambda: is_registered(roscore, "subscribers", "/name"), "the subscribers")
         publish_from_outside(roscore, "/name", "std_msgs/String", "one", "two")
         for subscriber in subscribers:
-            probe.wait_for(lambda: probe.messages(subscriber) == ["one", "two"], f"subscriber {subscriber}")
+            probe.wait_for(partial(has_got, probe, subscriber, ["one", "two"]), f"subscriber {subscriber}")
 
 
 def test_own_publisher_reaches_own_subscriber(roscore: RosCore) -> None:

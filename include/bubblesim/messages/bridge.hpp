@@ -30,7 +30,8 @@ class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  /// `topic` follows ROS names: absolute `/a`, relative `a` (below the node's own name), `~a`.
+  /// `topic` follows ROS names: absolute `/a`, relative `a` (below the node's own name), `~a`. `type` must live as long
+  /// as the bridge. At most `queue_size` messages wait to be sent or delivered, the oldest go first; 0 sets no limit.
   virtual EndpointId advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                bool latch) = 0;
   virtual EndpointId subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
@@ -43,7 +44,8 @@ class Bridge {
   virtual void shutdown_subscriber(EndpointId subscriber) = 0;
 
   /// Delivers what has arrived since the last call to the callbacks. A callback may call the bridge, shut its own
-  /// subscriber down included; what it throws is passed on after the others have been served.
+  /// subscriber down included; what it throws is passed on after the others have been served. A call from within a
+  /// callback does nothing.
   virtual void drain() = 0;
 
   /// Time that messages should be stamped with: the simulation's when /use_sim_time is set, else the wall clock's.
