@@ -8,17 +8,17 @@ namespace {
 
 namespace py = pybind11;
 
-/// numpy.bool_ is the one number that is neither an index nor a float.
+/// The one number of NumPy that will no longer be an index.
 bool is_numpy_bool(PyObject* value) { return std::strcmp(Py_TYPE(value)->tp_name, "numpy.bool_") == 0; }
 
 /// The value as a Python int: ints, NumPy integers, bools, and floats without a fraction, which is what Lua and
 /// divisions give.
 py::object as_int(PyObject* value, std::string_view expected, ConversionFailure& failure) {
   PyObject* number = nullptr;
-  if (PyIndex_Check(value)) {
-    number = PyNumber_Index(value);
-  } else if (is_numpy_bool(value)) {
+  if (is_numpy_bool(value)) {
     number = PyLong_FromLong(PyObject_IsTrue(value));
+  } else if (PyIndex_Check(value)) {
+    number = PyNumber_Index(value);
   } else if (PyFloat_Check(value) && std::isfinite(PyFloat_AS_DOUBLE(value)) &&
              PyFloat_AS_DOUBLE(value) == std::floor(PyFloat_AS_DOUBLE(value))) {
     number = PyLong_FromDouble(PyFloat_AS_DOUBLE(value));
