@@ -2,9 +2,9 @@
 // A scene that runs: the world, its sensors, the clock, and the pass that moves them on.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
@@ -46,6 +46,13 @@ class Simulation {
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
+  /// Requests to whoever runs the passes; step() itself does not look at them. Any thread may make them.
+  void pause() { paused_ = true; }
+  void resume() { paused_ = false; }
+  void stop() { stopping_ = true; }
+  bool paused() const { return paused_; }
+  bool stopping() const { return stopping_; }
+
   World& world() { return world_; }
   const World& world() const { return world_; }
 
@@ -69,6 +76,8 @@ class Simulation {
   std::vector<SensorSlot> sensors_;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;
+  std::atomic<bool> paused_{false};
+  std::atomic<bool> stopping_{false};
 };
 
 }  // namespace bubblesim

@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "bubblesim/messages/registry.hpp"
 #include "message_codec.hpp"
+#include "message_lookup.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -17,36 +18,14 @@ namespace py = pybind11;
 using messages::MessageType;
 using messages::ServiceType;
 
-[[noreturn]] void throw_unlisted(const std::string& what, const std::string& name, const std::string& list,
-                                 const std::vector<std::string>& similar) {
-  std::string hint;
-  for (const std::string& candidate : similar) hint += (hint.empty() ? "" : " or ") + candidate;
-  if (!hint.empty()) hint = "; did you mean " + hint + "?";
-  const std::string text = name + " is not among the " + what + " types of this build" + hint +
-                           (hint.empty() ? ";" : "") + " to add it, write its line into " + list +
-                           " and run 'catkin build'";
-  PyErr_SetString(message_error(), text.c_str());
-  throw py::error_already_set();
-}
-
-const MessageType& message_type(const std::string& name) {
-  if (const MessageType* type = messages::find_message(name)) return *type;
-  throw_unlisted("message", name, "meta/messages.txt", messages::similar_message_names(name));
-}
-
-const ServiceType& service_type(const std::string& name) {
-  if (const ServiceType* type = messages::find_service(name)) return *type;
-  throw_unlisted("service", name, "meta/services.txt", messages::similar_service_names(name));
-}
-
 py::bytes encode_to_bytes(const std::string& name, const py::object& message) {
   messages::WireBuffer out;
-  encode(message_type(name), message.ptr(), out);
+  encode(listed_message(name), message.ptr(), out);
   return {reinterpret_cast<const char*>(out.data()), out.size()};
 }
 
 py::object decode_buffer(const std::string& name, const py::buffer& data, TimeForm time) {
-  const MessageType& type = message_type(name);
+  const MessageType& type = listed_message(name);
   const py::buffer_info info = data.request();
   if (PyBuffer_IsContiguous(info.view(), 'C') == 0) {
     PyErr_SetString(message_error(), (name + ": the bytes of a message must lie in one piece").c_str());
@@ -62,7 +41,7 @@ py::object constant_value(const messages::Constant& constant) {
 
 py::dict constants(const std::string& name) {
   py::dict values;
-  for (const auto& constant : message_type(name).constants) values[py::str(constant.name)] = constant_value(constant);
+  for (const auto& constant : listed_message(name).constants) values[py::str(constant.name)] = constant_value(constant);
   return values;
 }
 
@@ -87,7 +66,7 @@ std::string spelling(const messages::Field& field) {
 
 py::dict fields(const std::string& name) {
   py::dict types;
-  for (const auto& field : message_type(name).fields) types[py::str(field.name)] = spelling(field);
+  for (const auto& field : listed_message(name).fields) types[py::str(field.name)] = spelling(field);
   return types;
 }
 
@@ -109,24 +88,24 @@ void bind_messages(py::module_& core) {
   m.def("decode", &decode_buffer, py::arg("type_name"), py::arg("data"), py::arg("time_form") = TimeForm::kSecsNsecs,
         "The dict of wire bytes. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
   m.def(
-      "default", [](const std::string& name, TimeForm time) { return default_message(message_type(name), {time}); },
+      "default", [](const std::string& name, TimeForm time) { return default_message(listed_message(name), {time}); },
       py::arg("type_name"), py::arg("time_form") = TimeForm::kSecsNsecs, "A dict with all fields at their defaults.");
 
   m.def("message_names", &messages::message_names, "All types, sorted; those that only occur in others are included.");
   m.def("service_names", &messages::service_names, "All service types, sorted.");
   m.def(
-      "md5", [](const std::string& name) { return message_type(name).md5; }, py::arg("type_name"));
+      "md5", [](const std::string& name) { return listed_message(name).md5; }, py::arg("type_name"));
   m.def(
-      "service_md5", [](const std::string& name) { return service_type(name).md5; }, py::arg("type_name"));
+      "service_md5", [](const std::string& name) { return listed_service(name).md5; }, py::arg("type_name"));
   m.def(
       "service_halves",
       [](const std::string& name) {
-        const ServiceType& type = service_type(name);
+        const ServiceType& type = listed_service(name);
         return py::make_tuple(type.request->name, type.response->name);
       },
       py::arg("type_name"), "Names of the request's and the response's type, which encode() and decode() take.");
   m.def(
-      "definition", [](const std::string& name) { return text_of(message_type(name).definition); },
+      "definition", [](const std::string& name) { return text_of(listed_message(name).definition); },
       py::arg("type_name"), "The .msg text, followed by those of nested types.");
   m.def("fields", &fields, py::arg("type_name"), "Field name -> type, in the order of the message.");
   m.def("constants", &constants, py::arg("type_name"), "Constant name -> value.");

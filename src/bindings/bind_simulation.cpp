@@ -9,6 +9,7 @@
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "numpy_values.hpp"
+#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -58,6 +59,18 @@ void step(Simulation& simulation, std::uint64_t passes) {
     }
     simulation.step();
   }
+}
+
+ObjectView find_object(const py::object& simulation, const std::string& path) {
+  return {simulation, simulation.cast<Simulation&>().world().tree().find(path)};
+}
+
+std::vector<ObjectView> all_objects(const py::object& simulation) {
+  std::vector<ObjectView> views;
+  for (const Object& object : simulation.cast<Simulation&>().world().tree().objects()) {
+    views.emplace_back(simulation, object.id);
+  }
+  return views;
 }
 
 void bind_errors(py::module_& module) {
@@ -111,18 +124,19 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
+      .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")
+      .def("resume", &Simulation::resume)
+      .def("stop", &Simulation::stop)
+      .def_property_readonly("paused", &Simulation::paused)
+      .def_property_readonly("stopping", &Simulation::stopping)
       .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
       .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
-      .def_property_readonly(
-          "child_scripts",
-          [](const Simulation& s) {
-            std::vector<std::pair<std::string, std::filesystem::path>> scripts;
-            for (const ModelDescription& model : s.scene().models) {
-              if (!model.child_script.empty()) scripts.emplace_back("/" + model.name, model.child_script);
-            }
-            return scripts;
-          },
-          "Pairs of object path and script file.");
+      .def("object", &find_object, py::arg("path"),
+           "The object at a path such as /Tricycle/FrontMotor, or /FrontMotor when that is the only one.\n\n"
+           ":raises NoSuchObject: naming similar objects.")
+      .def_property_readonly("objects", &all_objects, "All objects of the scene.")
+      .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
+                             "The same objects by handle, as child scripts use them.");
 
   module.def("scene_names", &scene_names, "Names of all scenes that are found.");
   module.def("scene_folders", &scene_folders, "Folders that are searched for scenes.");

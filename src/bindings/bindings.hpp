@@ -7,5 +7,9 @@
 namespace bubblesim::bindings {
 
 void bind_messages(pybind11::module_& core);
+void bind_bridge(pybind11::module_& core);
+void bind_simulation(pybind11::module_& core);
+void bind_objects(pybind11::module_& core);
+void bind_world(pybind11::module_& core);
 
 }  // namespace bubblesim::bindings

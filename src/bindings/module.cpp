@@ -2,6 +2,11 @@
 #include "bindings.hpp"
 
 PYBIND11_MODULE(_core, core) {
+  using namespace bubblesim::bindings;
   core.doc() = "The compiled part of bubblesim.";
-  bubblesim::bindings::bind_messages(core);
+  bind_messages(core);
+  bind_bridge(core);
+  bind_world(core);
+  bind_objects(core);
+  bind_simulation(core);
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Child scripts in an embedded Python, as participants of a simulation.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/simulation.hpp"
+
+namespace bubblesim {
+
+struct ScriptOptions {
+  /// Pairs of object path and file: the file takes the place of the object's script, or gives it one.
+  std::vector<std::pair<std::string, std::filesystem::path>> replacements;
+  /// Where `include NAME` is looked for, after the folder of the script itself.
+  std::vector<std::filesystem::path> search_paths;
+};
+
+/// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and
+/// object path, and does not run again; the others go on.
+class ChildScripts : public Participant {
+ public:
+  /// Starts the interpreter, of which there can be one in a process, and loads the scripts; `bridge` may be null,
+  /// then simROS is None in scripts. Throws InvalidInput for files and objects that do not exist.
+  ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
+  ~ChildScripts() override;
+
+  void actuate(World& world, double time) override;
+  void sense(const World& world, double time) override;
+  /// Calls sysCall_cleanup of all scripts and ends the programs they started.
+  void finish();
+
+  /// How many scripts failed so far.
+  int failures() const;
+
+ private:
+  struct Python;
+  std::unique_ptr<Python> python_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One child script: its globals, its callbacks and what happens when it fails."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+from bubblesim.scripting.source import ScriptSourceError, load_source
+
+if TYPE_CHECKING:
+    from bubblesim.scripting.host import ScriptHost
+
+Hook = Callable[[], object]
+
+# The phases that a script may take part in, by the names it gives them.
+HOOKS = ("sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup")
+_OUR_FOLDER = str(Path(__file__).parent)
+
+
+class ChildScript:
+    """A script attached to an object. A script that fails is reported once and does not run again."""
+
+    def __init__(self, host: ScriptHost, object_path: str, object_handle: int, file: Path) -> None:
+        """Load ``file`` without running any of its callbacks."""
+        self.host = host
+        self.object_path = object_path
+        self.object_handle = object_handle
+        self.file = file
+        self.alive = True
+        self.at_end: list[Hook] = []  # undoes what the script made: publishers, programs
+        self._started = False
+        self._globals: dict[str, Any] = {
+            "__name__": f"child_script_{object_path.strip('/').replace('/', '_')}",
+            "__file__": str(file),
+            "self": SimpleNamespace(),
+            "require": self._require,
+        }
+        self._globals.update(host.make_modules(self))
+        self._modules = {name: self._globals[name] for name in ("sim", "simROS", "simROS2")}
+        self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
+        self._load()
+
+    def _load(self) -> None:
+        try:
+            source = load_source(self.file, self.host.search_paths)
+        except ScriptSourceError as error:
+            self._fail(f"error: child script of {self.object_path} is disabled: {error}")
+            return
+        for part in source.parts:
+            if not self.run("loading", lambda code=part: exec(code, self._globals)):  # type: ignore[misc]
+                return
+        self._hooks = {name: self._globals.get(name) for name in HOOKS}
+        if self._hooks["sysCall_init"] is None:
+            self._fail(
+                f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init; "
+                "a script needs that function"
+            )
+
+    def _require(self, name: str) -> Any:
+        """Return the module `sim`, `simROS` or `simROS2`; a version such as in 'sim-1' does not matter."""
+        bare = name.partition("-")[0]
+        if bare not in self._modules:
+            raise ImportError(f"there is no module '{name}' to require; there are {', '.join(self._modules)}")
+        return self._modules[bare]
+
+    def actuate(self) -> None:
+        """Run sysCall_actuation, and sysCall_init before the first time."""
+        if not self._started:
+            self._started = True
+            self._call("sysCall_init")
+        self._call("sysCall_actuation")
+
+    def sense(self) -> None:
+        """Run sysCall_sensing."""
+        self._call("sysCall_sensing")
+
+    def finish(self) -> None:
+        """Run sysCall_cleanup and take down what the script made."""
+        if self._started:
+            self._call("sysCall_cleanup")
+        self._end()
+
+    def _call(self, name: str) -> None:
+        hook = self._hooks[name]
+        if hook is not None and self.alive:
+            self.run(name, hook)
+
+    def run(self, what: str, action: Hook) -> bool:
+        """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
+        try:
+            action()
+        except SystemExit:
+            self._end()
+        except BaseException as error:
+            if isinstance(error, KeyboardInterrupt):
+                raise
+            self._fail(
+                f"error: child script of {self.object_path} failed in {what}{_place(error)} and is disabled:\n"
+                + _script_traceback(error).rstrip()
+            )
+        else:
+            return True
+        return False
+
+    def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
+        """Make a callback that ends the script when it fails. ``function`` may be the name of a script global."""
+        target = self._globals.get(function) if isinstance(function, str) else function
+        if not callable(target):
+            if isinstance(function, str):
+                raise ValueError(f"the script has no function '{function}' to call back")
+            raise TypeError(f"a callback must be a function or the name of one, found {type(function).__name__}")
+        what = f"the callback {getattr(target, '__name__', function)}"
+        called = target
+
+        def guarded(*arguments: Any) -> None:
+            if self.alive:
+                self.run(what, lambda: called(*arguments))
+
+        return guarded
+
+    def _fail(self, text: str) -> None:
+        print(text, file=sys.stderr, flush=True)
+        self.host.failures += 1
+        self._end()
+
+    def _end(self) -> None:
+        self.alive = False
+        while self.at_end:
+            with contextlib.suppress(ValueError):  # the script had taken it down already
+                self.at_end.pop()()
+
+
+def _script_frames(error: BaseException) -> traceback.StackSummary:
+    """The frames of the script itself, without the functions of ours that it called or was called by."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return traceback.StackSummary.from_list([f for f in frames if not f.filename.startswith(_OUR_FOLDER)])
+
+
+def _place(error: BaseException) -> str:
+    frames = _script_frames(error)
+    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+
+
+def _script_traceback(error: BaseException) -> str:
+    lines = ["Traceback (most recent call last):\n", *_script_frames(error).format()]
+    return "".join([*lines, *traceback.format_exception_only(type(error), error)])

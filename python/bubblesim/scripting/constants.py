@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The constants of the `sim` module, with the values that CoppeliaSim gives them."""
+
+from __future__ import annotations
+
+
+class SimConstants:
+    """Mixed into the `sim` module."""
+
+    handle_world = -1
+    handle_all = -2
+    handle_all_except_explicit = -3
+    handle_self = -4
+    handle_parent = -11
+    handle_scene = -12
+
+    simulation_stopped = 0
+    simulation_paused = 8
+    simulation_advancing_running = 0x11
+    simulation_advancing_lastbeforestop = 0x16
+
+    verbosity_none = 100
+    verbosity_errors = 200
+    verbosity_warnings = 300
+    verbosity_loadinfos = 400
+    verbosity_scripterrors = 420
+    verbosity_scriptwarnings = 430
+    verbosity_scriptinfos = 450
+    verbosity_msgs = 450
+    verbosity_infos = 500
+    verbosity_debug = 600
+    verbosity_trace = 700
+
+    object_shape_type = 0
+    object_joint_type = 1
+    object_dummy_type = 4
+    object_proximitysensor_type = 5

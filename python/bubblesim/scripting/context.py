@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every group of `sim` functions works on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bubblesim.scripting.constants import SimConstants
+
+if TYPE_CHECKING:
+    from bubblesim.scripting.child_script import ChildScript
+
+
+class ApiContext(SimConstants):
+    """The simulation and the script that calls."""
+
+    def __init__(self, simulation: Any, script: ChildScript) -> None:
+        """Bind the functions to one script."""
+        self._simulation = simulation
+        self._world = simulation.world
+        self._script = script
+
+    def _resolve(self, handle: int) -> int:
+        """Turn sim.handle_self and sim.handle_parent into the handle of an object."""
+        if handle >= 0:
+            return handle
+        if handle == self.handle_self:
+            return self._script.object_handle
+        if handle == self.handle_parent:
+            return int(self._world.parent(self._script.object_handle))
+        raise ValueError(f"{handle} is no handle of an object")

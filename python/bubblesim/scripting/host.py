@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keeps the child scripts of a scene and calls them in the phases of a pass."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from bubblesim.scripting.child_script import ChildScript
+from bubblesim.scripting.ros_api import SimRos, SimRos2
+from bubblesim.scripting.sim_api import SimApi
+
+
+class ScriptHost:
+    """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every pass and ``finish`` at the end."""
+
+    def __init__(
+        self, simulation: Any, bridge: Any | None, scripts: list[tuple[str, Path]], search_paths: list[Path]
+    ) -> None:
+        """Load the scripts.
+
+        :param simulation: a ``bubblesim.Simulation``.
+        :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is None in scripts.
+        :param scripts: pairs of object path and file.
+        :param search_paths: where ``include`` looks after the script's own folder.
+        """
+        self.simulation = simulation
+        self.bridge = bridge
+        self.search_paths = search_paths
+        self.failures = 0
+        # Descendants before ancestors, siblings in the scene's order.
+        deepest_first = sorted(scripts, key=lambda script: -script[0].count("/"))
+        self.scripts = [
+            ChildScript(self, path, simulation.object(path).handle, Path(file)) for path, file in deepest_first
+        ]
+
+    def make_modules(self, script: ChildScript) -> dict[str, Any]:
+        """The modules that a script finds among its globals."""
+        sim = SimApi(self.simulation, script)
+        if self.bridge is None:
+            return {"sim": sim, "simROS": None, "simROS2": None}
+        return {
+            "sim": sim,
+            "simROS": SimRos(self.bridge, self.simulation, script),
+            "simROS2": SimRos2(self.bridge, self.simulation, script),
+        }
+
+    def actuate(self) -> None:
+        """Call sysCall_actuation of all scripts."""
+        for script in self.scripts:
+            script.actuate()
+
+    def sense(self) -> None:
+        """Call sysCall_sensing of all scripts."""
+        for script in self.scripts:
+            script.sense()
+
+    def finish(self) -> None:
+        """Call sysCall_cleanup of all scripts and end what they started."""
+        for script in self.scripts:
+            script.finish()

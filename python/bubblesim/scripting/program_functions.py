@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that start programs and write messages."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from bubblesim.scripting.context import ApiContext
+
+_SECONDS_TO_END = 1.0
+
+
+class ProgramFunctions(ApiContext):
+    """Programs started by a script end with it."""
+
+    def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
+        """Start a program of this package or on PATH; ``arguments`` is split as a shell would. Returns its process id."""
+        program = _find_program(file)
+        process = subprocess.Popen([str(program), *shlex.split(arguments)])
+        self._script.at_end.append(lambda: _end(process))
+        return process.pid
+
+    def addLog(self, level: int, text: str) -> None:
+        """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""
+        if level > self.verbosity_infos:
+            return
+        errors = (self.verbosity_errors, self.verbosity_scripterrors)
+        warnings = (self.verbosity_warnings, self.verbosity_scriptwarnings)
+        kind = "error" if level in errors else "warning" if level in warnings else "info"
+        print(
+            f"{kind}: {self._script.object_path}: {text}", file=sys.stdout if kind == "info" else sys.stderr, flush=True
+        )
+
+    def addStatusbarMessage(self, text: str) -> None:
+        """Write a message."""
+        self.addLog(self.verbosity_scriptinfos, text)
+
+
+def _find_program(file: str) -> Path:
+    # In a development or an install space, beside the simulator's own program; from Python, in the source tree.
+    folders = [Path("/proc/self/exe").resolve().parent, Path(__file__).resolve().parents[3] / "scripts"]
+    for folder in folders:
+        if (folder / file).is_file():
+            return folder / file
+    on_path = shutil.which(file)
+    if on_path is None:
+        raise FileNotFoundError(
+            f"there is no program '{file}' in {' or '.join(map(str, folders))} or on PATH; "
+            "give the name of an installed program or an absolute path"
+        )
+    return Path(on_path)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    try:
+        process.wait(_SECONDS_TO_END)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that read sensors."""
+
+from __future__ import annotations
+
+from bubblesim._core import measure_proximity, read_proximity
+from bubblesim.scripting.context import ApiContext
+
+Reading = tuple[int, float, list[float], int, list[float]]
+
+
+class SensorFunctions(ApiContext):
+    """Proximity sensors give (result, distance, point, object, normal) in the sensor's frame, metres."""
+
+    def readProximitySensor(self, handle: int) -> Reading:
+        """What the sensor measured last; result 0 and distance 0.0 for nothing."""
+        reading: Reading = read_proximity(self._simulation, self._resolve(handle))
+        return reading
+
+    def handleProximitySensor(self, handle: int) -> Reading:
+        """Measure now."""
+        reading: Reading = measure_proximity(self._simulation, self._resolve(handle))
+        return reading

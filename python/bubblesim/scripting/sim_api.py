@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The module `sim` as one child script sees it."""
+
+from __future__ import annotations
+
+from bubblesim.scripting.joint_functions import JointFunctions
+from bubblesim.scripting.object_functions import ObjectFunctions
+from bubblesim.scripting.program_functions import ProgramFunctions
+from bubblesim.scripting.sensor_functions import SensorFunctions
+from bubblesim.scripting.time_functions import TimeFunctions
+
+
+class SimApi(ObjectFunctions, JointFunctions, SensorFunctions, TimeFunctions, ProgramFunctions):
+    """All functions and constants, grouped by what they are about."""

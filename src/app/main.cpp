@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The node: a scene, its child scripts and the ROS bridge, run at the wanted pace until the time is up or someone stops
+// it.
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <thread>
+
+#include "bubblesim/child_scripts.hpp"
+#include "bubblesim/error.hpp"
+#include "bubblesim/ros_bridge.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "bubblesim/simulation.hpp"
+#include "options.hpp"
+#include "pacer.hpp"
+#include "stop_signal.hpp"
+
+namespace bubblesim::app {
+namespace {
+
+constexpr double kPausedPeriod = 0.02;  // s between looks at ROS while paused
+
+/// Gives the bridge its place in the pass: messages in first, all of them under the pass's time.
+class RosParticipant final : public Participant {
+ public:
+  RosParticipant(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
+
+  void drain() override {
+    bridge_.publish_clock(simulation_.time());
+    bridge_.drain();
+  }
+
+ private:
+  RosBridge& bridge_;
+  const Simulation& simulation_;
+};
+
+bool time_is_up(const Options& options, const Simulation& simulation) {
+  // Half a pass of tolerance, so that rounding does not add one.
+  return options.until && simulation.time() > *options.until - simulation.time_step() / 2;
+}
+
+int run(const Options& options, Simulation& simulation, const ChildScripts& scripts) {
+  Pacer pacer(options.speed);
+  while (!stop_requested() && !simulation.stopping() && !time_is_up(options, simulation)) {
+    if (simulation.paused()) {
+      simulation.drain();
+      pacer.restart();
+      std::this_thread::sleep_for(std::chrono::duration<double>(kPausedPeriod));
+      continue;
+    }
+    pacer.wait_for(simulation.time());
+    simulation.step();
+    if (options.strict && scripts.failures() > 0) return kScriptFailed;
+  }
+  if (simulation.stopping()) simulation.step();  // scripts see that it is the last one
+  return kFine;
+}
+
+int run_scene(const Options& options, int& argc, char** argv) {
+  Simulation simulation(load_scene(options.scene), options.seed);
+  if (options.paused) simulation.pause();
+
+  std::unique_ptr<RosBridge> bridge;
+  std::unique_ptr<RosParticipant> ros;
+  if (options.ros) {
+    RosBridgeOptions ros_options;
+    ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.resume(); };
+    bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
+    ros = std::make_unique<RosParticipant>(*bridge, simulation);
+    simulation.add(*ros);
+  }
+  ChildScripts scripts(simulation, bridge.get(), {options.child_scripts, options.script_paths});
+  simulation.add(scripts);
+
+  int exit_code = run(options, simulation, scripts);
+  scripts.finish();
+  if (options.strict && scripts.failures() > 0) exit_code = kScriptFailed;
+  if (options.state_hash) std::printf("%016" PRIx64 "\n", simulation.state_hash());
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace bubblesim::app
+
+int main(int argc, char** argv) {
+  using namespace bubblesim::app;
+  watch_stop_signals();
+  const ParsedOptions parsed = parse_options(argc, argv);
+  if (!parsed.options) return parsed.exit_code;
+  try {
+    return run_scene(*parsed.options, argc, argv);
+  } catch (const bubblesim::Diverged& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kDiverged;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kBadInput;
+  }
+}

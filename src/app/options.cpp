@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <limits>
+
+#include "bubblesim/scene_loader.hpp"
+
+namespace bubblesim::app {
+namespace {
+
+double parse_speed(const std::string& text) {
+  if (text == "max") return std::numeric_limits<double>::infinity();
+  double speed = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || !(speed > 0)) {
+    throw CLI::ValidationError("--speed", "takes a number above 0 or 'max', found '" + text + "'");
+  }
+  return speed;
+}
+
+std::pair<std::string, std::filesystem::path> parse_child_script(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw CLI::ValidationError("--child-script", "takes OBJECT=FILE such as /Tricycle=my.py, found '" + text + "'");
+  }
+  const std::string object = text.substr(0, equals);
+  return {object.front() == '/' ? object : "/" + object, text.substr(equals + 1)};
+}
+
+/// The arguments without ROS remappings, last one first as CLI11 takes them.
+std::vector<std::string> own_arguments(int argc, char** argv) {
+  std::vector<std::string> own;
+  for (int i = argc - 1; i > 0; --i) {
+    if (std::string argument = argv[i]; argument.find(":=") == std::string::npos) own.push_back(std::move(argument));
+  }
+  return own;
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, char** argv) {
+  Options options;
+  std::string speed = "1";
+  std::vector<std::string> child_scripts;
+  std::vector<std::string> script_paths;
+  bool list_scenes = false;
+  bool no_ros = false;
+  double until = 0;
+
+  CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
+  app.footer(
+      "Exit codes: 0 fine, 1 a check failed, 2 bad input, 3 a script failed (with --strict), 4 the physics diverged.\n"
+      "ROS remappings (name:=value) are taken as usual.");
+  app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
+  app.add_option("SCENE", options.scene, "name of a scene, or path of an .sdf file");
+  app.add_option("--seed", options.seed, "of everything random (default 0)");
+  CLI::Option* until_option = app.add_option("--until", until, "end at this simulation time, seconds");
+  until_option->check(CLI::NonNegativeNumber);
+  app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
+  app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
+  app.add_flag("--no-ros", no_ros, "run without ROS; simROS is None in scripts");
+  app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--script-path", script_paths, "DIR in which scripts find what they include (repeatable)")
+      ->allow_extra_args(false);
+  app.add_flag("--strict", options.strict, "exit with 3 as soon as a script has failed");
+  app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
+  app.add_flag("--list-scenes", list_scenes, "print the names of the scenes and exit");
+  try {
+    app.parse(own_arguments(argc, argv));
+    if (list_scenes) {
+      for (const std::string& name : scene_names()) std::cout << name << "\n";
+      return {std::nullopt, kFine};
+    }
+    if (options.scene.empty()) throw CLI::RequiredError("SCENE (see --list-scenes)");
+    if (*until_option) options.until = until;
+    options.speed = parse_speed(speed);
+    options.ros = !no_ros;
+    for (const std::string& text : child_scripts) options.child_scripts.push_back(parse_child_script(text));
+    options.script_paths.assign(script_paths.begin(), script_paths.end());
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? kFine : kBadInput};
+  }
+  return {options, kFine};
+}
+
+}  // namespace bubblesim::app

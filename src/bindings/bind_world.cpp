@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bubblesim._core.World: objects by handle, on plain lists and numbers: what the `sim` functions of child scripts are
+// made of.
+#include <pybind11/stl.h>
+
+#include <array>
+
+#include "bindings.hpp"
+#include "bubblesim/simulation.hpp"
+#include "bubblesim/world.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+
+using Pose7 = std::array<double, 7>;  // x, y, z, then qx, qy, qz, qw
+
+Pose7 to_list(const Pose& pose) {
+  return {pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(), pose.Rot().X(),
+          pose.Rot().Y(), pose.Rot().Z(), pose.Rot().W()};
+}
+
+Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quaternion(p[6], p[3], p[4], p[5])}; }
+
+std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
+
+Pose7 pose_in(const World& world, ObjectId object, const Pose& frame) {
+  return to_list(frame.Inverse() * world.pose(object));
+}
+
+/// The frame that positions relative to an object refer to: a joint's is the one that moves.
+Pose frame_of(const World& world, ObjectId object) {
+  return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_moving_pose(object) : world.pose(object);
+}
+
+py::tuple reading_tuple(const ProximityReading& r) {
+  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
+}
+
+}  // namespace
+
+void bind_world(py::module_& module) {
+  py::class_<World>(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.")
+      .def(
+          "find",
+          [](const World& w, const std::string& path, ObjectId from, std::size_t index) {
+            return w.tree().find(path, from, index);
+          },
+          py::arg("path"), py::arg("start") = kNoObject, py::arg("index") = 0)
+      .def("name", [](const World& w, ObjectId id) { return w.tree().at(id).name; })
+      .def("kind", [](const World& w, ObjectId id) { return std::string(kind_name(w.tree().at(id).kind)); })
+      .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
+      .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
+      .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
+      .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
+      .def("object_count", [](const World& w) { return w.tree().objects().size(); })
+      .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
+      .def(
+          "pose_in", [](const World& w, ObjectId id, ObjectId frame) { return pose_in(w, id, frame_of(w, frame)); },
+          "Pose in the frame of another object; relative to a joint, in the frame that moves with its child.")
+      .def("set_pose", [](World& w, ObjectId id, const Pose7& pose) { w.set_pose(id, to_pose(pose)); })
+      .def("set_pose_in", [](World& w, ObjectId id, const Pose7& pose,
+                             ObjectId frame) { w.set_pose(id, frame_of(w, frame) * to_pose(pose)); })
+      .def("velocity",
+           [](const World& w, ObjectId id) {
+             const Twist v = w.velocity(id);
+             return std::make_pair(to_list(v.linear), to_list(v.angular));
+           })
+      .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
+      .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
+      .def("target_position", &World::target_position, py::arg("joint"), py::arg("axis") = 0)
+      .def("target_velocity", &World::target_velocity, py::arg("joint"), py::arg("axis") = 0)
+      .def("max_force", &World::max_force, py::arg("joint"), py::arg("axis") = 0)
+      .def("set_target_position", &World::set_target_position, py::arg("joint"), py::arg("position"),
+           py::arg("axis") = 0)
+      .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
+           py::arg("axis") = 0)
+      .def("set_max_force", &World::set_max_force, py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
+
+  module.def(
+      "read_proximity", [](Simulation& s, ObjectId sensor) { return reading_tuple(s.read_proximity(sensor)); },
+      "(detected, distance, point, handle, normal) as last measured.");
+  module.def(
+      "measure_proximity", [](Simulation& s, ObjectId sensor) { return reading_tuple(s.measure_proximity(sensor)); },
+      "The same, measured now.");
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "message_lookup.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "bubblesim/messages/registry.hpp"
+#include "message_codec.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+using messages::MessageType;
+using messages::ServiceType;
+
+[[noreturn]] void throw_unlisted(const std::string& what, const std::string& name, const std::string& list,
+                                 const std::vector<std::string>& similar) {
+  std::string hint;
+  for (const std::string& candidate : similar) hint += (hint.empty() ? "" : " or ") + candidate;
+  if (!hint.empty()) hint = "; did you mean " + hint + "?";
+  const std::string text = name + " is not among the " + what + " types of this build" + hint +
+                           (hint.empty() ? ";" : "") + " to add it, write its line into " + list +
+                           " and run 'catkin build'";
+  PyErr_SetString(message_error(), text.c_str());
+  throw py::error_already_set();
+}
+
+}  // namespace
+
+const MessageType& listed_message(const std::string& name) {
+  if (const MessageType* type = messages::find_message(name)) return *type;
+  throw_unlisted("message", name, "meta/messages.txt", messages::similar_message_names(name));
+}
+
+const ServiceType& listed_service(const std::string& name) {
+  if (const ServiceType* type = messages::find_service(name)) return *type;
+  throw_unlisted("service", name, "meta/services.txt", messages::similar_service_names(name));
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Message types by name, for Python callers.
+#pragma once
+
+#include <string>
+
+#include "bubblesim/messages/message_type.hpp"
+
+namespace bubblesim::bindings {
+
+/// The type of that name. Raises MessageError (as pybind11::error_already_set) that names similar types and tells how
+/// to add one.
+const messages::MessageType& listed_message(const std::string& name);
+const messages::ServiceType& listed_service(const std::string& name);
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Carries the phases of a pass over to the Python object that keeps the scripts (bubblesim.scripting.host.ScriptHost).
+#include "bubblesim/child_scripts.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "bubblesim/error.hpp"
+#include "interpreter.hpp"
+
+namespace bubblesim {
+namespace {
+
+namespace py = pybind11;
+
+/// The scene's scripts with the replacements in their places, as pairs of object path and file.
+std::vector<std::pair<std::string, std::filesystem::path>> scripts_to_run(const Simulation& simulation,
+                                                                          const ScriptOptions& options) {
+  const SceneTree& tree = simulation.world().tree();
+  std::vector<std::pair<std::string, std::filesystem::path>> scripts;
+  for (const ModelDescription& model : simulation.scene().models) {
+    if (!model.child_script.empty()) scripts.emplace_back("/" + model.name, model.child_script);
+  }
+  for (const auto& [object, file] : options.replacements) {
+    const std::string path = tree.path(tree.find(object));
+    if (!std::filesystem::is_regular_file(file)) {
+      throw InvalidInput("the child script " + file.string() + " for " + path + " does not exist");
+    }
+    auto script = scripts.begin();
+    while (script != scripts.end() && script->first != path) ++script;
+    if (script == scripts.end()) script = scripts.insert(script, {path, {}});
+    script->second = file;
+  }
+  return scripts;
+}
+
+}  // namespace
+
+struct ChildScripts::Python {
+  scripting::Interpreter interpreter;
+  py::object host;
+  py::object actuate;
+  py::object sense;
+  py::object finish;
+};
+
+ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options)
+    : python_(std::make_unique<Python>()) {
+  const py::gil_scoped_acquire gil;
+  const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
+  python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
+                             bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
+                             scripts_to_run(simulation, options), options.search_paths);
+  // Looked up once, called in every pass.
+  python_->actuate = python_->host.attr("actuate");
+  python_->sense = python_->host.attr("sense");
+  python_->finish = python_->host.attr("finish");
+}
+
+ChildScripts::~ChildScripts() {
+  const py::gil_scoped_acquire gil;
+  python_->actuate = python_->sense = python_->finish = python_->host = py::object();
+}
+
+void ChildScripts::actuate(World&, double) {
+  const py::gil_scoped_acquire gil;
+  python_->actuate();
+}
+
+void ChildScripts::sense(const World&, double) {
+  const py::gil_scoped_acquire gil;
+  python_->sense();
+}
+
+void ChildScripts::finish() {
+  const py::gil_scoped_acquire gil;
+  python_->finish();
+}
+
+int ChildScripts::failures() const {
+  const py::gil_scoped_acquire gil;
+  return python_->host.attr("failures").cast<int>();
+}
+
+}  // namespace bubblesim

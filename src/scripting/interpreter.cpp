@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpreter.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace bubblesim::scripting {
+namespace {
+
+namespace fs = std::filesystem;
+namespace py = pybind11;
+
+/// Where the Python package lies relative to the program <prefix>/lib/bubblesim/sim, in a development and in an install
+/// space alike.
+fs::path package_folder() {
+  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "python3" / "dist-packages";
+}
+
+void check(const PyStatus& status, const char* what) {
+  if (PyStatus_Exception(status) == 0) return;
+  throw std::runtime_error(std::string("Python could not start: ") + what + ": " +
+                           (status.err_msg != nullptr ? status.err_msg : "unknown error"));
+}
+
+void start() {
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.parse_argv = 0;
+  config.install_signal_handlers = 0;  // the program handles SIGINT and SIGTERM itself
+  config.buffered_stdio = 0;           // what scripts print shows at once and in order with our own lines
+  // Python derives its library's place from its program's name.
+  check(PyConfig_SetBytesString(&config, &config.program_name, BUBBLESIM_PYTHON), "its program name");
+  const PyStatus status = Py_InitializeFromConfig(&config);
+  PyConfig_Clear(&config);
+  check(status, "its library");
+}
+
+}  // namespace
+
+Interpreter::Interpreter() {
+  start();
+  try {
+    py::module_::import("sys").attr("path").attr("append")(package_folder().string());
+    py::module_::import("bubblesim.scripting.host");
+  } catch (const py::error_already_set& error) {
+    throw std::runtime_error(std::string("the Python package bubblesim cannot be imported: ") + error.what() +
+                             "\nDid you source the workspace's setup.bash?");
+  }
+  released_ = std::make_unique<py::gil_scoped_release>();
+}
+
+Interpreter::~Interpreter() {
+  released_.reset();
+  Py_FinalizeEx();
+}
+
+}  // namespace bubblesim::scripting
