@@ -32,9 +32,8 @@ class ObjectFunctions(ApiContext):
 
     def getObjectHandle(self, name: str) -> int:
         """Handle of the object called ``name``, wherever it is (old style)."""
-        return int(
-            self._world.find(name if name.startswith(("/", ".", ":")) else f"/{name}", self._script.object_handle)
-        )
+        path = name if name.startswith(("/", ".", ":")) else f"/{name}"
+        return int(self._world.find(path, self._script.object_handle))
 
     def getObjectAssociatedWithScript(self, script: int) -> int:
         """Handle of the object that the script is attached to."""

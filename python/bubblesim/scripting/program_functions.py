@@ -18,7 +18,10 @@ class ProgramFunctions(ApiContext):
     """Programs started by a script end with it."""
 
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
-        """Start a program of this package or on PATH; ``arguments`` is split as a shell would. Returns its process id."""
+        """Start a program of this package or on PATH; ``arguments`` is split as a shell would.
+
+        Returns its process id.
+        """
         program = _find_program(file)
         process = subprocess.Popen([str(program), *shlex.split(arguments)])
         self._script.at_end.append(lambda: _end(process))
@@ -31,9 +34,8 @@ class ProgramFunctions(ApiContext):
         errors = (self.verbosity_errors, self.verbosity_scripterrors)
         warnings = (self.verbosity_warnings, self.verbosity_scriptwarnings)
         kind = "error" if level in errors else "warning" if level in warnings else "info"
-        print(
-            f"{kind}: {self._script.object_path}: {text}", file=sys.stdout if kind == "info" else sys.stderr, flush=True
-        )
+        stream = sys.stdout if kind == "info" else sys.stderr
+        print(f"{kind}: {self._script.object_path}: {text}", file=stream, flush=True)
 
     def addStatusbarMessage(self, text: str) -> None:
         """Write a message."""
