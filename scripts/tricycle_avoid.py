@@ -20,6 +20,7 @@ class TricycleAvoidNode:
         """Connects the topics; the node must be initialised."""
         self._controller = TricycleAvoid()
         self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._ended = False
         self._last_update = rospy.get_time()
         self._steering = rospy.Publisher("/steering", Float32, queue_size=1)
         self._speed = rospy.Publisher("/speed", Float32, queue_size=1)
@@ -37,7 +38,7 @@ class TricycleAvoidNode:
             now = rospy.get_time()
             dt, self._last_update = now - self._last_update, now
             command = self._controller.update(distance, dt)
-            if command is None:
+            if command is None or self._ended:
                 return
             if self._controller.stopped:
                 rospy.logwarn("/front_sonar is silent: stopping until it is back")
@@ -49,6 +50,7 @@ class TricycleAvoidNode:
 
     def _stop(self) -> None:
         with self._lock:
+            self._ended = True
             self._speed.publish(0.0)
         time.sleep(0.1)  # rospy sends from another thread, which ends with the node
 
