@@ -10,16 +10,11 @@ namespace {
 
 constexpr int kMaxContactsPerPair = 8;
 
-bool may_touch(const Collider& a, const Collider& b) {
-  if ((a.surface.collide_bitmask & b.surface.collide_bitmask) == 0) return false;
-  return a.model != b.model || (a.self_collide && a.link != b.link);
-}
-
 void touch(void* data, dGeomID first, dGeomID second) {
   auto& state = *static_cast<World::State*>(data);
   const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
   const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
-  if (!may_touch(a, b)) return;
+  if ((a.surface.collide_bitmask & b.surface.collide_bitmask) == 0 || a.link == b.link) return;
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
@@ -37,15 +32,22 @@ void touch(void* data, dGeomID first, dGeomID second) {
   }
 }
 
+void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
+
+dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
+
 }  // namespace
 
 void find_contacts(World::State& state) {
   dJointGroupEmpty(state.contacts.get());
-  dSpaceCollide(state.movers.get(), &state, touch);
-  dSpaceCollide2(reinterpret_cast<dGeomID>(state.movers.get()), reinterpret_cast<dGeomID>(state.statics.get()), &state,
-                 touch);
-  dSpaceCollide2(reinterpret_cast<dGeomID>(state.movers.get()), reinterpret_cast<dGeomID>(state.planes.get()), &state,
-                 touch);
+  // Models against each other; the shapes of one model do not meet, unless it says so.
+  dSpaceCollide(state.movers.get(), &state, touch_spaces);
+  for (const PlacedModel& model : state.models) {
+    if (model.space == nullptr) continue;
+    if (model.self_collide) dSpaceCollide(model.space, &state, touch);
+    dSpaceCollide2(as_geom(model.space), as_geom(state.statics.get()), &state, touch);
+    dSpaceCollide2(as_geom(model.space), as_geom(state.planes.get()), &state, touch);
+  }
 }
 
 }  // namespace bubblesim

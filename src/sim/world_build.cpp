@@ -74,6 +74,9 @@ class ModelBuilder {
         model_(model),
         id_(state.tree.add(ObjectKind::kModel, model.name, kNoObject, state.models.size())) {
     state.models.emplace_back();
+    if (model.is_static) return;
+    placed().space = dSimpleSpaceCreate(state.movers.get());
+    placed().self_collide = model.self_collide;
   }
 
   void build() {
@@ -111,15 +114,14 @@ class ModelBuilder {
   void add_collider(ObjectId link_id, const Link& link, const CollisionDescription& description) {
     const Pose pose = link.pose * description.pose;
     dGeomID geom = make_geom(description.geometry, pose);
-    state_.colliders.push_back(
-        {geom, link_id, id_, model_.self_collide, description.geometry, description.surface, description.pose});
+    state_.colliders.push_back({geom, link_id, id_, description.geometry, description.surface, description.pose});
     dGeomSetData(geom, &state_.colliders.back());
     if (std::holds_alternative<Plane>(description.geometry)) {
       dSpaceAdd(state_.planes.get(), geom);
     } else if (link.body == nullptr) {
       set_pose(geom, pose);  // goes into the statics' space when their extent is known
     } else {
-      dSpaceAdd(state_.movers.get(), geom);
+      dSpaceAdd(placed().space, geom);
       dGeomSetBody(geom, link.body);
       const Vector3 offset = description.pose.Pos() - link.centre_of_mass;
       const Quaternion& turn = description.pose.Rot();

@@ -22,7 +22,6 @@ struct Collider {
   dGeomID geom = nullptr;
   ObjectId link = kNoObject;
   ObjectId model = kNoObject;
-  bool self_collide = false;
   Geometry geometry;
   Surface surface;
   Pose in_link;
@@ -49,6 +48,8 @@ struct PlacedModel {
   Pose in_canonical_link;  // model frame in its canonical link's frame
   ObjectId canonical_link = kNoObject;
   std::vector<ObjectId> links;
+  dSpaceID space = nullptr;  // its moving geoms, inside World::State::movers
+  bool self_collide = false;
 };
 
 struct World::State {
@@ -65,7 +66,7 @@ struct World::State {
   // Destroyed in the reverse order: contacts and spaces before the world, its threading last.
   ode::ThreadingHandle threading;
   ode::WorldHandle world;
-  ode::SpaceHandle movers;   // geoms of bodies
+  ode::SpaceHandle movers;   // one space for each model that moves
   ode::SpaceHandle statics;  // geoms without a body, of finite size
   ode::SpaceHandle planes;   // infinite ones would spoil the tree of the statics
   ode::JointGroupHandle contacts;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of ODE's own speed is left: a pass of the tricycle in the simulator, alone and with a Python script of five
+// calls, beside the same scene written by hand on ODE. The candidates take turns, so that a busy machine slows them
+// alike.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bubblesim/child_scripts.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "bubblesim/simulation.hpp"
+#include "raw_tricycle.hpp"
+
+namespace {
+
+using namespace bubblesim;
+
+constexpr int kPassesPerRound = 400;
+constexpr double kSteering = 1.0;  // a circle that meets no wall
+constexpr double kSpeed = 0.5;
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+struct Candidate {
+  const char* name;
+  std::function<void()> pass;
+  std::vector<double> rounds;  // us a pass
+
+  void run() {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kPassesPerRound; ++i) pass();
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    rounds.push_back(took.count() / kPassesPerRound);
+  }
+};
+
+SceneDescription tricycle_without_script() {
+  SceneDescription scene = load_scene("tricycle");
+  for (ModelDescription& model : scene.models) model.child_script.clear();
+  return scene;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 41;
+
+  benchmarks::RawTricycle raw;
+  raw.drive(kSteering, kSpeed);
+
+  Simulation plain(tricycle_without_script());
+  plain.world().set_target_position(plain.world().tree().find("/Steering"), kSteering);
+  plain.world().set_target_velocity(plain.world().tree().find("/FrontMotor"), kSpeed);
+
+  Simulation scripted(tricycle_without_script());
+  ChildScripts scripts(scripted, nullptr, {{{"/Tricycle", FIVE_CALLS_SCRIPT}}, {}});
+  scripted.add(scripts);
+
+  // Both must simulate the same thing, or the comparison means nothing.
+  for (int i = 0; i < 100; ++i) {
+    raw.step();
+    plain.step();
+  }
+  const auto position = plain.world().pose(plain.world().tree().find("/base_link")).CoordPositionAdd({0.4, 0, 0.4});
+  const double apart = std::hypot(position.X() - raw.x(), position.Y() - raw.y());
+  std::printf("after 5 s both tricycles stand %.2g m apart\n", apart);
+
+  std::vector<Candidate> candidates = {{"ODE by hand", [&] { raw.step(); }, {}},
+                                       {"step", [&] { plain.step(); }, {}},
+                                       {"step with a 5-call script", [&] { scripted.step(); }, {}}};
+  for (int round = 0; round < rounds; ++round) {
+    for (Candidate& candidate : candidates) candidate.run();
+  }
+  const double limit = median(candidates.front().rounds);
+  std::printf("%-28s %12s %24s\n", "median of rounds", "us a pass", "speed relative to ODE");
+  for (const Candidate& candidate : candidates) {
+    const double time = median(candidate.rounds);
+    std::printf("%-28s %12.1f %24.3f\n", candidate.name, time, limit / time);
+  }
+  return apart < 1e-3 && scripts.failures() == 0 ? 0 : 1;
+}
