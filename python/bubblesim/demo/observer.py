@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fills a recording from the topics of a running simulation."""
+
+from __future__ import annotations
+
+import time
+
+import rospy
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float32
+from tf2_msgs.msg import TFMessage
+
+from bubblesim.demo.recording import Pose, Recording, Sample, heading_of
+
+
+class Observer:
+    """Listens to /clock, /tf and /front_sonar. The robot is the first frame that /tf tells of."""
+
+    def __init__(self, recording: Recording) -> None:
+        """Becomes a ROS node of this process."""
+        self._recording = recording
+        self._sim_time: float | None = None
+        self._frames: tuple[str, str] | None = None
+        rospy.init_node("bubblesim_demo", anonymous=True, disable_signals=True)
+        rospy.Subscriber("/clock", Clock, self._on_clock)
+        rospy.Subscriber("/tf", TFMessage, self._on_tf)
+        rospy.Subscriber("/front_sonar", Float32, self._on_sonar)
+
+    def _on_clock(self, message: Clock) -> None:
+        self._sim_time = message.clock.to_sec()
+
+    def _on_sonar(self, message: Float32) -> None:
+        self._recording.add_sonar(message.data)
+
+    def _on_tf(self, message: TFMessage) -> None:
+        for transform in message.transforms:
+            frames = (transform.header.frame_id, transform.child_frame_id)
+            self._frames = self._frames or frames
+            if frames == self._frames and self._sim_time is not None:
+                place, turn = transform.transform.translation, transform.transform.rotation
+                pose = Pose(place.x, place.y, place.z, heading_of(turn.x, turn.y, turn.z, turn.w))
+                self._recording.samples.append(Sample(time.monotonic(), self._sim_time, pose))
+
+    def close(self) -> None:
+        """Leaves the master before it goes."""
+        rospy.signal_shutdown("the demo is over")

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the driven path over the scene, seen from above."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import numpy.typing as npt
+
+import bubblesim
+from bubblesim.demo.recording import Pose, Recording
+
+mpl.use("Agg")  # no display needed
+
+from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Polygon
+
+Points = npt.NDArray[np.float64]
+
+_OBSTACLE = {"facecolor": "#c9ccd1", "edgecolor": "#6b7078", "linewidth": 0.8, "zorder": 1}
+_ROBOT_AT_START = {"facecolor": "none", "edgecolor": "#333333", "linewidth": 0.9, "linestyle": (0, (3, 2)), "zorder": 4}
+_ROBOT_AT_END = {"facecolor": "#e4572e", "edgecolor": "#7a2410", "linewidth": 0.8, "alpha": 0.85, "zorder": 4}
+
+
+def draw(scene: str, recording: Recording, file: Path) -> None:
+    """Writes a PNG: obstacles filled, the robot where it started and ended, its path coloured by simulated time."""
+    shapes = [shape for shape in bubblesim.Simulation(scene).collisions if shape.kind != "plane"]
+    obstacles = [outline(shape) for shape in shapes if shape.is_static]
+    robot = [outline(shape) for shape in shapes if not shape.is_static]
+    start, end = recording.samples[0].pose, recording.samples[-1].pose
+
+    figure, axes = plt.subplots(figsize=(7.5, 6.5), dpi=130, layout="constrained")
+    for points in obstacles:
+        axes.add_patch(Polygon(points, **_OBSTACLE))
+    for points in robot:
+        axes.add_patch(Polygon(points, **_ROBOT_AT_START))
+        axes.add_patch(Polygon(moved(points, start, end), **_ROBOT_AT_END))
+    _draw_path(figure, axes, recording)
+    axes.plot(start.x, start.y, "o", color="#333333", markersize=5, zorder=5, label="start")
+    axes.plot(end.x, end.y, "o", color="#e4572e", markeredgecolor="#7a2410", markersize=6, zorder=5, label="end")
+    _frame(axes, [*obstacles, *robot, np.array([[sample.pose.x, sample.pose.y] for sample in recording.samples])])
+    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.set_title(f"{scene}: {recording.distance():.1f} m in {recording.sim_duration():.1f} s of simulated time")
+    axes.grid(color="#e8e8e8", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.legend(loc="upper right")
+    figure.savefig(file)
+    plt.close(figure)
+
+
+def outline(shape: bubblesim.CollisionShape) -> Points:
+    """The shape's outline seen from above, n x 2, metres in the scene's frame."""
+    circle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+    if shape.kind == "sphere":
+        local = shape.size[0] * np.column_stack([np.cos(circle), np.sin(circle), np.zeros_like(circle)])
+        return np.asarray((local + shape.position)[:, :2])
+    if shape.kind == "box":
+        signs = np.array(np.meshgrid(*[(-0.5, 0.5)] * 3)).reshape(3, -1).T
+        local = signs * np.array(shape.size)
+    else:  # cylinder: its two rims
+        radius, length = shape.size
+        rim = radius * np.column_stack([np.cos(circle), np.sin(circle)])
+        local = np.vstack([np.column_stack([rim, np.full(len(rim), end)]) for end in (-length / 2.0, length / 2.0)])
+    world = local @ rotation_matrix(shape.orientation).T + shape.position
+    return convex_hull(world[:, :2])
+
+
+def rotation_matrix(quaternion: Sequence[float]) -> Points:
+    """3 x 3 matrix of a unit quaternion x, y, z, w."""
+    x, y, z, w = quaternion
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def convex_hull(points: Points) -> Points:
+    """Corners of the convex hull of points in the plane, counter-clockwise."""
+
+    def half(ordered: Iterable[tuple[float, ...]]) -> list[tuple[float, ...]]:
+        chain: list[tuple[float, ...]] = []
+        for point in ordered:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
+                chain.pop()
+            chain.append(point)
+        return chain[:-1]
+
+    ordered = sorted({tuple(point) for point in points.tolist()})
+    return np.array(half(ordered) + half(reversed(ordered)))
+
+
+def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def moved(points: Points, start: Pose, end: Pose) -> Points:
+    """Points fixed to a body, when the body has gone from one pose to the other."""
+    angle = end.heading - start.heading
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return np.asarray((points - [start.x, start.y]) @ turn.T + [end.x, end.y])
+
+
+def _draw_path(figure: Any, axes: Any, recording: Recording) -> None:
+    points = np.array([[sample.pose.x, sample.pose.y] for sample in recording.samples])
+    times = np.array([sample.sim_time for sample in recording.samples])
+    path = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap="viridis", linewidth=2.2, zorder=3)
+    path.set_array(times[:-1])
+    axes.add_collection(path)
+    figure.colorbar(path, ax=axes, label="simulated time [s]", shrink=0.85)
+
+
+def _frame(axes: Any, drawn: list[Points]) -> None:
+    corners = np.vstack(drawn)
+    margin = 0.05 * max(np.ptp(corners, axis=0).max(), 1.0)
+    axes.set_xlim(corners[:, 0].min() - margin, corners[:, 0].max() + margin)
+    axes.set_ylim(corners[:, 1].min() - margin, corners[:, 1].max() + margin)
