@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conversion_failure.hpp"
 
-#include <pybind11/pybind11.h>
-
-#include "message_codec.hpp"
+#include "message_walk.hpp"
+#include "python_ref.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -12,8 +11,8 @@ constexpr Py_ssize_t kShownLetters = 40;
 
 /// repr() of a value, or nothing when that fails.
 std::string repr(PyObject* value) {
-  const auto text = pybind11::reinterpret_steal<pybind11::object>(PyObject_ASCII(value));
-  const char* letters = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
+  const Ref text = Ref::steal(PyObject_ASCII(value));
+  const char* letters = text ? PyUnicode_AsUTF8(text.get()) : nullptr;
   if (letters == nullptr) {
     PyErr_Clear();
     return {};
@@ -29,8 +28,8 @@ std::string describe(PyObject* value) {
   const std::string type = Py_TYPE(value)->tp_name;
   if (PyUnicode_Check(value)) {
     if (PyUnicode_GetLength(value) <= kShownLetters) return type + " " + repr(value);
-    const auto start = pybind11::reinterpret_steal<pybind11::object>(PyUnicode_Substring(value, 0, kShownLetters));
-    return type + " " + repr(start.ptr()) + "...";
+    const Ref start = Ref::steal(PyUnicode_Substring(value, 0, kShownLetters));
+    return type + " " + repr(start.get()) + "...";
   }
   if (PyNumber_Check(value) && !PySequence_Check(value)) return type + " " + repr(value);
   if (PyList_Check(value) || PyTuple_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value)) {
@@ -68,11 +67,9 @@ bool ConversionFailure::inside(std::size_t index) {
 }
 
 void ConversionFailure::raise(std::string_view type_name) const {
-  if (PyErr_Occurred() == nullptr) {
-    const std::string text = std::string(type_name) + ": " + (path_.empty() ? "" : path_ + ": ") + reason_;
-    PyErr_SetString(message_error(), text.c_str());
-  }
-  throw pybind11::error_already_set();
+  if (PyErr_Occurred() != nullptr) return;
+  const std::string text = std::string(type_name) + ": " + (path_.empty() ? "" : path_ + ": ") + reason_;
+  PyErr_SetString(message_error(), text.c_str());
 }
 
 }  // namespace bubblesim::bindings

@@ -20,9 +20,8 @@ class ConversionFailure {
   bool inside(std::string_view field);
   bool inside(std::size_t index);
 
-  /// Raises MessageError, unless a Python exception of another origin (KeyboardInterrupt, MemoryError) is on its way.
-  /// Always throws pybind11::error_already_set.
-  [[noreturn]] void raise(std::string_view type_name) const;
+  /// Sets MessageError, unless a Python exception of another origin (KeyboardInterrupt, MemoryError) is set.
+  void raise(std::string_view type_name) const;
 
  private:
   std::string path_;

@@ -4,29 +4,16 @@
 
 #include <pybind11/pybind11.h>
 
-#include <cstdint>
+#include <vector>
 
-#include "bubblesim/messages/message_type.hpp"
-#include "bubblesim/messages/wire.hpp"
+#include "message_walk.hpp"
 
 namespace bubblesim::bindings {
 
-/// What decode() makes of a time or a duration. encode() takes all of them.
-enum class TimeForm : std::uint8_t {
-  kSecsNsecs,   ///< {'secs': int, 'nsecs': int}
-  kSecNanosec,  ///< {'sec': int, 'nanosec': int}
-  kFloat,       ///< seconds; a double has no room for the nanoseconds of today's date
-};
-
-struct CodecOptions {
-  TimeForm time = TimeForm::kSecsNsecs;
-};
-
 /// Once in the process, before all else here. Throws pybind11::error_already_set when NumPy cannot be imported.
-void init_message_codec();
-
-/// The Python class bubblesim.MessageError (a ValueError), which encode() and decode() raise. A borrowed reference.
-PyObject* message_error();
+inline void init_message_codec() {
+  if (!prepare_codec()) throw pybind11::error_already_set();
+}
 
 /// Appends the bytes of a message to `out`. `message` is a dict of field name -> value; missing fields get their
 /// default.
@@ -37,13 +24,22 @@ PyObject* message_error();
 ///   str (Latin-1)               other arrays: sequences
 /// Throws pybind11::error_already_set (MessageError) with type, field path, expected and found; `out` then holds a
 /// part.
-void encode(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out);
+inline void encode(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out) {
+  if (!encode_message(type, message, out)) throw pybind11::error_already_set();
+}
 
 /// The dict of a message's bytes: arrays of numbers become numpy arrays that own their data, uint8[] becomes bytes.
 /// Throws pybind11::error_already_set (MessageError) when the bytes are too few or too many for the type.
-pybind11::object decode(const messages::MessageType& type, messages::WireView bytes, CodecOptions options = {});
+inline pybind11::object decode(const messages::MessageType& type, messages::WireView bytes, CodecOptions options = {}) {
+  PyObject* message = decode_message(type, bytes, options);
+  if (message == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::object>(message);
+}
 
 /// A dict with all fields at their defaults.
-pybind11::object default_message(const messages::MessageType& type, CodecOptions options = {});
+inline pybind11::object default_message(const messages::MessageType& type, CodecOptions options = {}) {
+  const std::vector<std::uint8_t> zeros(default_size(type) + 1);  // one more, so that data() is never null
+  return decode(type, messages::WireView(zeros.data(), zeros.size() - 1), options);
+}
 
 }  // namespace bubblesim::bindings

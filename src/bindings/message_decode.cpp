@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The walk from wire bytes to a dict.
-#include <pybind11/pybind11.h>
-
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "bubblesim/messages/registry.hpp"
 #include "field_names.hpp"
-#include "message_codec.hpp"
+#include "message_walk.hpp"
 #include "numeric_arrays.hpp"
 
 namespace bubblesim::bindings {
 namespace {
 
-namespace py = pybind11;
 using messages::ArrayKind;
 using messages::Field;
 using messages::FieldKind;
@@ -30,17 +27,17 @@ class Decoder {
   /// All functions return an empty object when `failure` says why or a Python exception is set.
   ConversionFailure failure;
 
-  py::object message(const MessageType& type) {
-    auto dict = steal(PyDict_New());
+  Ref message(const MessageType& type) {
+    Ref dict = Ref::steal(PyDict_New());
     if (!dict) return dict;
     for (const Field& field : type.fields) {
-      const py::object value = this->field(field);
+      const Ref value = this->field(field);
       if (!value) {
         failure.inside(field.name);
         return {};
       }
       PyObject* const name = python_name(field);
-      if (name == nullptr || PyDict_SetItem(dict.ptr(), name, value.ptr()) != 0) return {};
+      if (name == nullptr || PyDict_SetItem(dict.get(), name, value.get()) != 0) return {};
     }
     return dict;
   }
@@ -50,9 +47,7 @@ class Decoder {
   }
 
  private:
-  static py::object steal(PyObject* object) { return py::reinterpret_steal<py::object>(object); }
-
-  py::object field(const Field& field) {
+  Ref field(const Field& field) {
     if (field.array == ArrayKind::kNone) return element(field);
     std::uint32_t count = field.fixed_length;
     if (field.array == ArrayKind::kVariable) {
@@ -62,7 +57,7 @@ class Decoder {
     // Before memory for them is taken: a wrong count may be anything.
     const std::size_t least_size = default_element_size(field);
     if (!has(count * least_size)) return {};
-    if (is_number(field.kind)) return steal(decode_numbers(field.kind, bytes_.take(count * least_size), count));
+    if (is_number(field.kind)) return Ref::steal(decode_numbers(field.kind, bytes_.take(count * least_size), count));
     if (least_size == 0 && count > kMostEmptyElements) {
       failure.set("an array of " + std::to_string(count) + " elements without content");
       return {};
@@ -70,46 +65,46 @@ class Decoder {
     return list(field, count);
   }
 
-  py::object list(const Field& field, std::uint32_t count) {
-    auto items = steal(PyList_New(count));
+  Ref list(const Field& field, std::uint32_t count) {
+    Ref items = Ref::steal(PyList_New(count));
     for (std::uint32_t i = 0; items && i < count; ++i) {
-      py::object item = element(field);
+      Ref item = element(field);
       if (!item) {
         failure.inside(i);
         return {};
       }
-      PyList_SET_ITEM(items.ptr(), i, item.release().ptr());
+      PyList_SET_ITEM(items.get(), i, item.release());
     }
     return items;
   }
 
-  py::object element(const Field& field) {
+  Ref element(const Field& field) {
     if (field.kind == FieldKind::kMessage) return message(*field.message);
     if (field.kind == FieldKind::kString) return string();
     if (!has(wire_size(field.kind))) return {};
     switch (field.kind) {
       case FieldKind::kBool:
-        return steal(PyBool_FromLong(bytes_.get<std::uint8_t>() != 0 ? 1 : 0));
+        return Ref::steal(PyBool_FromLong(bytes_.get<std::uint8_t>() != 0 ? 1 : 0));
       case FieldKind::kInt8:
-        return steal(PyLong_FromLong(bytes_.get<std::int8_t>()));
+        return Ref::steal(PyLong_FromLong(bytes_.get<std::int8_t>()));
       case FieldKind::kUint8:
-        return steal(PyLong_FromLong(bytes_.get<std::uint8_t>()));
+        return Ref::steal(PyLong_FromLong(bytes_.get<std::uint8_t>()));
       case FieldKind::kInt16:
-        return steal(PyLong_FromLong(bytes_.get<std::int16_t>()));
+        return Ref::steal(PyLong_FromLong(bytes_.get<std::int16_t>()));
       case FieldKind::kUint16:
-        return steal(PyLong_FromLong(bytes_.get<std::uint16_t>()));
+        return Ref::steal(PyLong_FromLong(bytes_.get<std::uint16_t>()));
       case FieldKind::kInt32:
-        return steal(PyLong_FromLong(bytes_.get<std::int32_t>()));
+        return Ref::steal(PyLong_FromLong(bytes_.get<std::int32_t>()));
       case FieldKind::kUint32:
-        return steal(PyLong_FromUnsignedLong(bytes_.get<std::uint32_t>()));
+        return Ref::steal(PyLong_FromUnsignedLong(bytes_.get<std::uint32_t>()));
       case FieldKind::kInt64:
-        return steal(PyLong_FromLongLong(bytes_.get<std::int64_t>()));
+        return Ref::steal(PyLong_FromLongLong(bytes_.get<std::int64_t>()));
       case FieldKind::kUint64:
-        return steal(PyLong_FromUnsignedLongLong(bytes_.get<std::uint64_t>()));
+        return Ref::steal(PyLong_FromUnsignedLongLong(bytes_.get<std::uint64_t>()));
       case FieldKind::kFloat32:
-        return steal(PyFloat_FromDouble(bytes_.get<float>()));
+        return Ref::steal(PyFloat_FromDouble(bytes_.get<float>()));
       case FieldKind::kFloat64:
-        return steal(PyFloat_FromDouble(bytes_.get<double>()));
+        return Ref::steal(PyFloat_FromDouble(bytes_.get<double>()));
       case FieldKind::kTime:
         return time<std::uint32_t>();
       case FieldKind::kDuration:
@@ -120,28 +115,28 @@ class Decoder {
     }
   }
 
-  py::object string() {
+  Ref string() {
     if (!has(sizeof(std::uint32_t))) return {};
     const auto size = bytes_.get<std::uint32_t>();
     if (!has(size)) return {};
     // Surrogates stand for bytes that are no UTF-8; encoding turns them back.
     const auto* letters = reinterpret_cast<const char*>(bytes_.take(size));
-    return steal(PyUnicode_DecodeUTF8(letters, size, "surrogateescape"));
+    return Ref::steal(PyUnicode_DecodeUTF8(letters, size, "surrogateescape"));
   }
 
   template <class T>
-  py::object time() {
+  Ref time() {
     const auto secs = bytes_.get<T>();
     const auto nsecs = bytes_.get<T>();
-    if (options_.time == TimeForm::kFloat) return steal(PyFloat_FromDouble(secs + 1e-9 * nsecs));
+    if (options_.time == TimeForm::kFloat) return Ref::steal(PyFloat_FromDouble(secs + 1e-9 * nsecs));
     static const Field names[2][2] = {{part("secs"), part("nsecs")}, {part("sec"), part("nanosec")}};
     const Field* parts = names[options_.time == TimeForm::kSecNanosec ? 1 : 0];
-    const auto dict = steal(PyDict_New());
-    const auto whole = steal(PyLong_FromLongLong(secs));
-    const auto rest = steal(PyLong_FromLongLong(nsecs));
-    const bool made = dict && whole && rest && PyDict_SetItem(dict.ptr(), python_name(parts[0]), whole.ptr()) == 0 &&
-                      PyDict_SetItem(dict.ptr(), python_name(parts[1]), rest.ptr()) == 0;
-    return made ? dict : py::object();
+    Ref dict = Ref::steal(PyDict_New());
+    const Ref whole = Ref::steal(PyLong_FromLongLong(secs));
+    const Ref rest = Ref::steal(PyLong_FromLongLong(nsecs));
+    const bool made = dict && whole && rest && PyDict_SetItem(dict.get(), python_name(parts[0]), whole.get()) == 0 &&
+                      PyDict_SetItem(dict.get(), python_name(parts[1]), rest.get()) == 0;
+    return made ? std::move(dict) : Ref();
   }
 
   static Field part(const char* name) {
@@ -162,16 +157,12 @@ class Decoder {
 
 }  // namespace
 
-py::object decode(const MessageType& type, WireView bytes, CodecOptions options) {
+PyObject* decode_message(const MessageType& type, WireView bytes, CodecOptions options) {
   Decoder decoder(bytes, options);
-  py::object message = decoder.message(type);
-  if (!message || !decoder.at_end()) decoder.failure.raise(type.name);
-  return message;
-}
-
-py::object default_message(const MessageType& type, CodecOptions options) {
-  const std::vector<std::uint8_t> zeros(default_size(type) + 1);  // one more, so that data() is never null
-  return decode(type, WireView(zeros.data(), zeros.size() - 1), options);
+  Ref message = decoder.message(type);
+  if (message && decoder.at_end()) return message.release();
+  decoder.failure.raise(type.name);
+  return nullptr;
 }
 
 }  // namespace bubblesim::bindings

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The walk from a dict to wire bytes.
-#include <pybind11/pybind11.h>
-
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -9,14 +7,13 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "field_names.hpp"
-#include "message_codec.hpp"
+#include "message_walk.hpp"
 #include "numeric_arrays.hpp"
 #include "python_values.hpp"
 
 namespace bubblesim::bindings {
 namespace {
 
-namespace py = pybind11;
 using messages::ArrayKind;
 using messages::Field;
 using messages::FieldKind;
@@ -31,7 +28,7 @@ class Encoder {
 
   bool message(const MessageType& type, PyObject* value) {
     if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
-    const auto held = py::reinterpret_borrow<py::object>(value);  // own code of some value may drop it
+    const Ref held = Ref::borrow(value);  // own code of some value may drop it
     Py_ssize_t used = 0;
     Py_ssize_t position = 0;
     for (const Field& field : type.fields) {
@@ -61,15 +58,15 @@ class Encoder {
   bool field(const Field& field, PyObject* value) {
     if (field.array == ArrayKind::kNone) return element(field, value);
     if (is_number(field.kind)) return encode_numbers(field, value, out_, failure);
-    const auto held = py::reinterpret_borrow<py::object>(value);
-    const py::object items = as_items(field, value, failure);
+    const Ref held = Ref::borrow(value);
+    const Ref items = as_items(field, value, failure);
     if (!items) return false;
-    const Py_ssize_t count = PySequence_Fast_GET_SIZE(items.ptr());
+    const Py_ssize_t count = PySequence_Fast_GET_SIZE(items.get());
     if (!begin_array(field, static_cast<std::size_t>(count), out_, failure)) return false;
     for (Py_ssize_t i = 0; i < count; ++i) {
       // Reading an item may run code that changes the list.
-      if (i >= PySequence_Fast_GET_SIZE(items.ptr())) return failure.set("the list became shorter while it was read");
-      if (!element(field, PySequence_Fast_GET_ITEM(items.ptr(), i))) {
+      if (i >= PySequence_Fast_GET_SIZE(items.get())) return failure.set("the list became shorter while it was read");
+      if (!element(field, PySequence_Fast_GET_ITEM(items.get(), i))) {
         return failure.inside(static_cast<std::size_t>(i));
       }
     }
@@ -173,9 +170,11 @@ class Encoder {
 
 }  // namespace
 
-void encode(const MessageType& type, PyObject* message, messages::WireBuffer& out) {
+bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out) {
   Encoder encoder(out);
-  if (!encoder.message(type, message)) encoder.failure.raise(type.name);
+  if (encoder.message(type, message)) return true;
+  encoder.failure.raise(type.name);
+  return false;
 }
 
 }  // namespace bubblesim::bindings

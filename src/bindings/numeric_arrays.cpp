@@ -15,7 +15,6 @@
 namespace bubblesim::bindings {
 namespace {
 
-namespace py = pybind11;
 using messages::ArrayKind;
 using messages::Field;
 using messages::FieldKind;
@@ -95,12 +94,12 @@ bool encode_bytes(const Field& field, std::string_view bytes, WireBuffer& out, C
 
 /// Texts as arrays of bytes, as scripts that treat uint8[] as strings hand them over: one byte for each letter.
 bool encode_text(const Field& field, PyObject* text, WireBuffer& out, ConversionFailure& failure) {
-  const auto bytes = py::reinterpret_steal<py::object>(PyUnicode_AsLatin1String(text));
+  const Ref bytes = Ref::steal(PyUnicode_AsLatin1String(text));
   if (!bytes) {
     return clear_conversion_error() && failure.expected(array_name(field) + " or text of letters below 256", text);
   }
-  const auto size = static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.ptr()));
-  return encode_bytes(field, {PyBytes_AS_STRING(bytes.ptr()), size}, out, failure);
+  const auto size = static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.get()));
+  return encode_bytes(field, {PyBytes_AS_STRING(bytes.get()), size}, out, failure);
 }
 
 template <class To>
@@ -124,10 +123,10 @@ bool encode_items(const Field& field, PyObject* items, WireBuffer& out, Conversi
 template <class From, class To>
 bool encode_converted(const Field& field, PyArrayObject* array, int wide_type, WireBuffer& out,
                       ConversionFailure& failure) {
-  const auto wide = py::reinterpret_steal<py::object>(
-      PyArray_FromArray(array, PyArray_DescrFromType(wide_type), NPY_ARRAY_CARRAY_RO | NPY_ARRAY_FORCECAST));
+  const Ref wide =
+      Ref::steal(PyArray_FromArray(array, PyArray_DescrFromType(wide_type), NPY_ARRAY_CARRAY_RO | NPY_ARRAY_FORCECAST));
   if (!wide) return false;
-  auto* source = reinterpret_cast<PyArrayObject*>(wide.ptr());
+  auto* source = reinterpret_cast<PyArrayObject*>(wide.get());
   const auto count = static_cast<std::size_t>(PyArray_SIZE(source));
   if (!begin_array(field, count, out, failure)) return false;
   const auto* values = static_cast<const From*>(PyArray_DATA(source));
@@ -151,10 +150,10 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
                          PyArray_ITEMSIZE(array) == static_cast<npy_intp>(wire_size(field.kind)) &&
                          PyArray_ISNOTSWAPPED(array);
   if (same_type) {
-    const auto contiguous = py::reinterpret_steal<py::object>(
-        reinterpret_cast<PyObject*>(PyArray_GETCONTIGUOUS(array)));  // the array itself if it is
+    const Ref contiguous =
+        Ref::steal(reinterpret_cast<PyObject*>(PyArray_GETCONTIGUOUS(array)));  // the array itself if it is
     if (!contiguous) return false;
-    auto* source = reinterpret_cast<PyArrayObject*>(contiguous.ptr());
+    auto* source = reinterpret_cast<PyArrayObject*>(contiguous.get());
     if (!begin_array(field, static_cast<std::size_t>(PyArray_SIZE(source)), out, failure)) return false;
     out.put_bytes(PyArray_DATA(source), static_cast<std::size_t>(PyArray_NBYTES(source)));
     return true;
@@ -170,21 +169,18 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
       case 'f':
         return encode_converted<double, To>(field, array, NPY_FLOAT64, out, failure);
       case 'O': {
-        const py::object items = as_items(field, object, failure);
-        return items && encode_items<To>(field, items.ptr(), out, failure);
+        const Ref items = as_items(field, object, failure);
+        return items && encode_items<To>(field, items.get(), out, failure);
       }
       default:
-        return failure.set("expected " + array_name(field) + ", found numpy array of " +
-                           std::string(py::str(reinterpret_cast<PyObject*>(PyArray_DESCR(array)))));
+        return failure.set("expected " + array_name(field) + ", found numpy array of dtype kind '" + dtype->kind + "'");
     }
   });
 }
 
 }  // namespace
 
-void init_numeric_arrays() {
-  if (_import_array() < 0) throw py::error_already_set();
-}
+bool load_numpy() { return _import_array() >= 0; }
 
 bool begin_array(const Field& field, std::size_t count, WireBuffer& out, ConversionFailure& failure) {
   if (field.array == ArrayKind::kFixed) {
@@ -198,7 +194,7 @@ bool begin_array(const Field& field, std::size_t count, WireBuffer& out, Convers
   return true;
 }
 
-py::object as_items(const Field& field, PyObject* value, ConversionFailure& failure) {
+Ref as_items(const Field& field, PyObject* value, ConversionFailure& failure) {
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
   if (is_text || !PySequence_Check(value)) {
     failure.expected(array_name(field) + " as a sequence", value);
@@ -206,7 +202,7 @@ py::object as_items(const Field& field, PyObject* value, ConversionFailure& fail
   }
   PyObject* items = PySequence_Fast(value, "not iterable");
   if (items == nullptr && clear_conversion_error()) failure.expected(array_name(field) + " as a sequence", value);
-  return py::reinterpret_steal<py::object>(items);
+  return Ref::steal(items);
 }
 
 bool encode_numbers(const Field& field, PyObject* value, WireBuffer& out, ConversionFailure& failure) {
@@ -221,13 +217,13 @@ bool encode_numbers(const Field& field, PyObject* value, WireBuffer& out, Conver
   if (has_bytes && PyUnicode_Check(value)) return encode_text(field, value, out, failure);
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
   if (!is_text && PyObject_CheckBuffer(value)) {
-    const auto array = py::reinterpret_steal<py::object>(PyArray_FROM_O(value));
+    const Ref array = Ref::steal(PyArray_FROM_O(value));
     if (!array) return clear_conversion_error() && failure.expected(array_name(field), value);
-    return encode_array(field, reinterpret_cast<PyArrayObject*>(array.ptr()), out, failure);
+    return encode_array(field, reinterpret_cast<PyArrayObject*>(array.get()), out, failure);
   }
-  const py::object items = as_items(field, value, failure);
+  const Ref items = as_items(field, value, failure);
   return items && with_type(field.kind, [&](auto element) {
-           return encode_items<decltype(element)>(field, items.ptr(), out, failure);
+           return encode_items<decltype(element)>(field, items.get(), out, failure);
          });
 }
 

@@ -2,18 +2,19 @@
 // Array fields of bools and numbers, which cross as whole buffers wherever that is possible.
 #pragma once
 
-#include <pybind11/pybind11.h>
+#include <Python.h>
 
 #include <cstddef>
 
 #include "bubblesim/messages/message_type.hpp"
 #include "bubblesim/messages/wire.hpp"
 #include "conversion_failure.hpp"
+#include "python_ref.hpp"
 
 namespace bubblesim::bindings {
 
-/// Loads NumPy's C interface. Throws pybind11::error_already_set.
-void init_numeric_arrays();
+/// Loads NumPy's C interface. False: an exception is set.
+bool load_numpy();
 
 inline bool is_number(messages::FieldKind kind) {
   return kind <= messages::FieldKind::kFloat64 && kind != messages::FieldKind::kString;
@@ -24,7 +25,7 @@ bool begin_array(const messages::Field& field, std::size_t count, messages::Wire
                  ConversionFailure& failure);
 
 /// The items of a sequence that is no text: a list or tuple, the value itself if it is one. Empty: described.
-pybind11::object as_items(const messages::Field& field, PyObject* value, ConversionFailure& failure);
+Ref as_items(const messages::Field& field, PyObject* value, ConversionFailure& failure);
 
 /// False: described in `failure`, or a Python exception is set.
 bool encode_numbers(const messages::Field& field, PyObject* value, messages::WireBuffer& out,

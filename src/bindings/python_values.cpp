@@ -6,14 +6,12 @@
 namespace bubblesim::bindings {
 namespace {
 
-namespace py = pybind11;
-
 /// The one number of NumPy that will no longer be an index.
 bool is_numpy_bool(PyObject* value) { return std::strcmp(Py_TYPE(value)->tp_name, "numpy.bool_") == 0; }
 
 /// The value as a Python int: ints, NumPy integers, bools, and floats without a fraction, which is what Lua and
 /// divisions give.
-py::object as_int(PyObject* value, std::string_view expected, ConversionFailure& failure) {
+Ref as_int(PyObject* value, std::string_view expected, ConversionFailure& failure) {
   PyObject* number = nullptr;
   if (is_numpy_bool(value)) {
     number = PyLong_FromLong(PyObject_IsTrue(value));
@@ -27,7 +25,7 @@ py::object as_int(PyObject* value, std::string_view expected, ConversionFailure&
     return {};
   }
   if (number == nullptr && clear_conversion_error()) failure.expected(expected, value);
-  return py::reinterpret_steal<py::object>(number);
+  return Ref::steal(number);
 }
 
 template <class T>
@@ -67,7 +65,7 @@ bool read_time_dict(PyObject* dict, TimeParts<T>& time, ConversionFailure& failu
 
 template <class T>
 bool read_any_time(PyObject* value, TimeParts<T>& time, ConversionFailure& failure) {
-  const auto held = py::reinterpret_borrow<py::object>(value);
+  const Ref held = Ref::borrow(value);
   return PyDict_Check(value) ? read_time_dict(value, time, failure) : read_seconds(value, time, failure);
 }
 
@@ -80,17 +78,17 @@ bool read_double(PyObject* value, std::string_view expected, double& number, Con
 }
 
 bool read_signed(PyObject* value, std::string_view expected, std::int64_t& number, ConversionFailure& failure) {
-  const py::object integer = as_int(value, expected, failure);
+  const Ref integer = as_int(value, expected, failure);
   if (!integer) return false;
   int overflow = 0;
-  number = PyLong_AsLongLongAndOverflow(integer.ptr(), &overflow);
+  number = PyLong_AsLongLongAndOverflow(integer.get(), &overflow);
   return overflow == 0 || failure.expected(expected, value);
 }
 
 bool read_unsigned(PyObject* value, std::string_view expected, std::uint64_t& number, ConversionFailure& failure) {
-  const py::object integer = as_int(value, expected, failure);
+  const Ref integer = as_int(value, expected, failure);
   if (!integer) return false;
-  number = PyLong_AsUnsignedLongLong(integer.ptr());
+  number = PyLong_AsUnsignedLongLong(integer.get());
   if (PyErr_Occurred() == nullptr) return true;
   return clear_conversion_error() && failure.expected(expected, value);
 }

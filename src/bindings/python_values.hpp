@@ -3,7 +3,7 @@
 // failure, or when another Python exception is on its way. They may run Python code of the value's class.
 #pragma once
 
-#include <pybind11/pybind11.h>
+#include <Python.h>
 
 #include <cmath>
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 #include "bubblesim/messages/message_type.hpp"
 #include "conversion_failure.hpp"
+#include "python_ref.hpp"
 
 namespace bubblesim::bindings {
 
@@ -66,7 +67,7 @@ bool read_signed(PyObject* value, std::string_view expected, std::int64_t& numbe
 template <class T>
 bool read_number_slowly(PyObject* value, T& number, ConversionFailure& failure) {
   // Code of the value's own class may drop the last other reference to it.
-  const auto held = pybind11::reinterpret_borrow<pybind11::object>(value);
+  const Ref held = Ref::borrow(value);
   if constexpr (std::is_floating_point_v<T>) {
     double wide = 0;
     if (!read_double(value, expectation<T>(), wide, failure)) return false;

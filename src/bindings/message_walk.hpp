@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The codec with Python's own interface: a failure is a Python exception that is set. message_codec.hpp is the same for
+// callers that use pybind11, and says what is accepted.
+#pragma once
+
+#include <Python.h>
+
+#include <cstdint>
+
+#include "bubblesim/messages/message_type.hpp"
+#include "bubblesim/messages/wire.hpp"
+
+namespace bubblesim::bindings {
+
+/// What decode() makes of a time or a duration. encode() takes all of them.
+enum class TimeForm : std::uint8_t {
+  kSecsNsecs,   ///< {'secs': int, 'nsecs': int}
+  kSecNanosec,  ///< {'sec': int, 'nanosec': int}
+  kFloat,       ///< seconds; a double has no room for the nanoseconds of today's date
+};
+
+struct CodecOptions {
+  TimeForm time = TimeForm::kSecsNsecs;
+};
+
+/// The Python class bubblesim.MessageError (a ValueError). A borrowed reference; nullptr before prepare_codec().
+PyObject* message_error();
+
+/// Once in the process, before all else here. False: an exception is set.
+bool prepare_codec();
+
+/// Appends to `out`. False: an exception is set, and `out` holds a part of the message.
+bool encode_message(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out);
+
+/// A new reference. nullptr: an exception is set.
+PyObject* decode_message(const messages::MessageType& type, messages::WireView bytes, CodecOptions options);
+
+}  // namespace bubblesim::bindings
