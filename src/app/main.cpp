@@ -51,7 +51,7 @@ int run(const Options& options, Simulation& simulation, const ChildScripts& scri
       std::this_thread::sleep_for(std::chrono::duration<double>(kPausedPeriod));
       continue;
     }
-    pacer.wait_for(simulation.time());
+    if (!pacer.wait_for(simulation.time())) continue;
     simulation.step();
     if (options.strict && scripts.failures() > 0) return kScriptFailed;
   }
@@ -88,9 +88,9 @@ int run_scene(const Options& options, int& argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace bubblesim::app;
   watch_stop_signals();
-  const ParsedOptions parsed = parse_options(argc, argv);
-  if (!parsed.options) return parsed.exit_code;
   try {
+    const ParsedOptions parsed = parse_options(argc, argv);
+    if (!parsed.options) return parsed.exit_code;
     return run_scene(*parsed.options, argc, argv);
   } catch (const bubblesim::Diverged& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

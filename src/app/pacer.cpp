@@ -7,12 +7,13 @@
 namespace bubblesim::app {
 namespace {
 
-constexpr std::chrono::milliseconds kMostBehind{200};
+constexpr std::chrono::duration<double> kMostBehind{0.2};
+constexpr std::chrono::duration<double> kLongestWait{0.05};
 
 }  // namespace
 
-void Pacer::wait_for(double simulated) {
-  if (std::isinf(speed_)) return;
+bool Pacer::wait_for(double simulated) {
+  if (std::isinf(speed_)) return true;
   const Clock::time_point now = Clock::now();
   const auto restart = [&] {
     started_ = true;
@@ -20,13 +21,16 @@ void Pacer::wait_for(double simulated) {
     simulated_at_start_ = simulated;
   };
   if (!started_) restart();
-  const std::chrono::duration<double> since_start((simulated - simulated_at_start_) / speed_);
-  const Clock::time_point due = start_ + std::chrono::duration_cast<Clock::duration>(since_start);
-  if (now - due > kMostBehind) {
-    restart();
-    return;
+  const std::chrono::duration<double> due((simulated - simulated_at_start_) / speed_);
+  const std::chrono::duration<double> left = due - (now - start_);
+  if (-left > kMostBehind) restart();
+  if (left > kLongestWait) {
+    std::this_thread::sleep_for(kLongestWait);
+    return false;
   }
-  std::this_thread::sleep_until(due);
+  // Until a point in time, for the sum of many waits for a duration drifts.
+  std::this_thread::sleep_until(start_ + std::chrono::duration_cast<Clock::duration>(due));
+  return true;
 }
 
 }  // namespace bubblesim::app

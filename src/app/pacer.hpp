@@ -11,9 +11,10 @@ class Pacer {
   /// `speed`: simulated seconds per second; infinity never waits.
   explicit Pacer(double speed) : speed_(speed) {}
 
-  /// Waits until `simulated` seconds since the first call are due. A simulation that fell far behind goes on from where
-  /// it is instead of rushing after the time it lost.
-  void wait_for(double simulated);
+  /// Waits until `simulated` seconds since the first call are due, though never longer than a moment, so that the
+  /// caller can look for signals; returns whether they are due. A simulation that fell far behind goes on from where it
+  /// is instead of rushing after the time it lost.
+  bool wait_for(double simulated);
   /// Counts anew from the next call: after a pause.
   void restart() { started_ = false; }
 

@@ -3,7 +3,9 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <cstdio>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "bindings.hpp"
@@ -26,6 +28,12 @@ void publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
   bridge.publish(publisher, std::move(bytes));
 }
 
+/// Throws what publish() would throw while somebody listens.
+void check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
+  messages::WireBuffer bytes;
+  encode(bridge.message_type(publisher), message.ptr(), bytes);
+}
+
 EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, std::uint32_t queue_size,
                      bool latch) {
   const messages::MessageType& listed = listed_message(type);
@@ -38,6 +46,7 @@ using SharedFunction = std::shared_ptr<py::function>;
 
 SharedFunction share(py::function function) {
   return {new py::function(std::move(function)), [](py::function* dropped) {
+            if (Py_IsInitialized() == 0) return;  // Python is gone, and the function with it
             const py::gil_scoped_acquire gil;
             delete dropped;
           }};
@@ -46,9 +55,17 @@ SharedFunction share(py::function function) {
 EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string& type, py::function callback,
                      std::uint32_t queue_size, TimeForm time) {
   const messages::MessageType& listed = listed_message(type);
-  auto deliver = [&listed, time, function = share(std::move(callback))](messages::WireView bytes) {
+  auto deliver = [&listed, topic, time, function = share(std::move(callback))](messages::WireView bytes) {
     const py::gil_scoped_acquire gil;
-    (*function)(decode(listed, bytes, {time}));
+    py::object message;
+    try {
+      message = decode(listed, bytes, {time});
+    } catch (const py::error_already_set& error) {
+      // The fault of whoever sent it: no reason to end the script or the simulation.
+      std::fputs(("warning: a message on '" + topic + "' is left out: " + error.what() + "\n").c_str(), stderr);
+      return;
+    }
+    (*function)(message);
   };
   const py::gil_scoped_release release;
   return bridge.subscribe(topic, listed, queue_size, std::move(deliver));
@@ -64,6 +81,7 @@ void bind_bridge(py::module_& core) {
            py::arg("queue_size"), py::arg("time"), "`callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
            "Converts and sends a dict; does nothing when nobody listens.")
+      .def("check", &check, py::arg("publisher"), py::arg("message"), "Converts a dict without sending it.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)
       .def("shutdown_subscriber", &Bridge::shutdown_subscriber, without_gil)
       .def(

@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <chrono>
+
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
@@ -51,13 +53,15 @@ std::vector<CollisionShape> collisions(const Simulation& simulation) {
 
 /// Steps without the GIL, but looks at Python's signals now and then so that Ctrl-C ends a long call.
 void step(Simulation& simulation, std::uint64_t passes) {
-  constexpr std::uint64_t kPassesBetweenSignals = 256;
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kBetweenSignals{50};
+  Clock::time_point look = Clock::now() + kBetweenSignals;
   for (std::uint64_t done = 0; done < passes; ++done) {
-    if (done % kPassesBetweenSignals == kPassesBetweenSignals - 1) {
-      const py::gil_scoped_acquire gil;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    }
     simulation.step();
+    if (Clock::now() < look) continue;
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    look = Clock::now() + kBetweenSignals;
   }
 }
 

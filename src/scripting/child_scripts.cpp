@@ -5,6 +5,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
 #include "bubblesim/error.hpp"
 #include "interpreter.hpp"
 
@@ -34,6 +38,17 @@ std::vector<std::pair<std::string, std::filesystem::path>> scripts_to_run(const 
   return scripts;
 }
 
+/// Takes the GIL and calls. A Python exception, which must not outlive the interpreter, becomes a plain one.
+template <class Action>
+auto with_python(Action action) {
+  const py::gil_scoped_acquire gil;
+  try {
+    return action();
+  } catch (const py::error_already_set& error) {
+    throw std::runtime_error(std::string("the script host failed: ") + error.what());
+  }
+}
+
 }  // namespace
 
 struct ChildScripts::Python {
@@ -42,44 +57,48 @@ struct ChildScripts::Python {
   py::object actuate;
   py::object sense;
   py::object finish;
+  bool finished = false;
 };
 
 ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options)
     : python_(std::make_unique<Python>()) {
-  const py::gil_scoped_acquire gil;
-  const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
-  python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
-                             bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
-                             scripts_to_run(simulation, options), options.search_paths);
-  // Looked up once, called in every pass.
-  python_->actuate = python_->host.attr("actuate");
-  python_->sense = python_->host.attr("sense");
-  python_->finish = python_->host.attr("finish");
+  with_python([&] {
+    const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
+    python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
+                               bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
+                               scripts_to_run(simulation, options), options.search_paths);
+    // Looked up once, called in every pass.
+    python_->actuate = python_->host.attr("actuate");
+    python_->sense = python_->host.attr("sense");
+    python_->finish = python_->host.attr("finish");
+  });
 }
 
 ChildScripts::~ChildScripts() {
+  try {
+    finish();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
   const py::gil_scoped_acquire gil;
   python_->actuate = python_->sense = python_->finish = python_->host = py::object();
 }
 
 void ChildScripts::actuate(World&, double) {
-  const py::gil_scoped_acquire gil;
-  python_->actuate();
+  with_python([&] { python_->actuate(); });
 }
 
 void ChildScripts::sense(const World&, double) {
-  const py::gil_scoped_acquire gil;
-  python_->sense();
+  with_python([&] { python_->sense(); });
 }
 
 void ChildScripts::finish() {
-  const py::gil_scoped_acquire gil;
-  python_->finish();
+  if (std::exchange(python_->finished, true)) return;
+  with_python([&] { python_->finish(); });
 }
 
 int ChildScripts::failures() const {
-  const py::gil_scoped_acquire gil;
-  return python_->host.attr("failures").cast<int>();
+  return with_python([&] { return python_->host.attr("failures").cast<int>(); });
 }
 
 }  // namespace bubblesim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpreter.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -41,7 +42,7 @@ void start() {
 Interpreter::Interpreter() {
   start();
   try {
-    py::module_::import("sys").attr("path").attr("append")(package_folder().string());
+    py::module_::import("sys").attr("path").attr("insert")(0, package_folder().string());
     py::module_::import("bubblesim.scripting.host");
   } catch (const py::error_already_set& error) {
     throw std::runtime_error(std::string("the Python package bubblesim cannot be imported: ") + error.what() +
@@ -52,7 +53,16 @@ Interpreter::Interpreter() {
 
 Interpreter::~Interpreter() {
   released_.reset();
-  Py_FinalizeEx();
+  // Finalizing would wait for ever for a thread of a script that does not end.
+  try {
+    if (py::module_::import("bubblesim.scripting.threads").attr("ended")().cast<bool>()) {
+      Py_FinalizeEx();
+      return;
+    }
+  } catch (const py::error_already_set& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  // The threads stay where they are, without the GIL, until the process is gone.
 }
 
 }  // namespace bubblesim::scripting

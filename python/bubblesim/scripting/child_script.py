@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from bubblesim.scripting.output import write_line
 from bubblesim.scripting.source import ScriptSourceError, load_source
 
 if TYPE_CHECKING:
@@ -33,14 +33,13 @@ class ChildScript:
         self.object_handle = object_handle
         self.file = file
         self.alive = True
-        self.at_end: list[Hook] = []  # undoes what the script made: publishers, programs
+        self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self._started = False
-        self._globals: dict[str, Any] = {
-            "__name__": f"child_script_{object_path.strip('/').replace('/', '_')}",
-            "__file__": str(file),
-            "self": SimpleNamespace(),
-            "require": self._require,
-        }
+        # A real module, for dataclasses and pickle look up the module of what a script defines.
+        self._module = ModuleType(f"child_script_{object_path.strip('/').replace('/', '_')}")
+        sys.modules[self._module.__name__] = self._module
+        self._globals: dict[str, Any] = self._module.__dict__
+        self._globals.update(__file__=str(file), self=SimpleNamespace(), require=self._require)
         self._globals.update(host.make_modules(self))
         self._modules = {name: self._globals[name] for name in ("sim", "simROS", "simROS2")}
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
@@ -97,9 +96,7 @@ class ChildScript:
             action()
         except SystemExit:
             self._end()
-        except BaseException as error:
-            if isinstance(error, KeyboardInterrupt):
-                raise
+        except BaseException as error:  # Ctrl-C never arrives as KeyboardInterrupt: the node handles it itself
             self._fail(
                 f"error: child script of {self.object_path} failed in {what}{_place(error)} and is disabled:\n"
                 + _script_traceback(error).rstrip()
@@ -125,28 +122,34 @@ class ChildScript:
         return guarded
 
     def _fail(self, text: str) -> None:
-        print(text, file=sys.stderr, flush=True)
+        write_line(sys.stderr, text)
         self.host.failures += 1
         self._end()
 
     def _end(self) -> None:
         self.alive = False
         while self.at_end:
-            with contextlib.suppress(ValueError):  # the script had taken it down already
-                self.at_end.pop()()
+            _, undo = self.at_end.popitem()  # the last one first
+            try:
+                undo()
+            except Exception as error:  # must not keep the others from being taken down
+                write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")
 
 
-def _script_frames(error: BaseException) -> traceback.StackSummary:
-    """The frames of the script itself, without the functions of ours that it called or was called by."""
-    frames = traceback.extract_tb(error.__traceback__)
-    return traceback.StackSummary.from_list([f for f in frames if not f.filename.startswith(_OUR_FOLDER)])
+def _without_our_frames(report: traceback.TracebackException) -> traceback.TracebackException:
+    """Leave the frames of the script itself, not those of ours that it called or was called by; in causes, too."""
+    kept = [frame for frame in report.stack if not frame.filename.startswith(_OUR_FOLDER)]
+    report.stack = traceback.StackSummary.from_list(kept)
+    for earlier in (report.__cause__, report.__context__):
+        if earlier is not None:
+            _without_our_frames(earlier)
+    return report
 
 
 def _place(error: BaseException) -> str:
-    frames = _script_frames(error)
+    frames = _without_our_frames(traceback.TracebackException.from_exception(error)).stack
     return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
 
 
 def _script_traceback(error: BaseException) -> str:
-    lines = ["Traceback (most recent call last):\n", *_script_frames(error).format()]
-    return "".join([*lines, *traceback.format_exception_only(type(error), error)])
+    return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format())

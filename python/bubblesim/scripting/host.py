@@ -28,11 +28,11 @@ class ScriptHost:
         self.bridge = bridge
         self.search_paths = search_paths
         self.failures = 0
+        self.last_pass = False
+        placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         # Descendants before ancestors, siblings in the scene's order.
-        deepest_first = sorted(scripts, key=lambda script: -script[0].count("/"))
-        self.scripts = [
-            ChildScript(self, path, simulation.object(path).handle, Path(file)) for path, file in deepest_first
-        ]
+        placed.sort(key=lambda script: (-script[0].count("/"), script[1]))
+        self.scripts = [ChildScript(self, path, handle, file) for path, handle, file in placed]
 
     def make_modules(self, script: ChildScript) -> dict[str, Any]:
         """The modules that a script finds among its globals."""
@@ -54,6 +54,8 @@ class ScriptHost:
         """Call sysCall_sensing of all scripts."""
         for script in self.scripts:
             script.sense()
+        # A request to stop takes effect between passes, so that the last pass is the last for every phase of it.
+        self.last_pass = self.simulation.stopping
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and end what they started."""

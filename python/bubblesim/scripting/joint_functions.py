@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.scripting.context import ApiContext
+from bubblesim.scripting.context import ApiContext, as_number
 
 
 class JointFunctions(ApiContext):
@@ -23,7 +23,7 @@ class JointFunctions(ApiContext):
 
     def setJointTargetPosition(self, handle: int, position: float) -> None:
         """Let a position-controlled joint go to ``position``."""
-        self._world.set_target_position(self._resolve(handle), position)
+        self._world.set_target_position(self._resolve(handle), as_number(position, "setJointTargetPosition"))
 
     def getJointTargetVelocity(self, handle: int) -> float:
         """What a velocity-controlled joint holds."""
@@ -31,7 +31,7 @@ class JointFunctions(ApiContext):
 
     def setJointTargetVelocity(self, handle: int, velocity: float) -> None:
         """Let a velocity-controlled joint turn or slide at ``velocity``."""
-        self._world.set_target_velocity(self._resolve(handle), velocity)
+        self._world.set_target_velocity(self._resolve(handle), as_number(velocity, "setJointTargetVelocity"))
 
     def getJointTargetForce(self, handle: int) -> float:
         """The most that the joint's motor may apply."""
@@ -39,7 +39,7 @@ class JointFunctions(ApiContext):
 
     def setJointTargetForce(self, handle: int, force: float) -> None:
         """Limit what the joint's motor may apply."""
-        self._world.set_max_force(self._resolve(handle), abs(force))
+        self._world.set_max_force(self._resolve(handle), abs(as_number(force, "setJointTargetForce")))
 
     def setJointMaxForce(self, handle: int, force: float) -> None:
         """Limit what the joint's motor may apply (old name)."""

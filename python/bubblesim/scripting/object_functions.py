@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.scripting import rotations
-from bubblesim.scripting.context import ApiContext
+from bubblesim.scripting.context import ApiContext, as_handle, as_numbers
 
 Vector = list[float]
 WORLD = ApiContext.handle_world
@@ -19,12 +19,18 @@ class ObjectFunctions(ApiContext):
     def getObject(self, path: str, options: Mapping[str, Any] | None = None) -> int:
         """Handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
 
-        Options: ``index`` picks one of several matches, ``noError`` returns -1 when there is none.
+        Options: ``index`` picks one of several matches, ``noError`` returns -1 when there is none, ``proxy`` is the
+        object that relative paths start at.
         """
         options = options or {}
-        start = options.get("proxy", self._script.object_handle)
+        unknown = options.keys() - {"index", "noError", "proxy"}
+        if unknown:
+            raise ValueError(f"getObject has no option '{min(unknown)}'; it has index, noError and proxy")
+        if not isinstance(path, str):
+            raise TypeError(f"getObject takes a path such as '/Ball', found {type(path).__name__}")
+        start = self._resolve(options.get("proxy", self._script.object_handle))
         try:
-            return int(self._world.find(path, start, options.get("index", 0)))
+            return int(self._world.find(path, start, as_handle(options.get("index", 0))))
         except LookupError:
             if options.get("noError"):
                 return -1
@@ -86,7 +92,7 @@ class ObjectFunctions(ApiContext):
     def setObjectPose(self, handle: int, pose: Any, relative_to: Any = WORLD) -> None:
         """Put a model or link somewhere else. Also takes the old order (handle, relative_to, pose)."""
         pose, relative_to = _in_new_order(pose, relative_to)
-        self._set_pose(handle, list(pose), relative_to)
+        self._set_pose(handle, as_numbers(pose, 7, "setObjectPose"), relative_to)
 
     def getObjectPosition(self, handle: int, relative_to: int = WORLD) -> Vector:
         """[x, y, z] in metres."""
@@ -95,7 +101,8 @@ class ObjectFunctions(ApiContext):
     def setObjectPosition(self, handle: int, position: Any, relative_to: Any = WORLD) -> None:
         """Move a model or link. Also takes the old order (handle, relative_to, position)."""
         position, relative_to = _in_new_order(position, relative_to)
-        self._set_pose(handle, [*position, *self.getObjectPose(handle, relative_to)[3:]], relative_to)
+        moved = as_numbers(position, 3, "setObjectPosition")
+        self._set_pose(handle, [*moved, *self.getObjectQuaternion(handle, relative_to)], relative_to)
 
     def getObjectQuaternion(self, handle: int, relative_to: int = WORLD) -> Vector:
         """[qx, qy, qz, qw]."""
@@ -104,7 +111,8 @@ class ObjectFunctions(ApiContext):
     def setObjectQuaternion(self, handle: int, quaternion: Any, relative_to: Any = WORLD) -> None:
         """Turn a model or link. Also takes the old order (handle, relative_to, quaternion)."""
         quaternion, relative_to = _in_new_order(quaternion, relative_to)
-        self._set_pose(handle, [*self.getObjectPose(handle, relative_to)[:3], *quaternion], relative_to)
+        turned = as_numbers(quaternion, 4, "setObjectQuaternion")
+        self._set_pose(handle, [*self.getObjectPosition(handle, relative_to), *turned], relative_to)
 
     def getObjectOrientation(self, handle: int, relative_to: int = WORLD) -> Vector:
         """[alpha, beta, gamma] in radians."""
@@ -113,7 +121,8 @@ class ObjectFunctions(ApiContext):
     def setObjectOrientation(self, handle: int, angles: Any, relative_to: Any = WORLD) -> None:
         """Turn a model or link to Euler angles. Also takes the old order (handle, relative_to, angles)."""
         angles, relative_to = _in_new_order(angles, relative_to)
-        self.setObjectQuaternion(handle, rotations.quaternion_of_euler(angles), relative_to)
+        turned = rotations.quaternion_of_euler(as_numbers(angles, 3, "setObjectOrientation"))
+        self.setObjectQuaternion(handle, turned, relative_to)
 
     def getObjectMatrix(self, handle: int, relative_to: int = WORLD) -> Vector:
         """The upper three rows of the transformation matrix, 12 numbers row by row."""
@@ -126,14 +135,15 @@ class ObjectFunctions(ApiContext):
 
     def _frame(self, handle: int, relative_to: int) -> int | None:
         """The object whose frame is meant; None for the world's."""
-        if relative_to == self.handle_world:
+        reference = as_handle(relative_to)
+        if reference == self.handle_world:
             return None
-        if relative_to == self.handle_parent:
+        if reference == self.handle_parent:
             parent = int(self._world.parent(handle))
             return None if parent < 0 else parent
-        return self._resolve(relative_to)
+        return self._resolve(reference)
 
-    def _set_pose(self, handle: int, pose: Sequence[float], relative_to: int) -> None:
+    def _set_pose(self, handle: int, pose: Vector, relative_to: int) -> None:
         handle = self._resolve(handle)
         frame = self._frame(handle, relative_to)
         if frame is None:
@@ -144,4 +154,6 @@ class ObjectFunctions(ApiContext):
 
 def _in_new_order(value: Any, relative_to: Any) -> tuple[Any, int]:
     """Old scripts give the reference object before the value, new ones after it."""
-    return (relative_to, value) if isinstance(value, int) else (value, relative_to)
+    return (
+        (relative_to, value) if hasattr(value, "__index__") and not hasattr(value, "__len__") else (value, relative_to)
+    )

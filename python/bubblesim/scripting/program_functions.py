@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from bubblesim.scripting.context import ApiContext
+from bubblesim.scripting.output import write_line
 
 _SECONDS_TO_END = 1.0
 
@@ -24,20 +25,24 @@ class ProgramFunctions(ApiContext):
         """
         program = _find_program(file)
         process = subprocess.Popen([str(program), *shlex.split(arguments)])
-        self._script.at_end.append(lambda: _end(process))
+        self._script.at_end[process] = lambda: _end(process)
         return process.pid
 
-    def addLog(self, level: int, text: str) -> None:
+    def addLog(self, level: int, text: object) -> None:
         """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""
-        if level > self.verbosity_infos:
+        if isinstance(level, int) and level > self.verbosity_infos:
             return
         errors = (self.verbosity_errors, self.verbosity_scripterrors)
         warnings = (self.verbosity_warnings, self.verbosity_scriptwarnings)
         kind = "error" if level in errors else "warning" if level in warnings else "info"
         stream = sys.stdout if kind == "info" else sys.stderr
-        print(f"{kind}: {self._script.object_path}: {text}", file=stream, flush=True)
+        try:
+            shown = str(text)
+        except Exception:
+            shown = object.__repr__(text)
+        write_line(stream, f"{kind}: {self._script.object_path}: {shown}")
 
-    def addStatusbarMessage(self, text: str) -> None:
+    def addStatusbarMessage(self, text: object) -> None:
         """Write a message."""
         self.addLog(self.verbosity_scriptinfos, text)
 

@@ -32,10 +32,11 @@ def load_source(file: Path, search_paths: list[Path]) -> ScriptSource:
 
 
 def _compile(file: Path, folders: list[Path], including: tuple[Path, ...]) -> list[CodeType]:
+    file = file.resolve()
     if file in including:
         raise ScriptSourceError(f"{file}: includes itself through {including[-1]}")
     try:
-        lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+        lines = file.read_text(encoding="utf-8-sig").splitlines(keepends=True)
     except (OSError, UnicodeDecodeError) as error:
         raise ScriptSourceError(f"{file}: cannot be read: {error}") from error
     _check_language(file, lines)
@@ -50,10 +51,14 @@ def _compile(file: Path, folders: list[Path], including: tuple[Path, ...]) -> li
         elif words and not line.startswith("#"):
             break  # the header ends where the code starts
     try:
-        parts.append(compile("".join(lines), str(file), "exec"))
-    except (SyntaxError, ValueError) as error:
-        line_number = getattr(error, "lineno", None) or 1
-        raise ScriptSourceError(f"{file}:{line_number}: {error}") from error
+        # A script does not inherit this file's __future__ imports.
+        parts.append(compile("".join(lines), str(file), "exec", dont_inherit=True))
+    except SyntaxError as error:
+        place = f"{error.filename or file}:{error.lineno or 1}"
+        shown = f"\n    {error.text.strip()}" if error.text else ""
+        raise ScriptSourceError(f"{place}: {type(error).__name__}: {error.msg}{shown}") from error
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise ScriptSourceError(f"{file}:1: {error}") from error
     return parts
 
 

@@ -41,7 +41,7 @@ class TimeFunctions(ApiContext):
 
     def getSimulationState(self) -> int:
         """sim.simulation_advancing_running, simulation_paused or simulation_advancing_lastbeforestop."""
-        if self._simulation.stopping:
+        if self._script.host.last_pass:
             return self.simulation_advancing_lastbeforestop
         return self.simulation_paused if self._simulation.paused else self.simulation_advancing_running
 
