@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures dict <-> wire against roscpp's and rospy's serialization, side by side.
 
-    PYTHONPATH=BUILD/benchmarks/codec /usr/bin/python3 benchmarks/codec/codec.py [--rounds N]
+    PYTHONPATH=BUILD/benchmarks/codec /usr/bin/python3 benchmarks/codec/codec.py [--rounds N] [--processes N]
 
 Configure with -DBUBBLESIM_BUILD_BENCHMARKS=ON. All candidates take turns in every round, so that a busy machine slows
-them alike; the table shows the median of the rounds, in microseconds a message, and ratios of these medians.
+them alike. Where large buffers lie in memory shifts their copying by some per cent for the life of a process, so
+several processes measure. The table shows medians over the processes of the medians over their rounds, in microseconds
+a message, and of the ratios in each process.
 """
 
 from __future__ import annotations
 
 import argparse
 import io
+import multiprocessing
 import statistics
 import time
 from collections.abc import Callable
@@ -140,35 +143,52 @@ def candidates(type_name: str, message: dict[str, Any]) -> dict[str, Callable[[i
     return found
 
 
-def measure(runs: dict[str, Callable[[int], float]], rounds: int) -> dict[str, float]:
-    """Median seconds of one conversion by each candidate."""
+def measure(type_name: str, rounds: int) -> dict[str, float]:
+    """Median microseconds of one conversion by each candidate, in this process."""
+    runs = candidates(type_name, messages()[type_name])
     counts = {name: max(1, int(0.002 / max(run(3) / 3, 1e-8))) for name, run in runs.items()}
     samples: dict[str, list[float]] = {name: [] for name in runs}
     for _ in range(rounds):
         for name, run in runs.items():
             run(1 + counts[name] // 10)  # what ran before has left other data in the caches
-            samples[name].append(run(counts[name]) / counts[name])
+            samples[name].append(1e6 * run(counts[name]) / counts[name])
     return {name: statistics.median(values) for name, values in samples.items()}
+
+
+def measure_in_processes(type_name: str, rounds: int, processes: int) -> list[dict[str, float]]:
+    """What measure() gives in fresh processes, one after the other."""
+    with multiprocessing.get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
+        return pool.starmap(measure, [(type_name, rounds)] * processes, chunksize=1)
+
+
+def row(type_name: str, measured: list[dict[str, float]]) -> str:
+    """A line of the table."""
+
+    def column(ours: str, peer: str) -> str:
+        if peer not in measured[0]:
+            return f"{'-':>9}{'-':>8}"
+        ratio = statistics.median(took[ours] / took[peer] for took in measured)
+        return f"{statistics.median(took[peer] for took in measured):9.2f}{ratio:8.3f}"
+
+    encode, decode = (statistics.median(took[ours] for took in measured) for ours in ("encode", "decode"))
+    return (
+        f"{type_name:26}{encode:9.3f}{column('encode', 'roscpp_encode')}{column('encode', 'rospy_encode')}"
+        f"{decode:11.3f}{column('decode', 'rospy_decode')}"
+    )
 
 
 def main() -> None:
     """Prints the table."""
     parser = argparse.ArgumentParser(description="Measure dict <-> wire against roscpp and rospy.")
-    parser.add_argument("--rounds", type=int, default=201, help="turns that each candidate takes (default 201)")
-    rounds = parser.parse_args().rounds
+    parser.add_argument("--rounds", type=int, default=41, help="turns of each candidate in a process (default 41)")
+    parser.add_argument("--processes", type=int, default=9, help="processes that measure each type (default 9)")
+    options = parser.parse_args()
     print(
         f"{'us a message':26}{'encode':>9}{'roscpp':>9}{'ratio':>8}{'rospy':>9}{'ratio':>8}"
         f"{'decode':>11}{'rospy':>9}{'ratio':>8}"
     )
-    for type_name, message in messages().items():
-        took = {name: 1e6 * seconds for name, seconds in measure(candidates(type_name, message), rounds).items()}
-        roscpp = took.get("roscpp_encode")
-        versus = f"{roscpp:9.2f}{took['encode'] / roscpp:8.3f}" if roscpp else f"{'-':>9}{'-':>8}"
-        print(
-            f"{type_name:26}{took['encode']:9.3f}{versus}{took['rospy_encode']:9.2f}"
-            f"{took['encode'] / took['rospy_encode']:8.3f}{took['decode']:11.3f}{took['rospy_decode']:9.2f}"
-            f"{took['decode'] / took['rospy_decode']:8.3f}"
-        )
+    for type_name in messages():
+        print(row(type_name, measure_in_processes(type_name, options.rounds, options.processes)), flush=True)
 
 
 if __name__ == "__main__":
