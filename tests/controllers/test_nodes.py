@@ -13,7 +13,7 @@ from ros_support import REPOSITORY, RosCore, start, stop, wait_until
 
 SCRIPTS = REPOSITORY / "scripts"
 TOPICS = ("leftMotorSpeed", "/rightMotorSpeed", "/sensorTrigger", "/simTime")  # with and without leading slash
-FORWARD, BACKWARD, HUMAN = 3.1415927, -1.5707964, 1.0
+FORWARD, BACKWARD, HUMAN = 3.1415927, -3.1415927, 1.0
 
 Run = Callable[..., "subprocess.Popen[str]"]
 

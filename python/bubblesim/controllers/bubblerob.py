@@ -15,7 +15,7 @@ class WheelSpeeds:
 
 
 FORWARD = WheelSpeeds(left=math.pi, right=math.pi)
-BACK_IN_A_CURVE = WheelSpeeds(left=-math.pi / 2.0, right=-math.pi / 4.0)
+BACK_IN_A_CURVE = WheelSpeeds(left=-math.pi, right=-math.pi / 4.0)
 STOPPED = WheelSpeeds(left=0.0, right=0.0)
 BACKING_TIME = 3.0  # s of simulated time
 

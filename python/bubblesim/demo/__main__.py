@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import rosgraph
+import rosgraph.network
 
 from bubblesim.demo.processes import DemoError, Programs
 from bubblesim.demo.recording import Recording
@@ -66,6 +67,8 @@ def provide_master(programs: Programs, stop: Stop) -> None:
             raise DemoError(f"a simulator runs already on {rosgraph.get_master_uri()}: end it first")
         return
     uri = urllib.parse.urlparse(rosgraph.get_master_uri())
+    if not rosgraph.network.is_local_address(uri.hostname or ""):
+        raise DemoError(f"no master answers at {uri.geturl()}: start it there, or unset ROS_MASTER_URI")
     print(f"starting a roscore, as none answers at {uri.geturl()}", flush=True)
     programs.start("roscore", "roscore", "-p", str(uri.port or 11311))
     wait_for(rosgraph.is_master_online, f"a master at {uri.geturl()}", programs, stop)

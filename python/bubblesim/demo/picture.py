@@ -31,7 +31,7 @@ def draw(scene: str, recording: Recording, file: Path) -> None:
     """Writes a PNG: obstacles filled, the robot where it started and ended, its path coloured by simulated time."""
     shapes = [shape for shape in bubblesim.Simulation(scene).collisions if shape.kind != "plane"]
     obstacles = [outline(shape) for shape in shapes if shape.is_static]
-    robot = [outline(shape) for shape in shapes if not shape.is_static]
+    robot = [outline(shape) for shape in seen_of_robot([shape for shape in shapes if not shape.is_static])]
     start, end = recording.samples[0].pose, recording.samples[-1].pose
 
     figure, axes = plt.subplots(figsize=(7.5, 6.5), dpi=130, layout="constrained")
@@ -41,16 +41,21 @@ def draw(scene: str, recording: Recording, file: Path) -> None:
         axes.add_patch(Polygon(points, **_ROBOT_AT_START))
         axes.add_patch(Polygon(moved(points, start, end), **_ROBOT_AT_END))
     _draw_path(figure, axes, recording)
-    axes.plot(start.x, start.y, "o", color="#333333", markersize=5, zorder=5, label="start")
-    axes.plot(end.x, end.y, "o", color="#e4572e", markeredgecolor="#7a2410", markersize=6, zorder=5, label="end")
+    _mark(axes, "start", start, "#333333")
+    _mark(axes, "end", end, "#7a2410")
     _frame(axes, [*obstacles, *robot, np.array([[sample.pose.x, sample.pose.y] for sample in recording.samples])])
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     axes.set_title(f"{scene}: {recording.distance():.1f} m in {recording.sim_duration():.1f} s of simulated time")
     axes.grid(color="#e8e8e8", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.legend(loc="upper right")
-    figure.savefig(file)
+    figure.savefig(file, bbox_inches="tight")
     plt.close(figure)
+
+
+def seen_of_robot(shapes: list[bubblesim.CollisionShape]) -> list[bubblesim.CollisionShape]:
+    """Leaves out the spheres of links that have other shapes: they only model a wheel's contact."""
+    with_body = {shape.object_path for shape in shapes if shape.kind != "sphere"}
+    return [shape for shape in shapes if shape.kind != "sphere" or shape.object_path not in with_body]
 
 
 def outline(shape: bubblesim.CollisionShape) -> Points:
@@ -115,6 +120,14 @@ def _draw_path(figure: Any, axes: Any, recording: Recording) -> None:
     path.set_array(times[:-1])
     axes.add_collection(path)
     figure.colorbar(path, ax=axes, label="simulated time [s]", shrink=0.85)
+
+
+def _mark(axes: Any, text: str, pose: Pose, color: str) -> None:
+    axes.plot(pose.x, pose.y, "o", color=color, markersize=5, zorder=5)
+    box = {"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": color, "linewidth": 0.6, "alpha": 0.85}
+    axes.annotate(
+        text, (pose.x, pose.y), (0, -26), textcoords="offset points", ha="center", color=color, bbox=box, zorder=6
+    )
 
 
 def _frame(axes: Any, drawn: list[Points]) -> None:

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The demonstration as a user runs it, after the setup."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ros_support import RosCore, free_port, ros_environment, start, stop, wait_until
+
+
+def demo(folder: Path, port: int, *arguments: str) -> "subprocess.Popen[str]":
+    return start(
+        [sys.executable, "-m", "bubblesim.demo", *arguments],
+        ros_environment(port, folder / "roslog"),
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+
+
+def processes_with(text: str) -> list[str]:
+    """Command lines of running processes whose environment holds the text."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if int(folder.name) != os.getpid() and text in (folder / "environ").read_text(errors="replace"):
+                found.append((folder / "cmdline").read_text(errors="replace").replace("\0", " "))
+        except OSError:
+            continue
+    return found
+
+
+@pytest.mark.parametrize("scene", ["tricycle", "bubblerob", "ball"])
+def test_demo_drives_and_leaves_a_picture_and_no_process(scene: str, tmp_path: Path) -> None:
+    port = free_port()
+    process = demo(tmp_path, port, scene, "--seconds", "4")
+    output, _ = process.communicate(timeout=120)
+    assert process.returncode == 0, output
+    assert (tmp_path / f"demo-{scene}.png").read_bytes().startswith(b"\x89PNG")
+    assert "x real time" in output
+    assert "distance driven" in output
+    assert processes_with(f"ROS_MASTER_URI=http://localhost:{port}") == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_demo_ends_in_order_on_a_signal(number: signal.Signals, tmp_path: Path) -> None:
+    port = free_port()
+    process = demo(tmp_path, port)
+    for line in process.stdout:
+        if "x real time" in line:
+            break
+    process.send_signal(number)
+    output, _ = process.communicate(timeout=60)
+    assert process.returncode == 0, output
+    assert "real-time factor" in output
+    assert processes_with(f"ROS_MASTER_URI=http://localhost:{port}") == []
+
+
+def test_demo_says_why_the_simulator_ended(tmp_path: Path) -> None:
+    process = demo(tmp_path, free_port(), "tricycel")
+    output, _ = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "did you mean tricycle" in output
+
+
+def test_demo_uses_the_master_that_runs_and_leaves_it_as_it_was(tmp_path: Path, roscore: RosCore) -> None:
+    process = demo(tmp_path, roscore.port, "ball", "--seconds", "1")
+    output, _ = process.communicate(timeout=60)
+    assert process.returncode == 0, output
+    assert "starting a roscore" not in output
+    assert "/use_sim_time" not in roscore.run("rosparam", "list")
+    assert roscore.process.poll() is None
+
+
+def test_demo_refuses_a_master_with_a_simulator(tmp_path: Path, roscore: RosCore) -> None:
+    simulator = start(["rosrun", "bubblesim", "sim", "ball"], roscore.env, stdout=subprocess.DEVNULL)
+    try:
+        wait_until(lambda: "/sim_ros_interface" in roscore.nodes(), "the simulator")
+        process = demo(tmp_path, roscore.port, "ball", "--seconds", "1")
+        output, _ = process.communicate(timeout=60)
+        assert process.returncode == 1
+        assert "a simulator runs already" in output
+        assert simulator.poll() is None
+    finally:
+        stop(simulator)
