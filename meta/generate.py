@@ -13,19 +13,29 @@ import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import Any
+
+HERE = Path(__file__).resolve().parent
+PACKAGE = HERE.parent / "python" / "bubblesim"
+
+# What is shared with the run time lies in the Python package, which cannot be imported before the compiled module
+# exists. Its folder messages/ can, below an empty stand-in for the package.
+stand_in = ModuleType("bubblesim")
+stand_in.__path__ = [str(PACKAGE)]
+sys.modules["bubblesim"] = stand_in
 
 try:
     import em  # type: ignore[import-untyped]
-    import genmsg.gentools  # type: ignore[import-untyped]
 
     import rules
-    from packages import build_index
-    from specs import Specs, read_list
+    from bubblesim.messages.kinds import has_header
+    from bubblesim.messages.lists import read_list
+    from bubblesim.messages.names import split_name
+    from bubblesim.messages.packages import build_index
+    from bubblesim.messages.specs import Specs
 except ImportError as error:
     sys.exit(f"{error}; install ros-base-dev and use Debian's Python: cmake -DPython3_EXECUTABLE=/usr/bin/python3")
-
-HERE = Path(__file__).resolve().parent
 
 
 @dataclass(frozen=True)
@@ -54,11 +64,11 @@ class ServiceTable:
 def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
     """The tables of a genmsg.MsgSpec; kind ("msg" or "srv") keeps the C++ names of both apart."""
     return TypeTable(
-        label=f"{kind}_{rules.split_name(spec.full_name)[1]}",
+        label=f"{kind}_{split_name(spec.full_name)[1]}",
         name=rules.cpp_string(spec.full_name),
-        md5=genmsg.gentools.compute_md5(specs.context, spec),
-        definition=rules.cpp_string(genmsg.gentools.compute_full_text(specs.context, spec)),
-        has_header="true" if rules.has_header(spec.types) else "false",
+        md5=specs.md5(spec),
+        definition=rules.cpp_string(specs.full_text(spec)),
+        has_header="true" if has_header(spec.types) else "false",
         fields=[rules.field_row(f.name, f.base_type, f.is_array, f.array_len) for f in spec.parsed_fields()],
         constants=[rules.constant_row(c.name, c.type, c.val) for c in spec.constants],
     )
@@ -68,7 +78,7 @@ def service_table(specs: Specs, name: str, spec: Any) -> ServiceTable:
     """The tables of a genmsg.SrvSpec."""
     return ServiceTable(
         name=rules.cpp_string(name),
-        md5=genmsg.gentools.compute_md5(specs.context, spec),
+        md5=specs.md5(spec),
         request=type_table(specs, spec.request, "srv"),
         response=type_table(specs, spec.response, "srv"),
     )
@@ -89,12 +99,12 @@ def write_if_changed(path: Path, text: str) -> None:
 def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
     """Writes all files and removes those of packages that are no longer needed."""
     output.mkdir(parents=True, exist_ok=True)
-    packages = sorted({rules.split_name(name)[0] for name in [*specs.messages, *specs.services]})
+    packages = sorted({split_name(name)[0] for name in [*specs.messages, *specs.services]})
     texts: dict[Path, str] = {}
     for package in packages:
-        mine = [name for name in sorted(specs.messages) if rules.split_name(name)[0] == package]
+        mine = [name for name in sorted(specs.messages) if split_name(name)[0] == package]
         messages = [type_table(specs, specs.messages[name], "msg") for name in mine]
-        served = [name for name in sorted(specs.services) if rules.split_name(name)[0] == package]
+        served = [name for name in sorted(specs.services) if split_name(name)[0] == package]
         services = [service_table(specs, name, specs.services[name]) for name in served]
         types = messages + [half for service in services for half in (service.request, service.response)]
         context = {"package": package, "types": types, "messages": messages, "services": services}
@@ -146,12 +156,13 @@ def main(arguments: list[str]) -> int:
     specs = Specs(index)
     messages = read_list(options.messages, shown_path(options.messages), problems)
     services = read_list(options.services, shown_path(options.services), problems)
-    specs.load(messages, "msg", problems)
-    specs.load(services, "srv", problems)
+    specs.load_list(messages, "msg", problems)
+    specs.load_list(services, "srv", problems)
     if problems:
         print("\n".join(problems), file=sys.stderr)
         return 1
     own = [options.messages, options.services, *HERE.glob("*.py"), *HERE.glob("templates/*.em")]
+    own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]
     inputs = {path.absolute() for path in [*own, *specs.files, *index.watched]}
     write_tables(specs, sorted(inputs), options.output)
     return 0

@@ -5,27 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-# Spelling in a .msg file -> FieldKind in message_type.hpp. Anything else names another message.
-FIELD_KINDS = {
-    "bool": "kBool",
-    "int8": "kInt8",
-    "byte": "kInt8",
-    "uint8": "kUint8",
-    "char": "kUint8",
-    "int16": "kInt16",
-    "uint16": "kUint16",
-    "int32": "kInt32",
-    "uint32": "kUint32",
-    "int64": "kInt64",
-    "uint64": "kUint64",
-    "float32": "kFloat32",
-    "float64": "kFloat64",
-    "string": "kString",
-    "time": "kTime",
-    "duration": "kDuration",
-}
+from bubblesim.messages.kinds import KINDS, is_builtin
 
-HEADER = "std_msgs/Header"
+# Spelling in a .msg file -> FieldKind in message_type.hpp.
+FIELD_KINDS = {spelling: f"k{kind.capitalize()}" for spelling, kind in KINDS.items()}
 
 
 @dataclass(frozen=True)
@@ -46,11 +29,6 @@ class ConstantRow:
     name: str
     kind: str
     value: str
-
-
-def is_builtin(base_type: str) -> bool:
-    """Whether a type has a kind of its own, in contrast to the messages made of such types."""
-    return base_type in FIELD_KINDS
 
 
 def cpp_string(text: str) -> str:
@@ -84,14 +62,3 @@ def constant_row(name: str, base_type: str, value: bool | int | float | str) -> 
     """The table line of a constant; the value stays text, which loses nothing of 64-bit integers and doubles."""
     text = str(int(value)) if isinstance(value, bool) else repr(value) if isinstance(value, float) else str(value)
     return ConstantRow(name=cpp_string(name.strip()), kind=FIELD_KINDS[base_type], value=cpp_string(text))
-
-
-def has_header(field_types: list[str]) -> bool:
-    """Whether roscpp and rospy write the sequence number of such a message: a header comes first."""
-    return bool(field_types) and field_types[0] == HEADER
-
-
-def split_name(name: str) -> tuple[str, str]:
-    """`geometry_msgs/Twist` -> ("geometry_msgs", "Twist")."""
-    package, _, short = name.partition("/")
-    return package, short

@@ -135,9 +135,10 @@ def test_installed_share_folders_are_found(generator: Generator) -> None:
 def test_a_missing_nested_type_names_the_chain(generator: Generator) -> None:
     (generator.folder / ".catkin_workspace").touch()
     files = {"msg/Outer.msg": "Inner inner\n", "msg/Inner.msg": "other_pkg/Gone gone\n"}
-    generator.add_package("src", "my_robot", files)
+    package = generator.add_package("src", "my_robot", files)
     assert generator.run("my_robot/Outer\n").stderr.strip() == (
-        "meta/messages.txt:1: other_pkg/Gone, which my_robot/Outer > my_robot/Inner contains, is not found; "
+        "meta/messages.txt:1: other_pkg/Gone, which my_robot/Outer > my_robot/Inner contains "
+        f"({package}/msg/Inner.msg:1), is not found; "
         "install its package or put it into the workspace"
     )
 
@@ -149,11 +150,28 @@ def test_a_type_that_contains_itself_is_reported(generator: Generator) -> None:
     assert generator.run("my_robot/A\n").stderr.strip() == error
 
 
-def test_an_unreadable_definition_is_reported_with_its_file(generator: Generator) -> None:
+def test_all_bad_lines_of_a_definition_are_reported_with_their_place(generator: Generator) -> None:
     (generator.folder / ".catkin_workspace").touch()
-    package = generator.add_package("src", "my_robot", {"msg/Bad.msg": "float32 a b c\n"})
-    error = generator.run("my_robot/Bad\n").stderr
-    assert error.startswith(f"meta/messages.txt:1: my_robot/Bad: {package}/msg/Bad.msg: ")
+    text = "float32 a b c\nint8 fine\nint8 LIMIT=400\nint16 fine\n"
+    package = generator.add_package("src", "my_robot", {"msg/Bad.msg": text})
+    first, second, third = generator.run("my_robot/Bad\n").stderr.splitlines()
+    assert first.startswith(f"meta/messages.txt:1: my_robot/Bad: {package}/msg/Bad.msg:1: Invalid declaration: float32")
+    assert second.startswith(f"{package}/msg/Bad.msg:3: Invalid constant value: cannot coerce [400]")
+    assert third.startswith(f"{package}/msg/Bad.msg:4: ")
+    assert "fine" in third
+
+
+def test_bad_lines_of_a_service_are_counted_through_both_halves(generator: Generator) -> None:
+    (generator.folder / ".catkin_workspace").touch()
+    package = generator.add_package("src", "my_robot", {"srv/Bad.srv": "int8 a\n---\nint8 a\nint8 a a\n"})
+    error = generator.run("", "my_robot/Bad\n").stderr
+    assert error.startswith(f"meta/services.txt:1: my_robot/Bad: {package}/srv/Bad.srv:4: Invalid declaration")
+
+
+def test_a_misspelt_builtin_type_is_recognised(generator: Generator) -> None:
+    (generator.folder / ".catkin_workspace").touch()
+    generator.add_package("src", "my_robot", {"msg/Cell.msg": "flaot32[4] v\n"})
+    assert "Cell.msg:1), is not found; did you mean float32?" in generator.run("my_robot/Cell\n").stderr
 
 
 def test_definitions_may_have_comments_in_any_encoding(generator: Generator) -> None:
@@ -174,6 +192,17 @@ def test_a_cpp_header_is_enough(generator: Generator) -> None:
     run = generator.run("my_robot/Cell\n", "", "--prefix-path", f"{generator.folder}/prefix")
     assert run.returncode == 0, run.stderr
     assert r'"float32 v # \"volt\"\n"' in generator.table("my_robot")
+
+
+def test_a_python_class_is_enough(generator: Generator, monkeypatch: pytest.MonkeyPatch) -> None:
+    module = generator.folder / "python" / "my_robot" / "msg" / "_Cell.py"
+    module.parent.mkdir(parents=True)
+    text = "float32 v\nstd_msgs/String name\n\n" + "=" * 80 + "\nMSG: std_msgs/String\nstring data\n"
+    module.write_text(f"raise RuntimeError('run')\nclass Cell:\n    _full_text = {text!r}\n")
+    monkeypatch.setenv("PYTHONPATH", str(generator.folder / "python"))
+    run = generator.run("my_robot/Cell\n")
+    assert run.returncode == 0, run.stderr
+    assert '"std_msgs/String name\\n"' in generator.table("my_robot")
 
 
 def test_help_names_the_options(generator: Generator) -> None:

@@ -54,9 +54,3 @@ def test_cpp_strings_mean_the_same_text(text: str, tmp_path: Path) -> None:
     subprocess.run(["g++", "-std=c++17", program, "-o", tmp_path / "text"], check=True)
     printed = subprocess.run([tmp_path / "text"], capture_output=True, check=True).stdout
     assert printed.decode() == text
-
-
-def test_only_a_leading_header_counts() -> None:
-    assert rules.has_header(["std_msgs/Header", "float64"])
-    assert not rules.has_header(["float64", "std_msgs/Header"])
-    assert not rules.has_header([])

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -12,10 +13,7 @@ from pathlib import Path
 
 from catkin_pkg.packages import find_package_paths  # type: ignore[import-untyped]
 
-SEPARATOR = "=" * 80 + "\n"  # between a type's own text and those of its nested types
-_LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
-_DEFINITION = re.compile(r"struct Definition<.*?return\s+((?:\"(?:[^\"\\]|\\.)*\"\s*)+);", re.DOTALL)
-_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+from bubblesim.messages.definition_texts import class_definition, header_definition
 
 
 @dataclass(frozen=True)
@@ -32,6 +30,7 @@ class PackageIndex:
 
     folders: dict[str, list[Path]] = field(default_factory=dict)
     include_folders: list[Path] = field(default_factory=list)
+    python_folders: list[Path] = field(default_factory=list)
     watched: list[Path] = field(default_factory=list)  # a package added here may shadow another
 
     def add(self, name: str, folder: Path) -> None:
@@ -62,7 +61,7 @@ class PackageIndex:
             if file.is_file():
                 # Comments may be in any encoding, and the text takes part in no checksum but as it is.
                 return Definition(file.read_text(encoding="utf-8", errors="surrogateescape"), file)
-        return self._find_in_headers(package, short, kind)
+        return self._find_in_generated(package, short, kind)
 
     def names(self, kind: str) -> list[str]:
         """All names that find() would find among .msg or .srv files (headers left out)."""
@@ -80,41 +79,42 @@ class PackageIndex:
         found = any((folder / kind).is_dir() for folder in self.folders.get(package, []) for kind in ("msg", "srv"))
         return found or any((folder / package).is_dir() for folder in self.include_folders)
 
-    def _find_in_headers(self, package: str, short: str, kind: str) -> Definition | None:
+    def _find_in_generated(self, package: str, short: str, kind: str) -> Definition | None:
         """Debian has packages with message headers but without the .msg files, which are in ros-*-msgs."""
         halves = [short] if kind == "msg" else [f"{short}Request", f"{short}Response"]
         for include in self.include_folders:
-            files = [include / package / f"{half}.h" for half in halves]
-            texts = [own_text(header_definition(file)) for file in files if file.is_file()]
-            if len(texts) == len(halves) and all(text is not None for text in texts):
-                return Definition("---\n".join(text or "" for text in texts), files[0])
+            headers = [include / package / f"{half}.h" for half in halves]
+            texts = [header_definition(header) for header in headers if header.is_file()]
+            if definition := _joined(texts, halves, headers[0]):
+                return definition
+        for folder in self.python_folders:
+            module = folder / package / kind / f"_{short}.py"
+            texts = [class_definition(module, half) for half in halves] if module.is_file() else []
+            if definition := _joined(texts, halves, module):
+                return definition
         return None
 
 
-def header_definition(header: Path) -> str | None:
-    """The full definition text that gencpp put into a message header, None when there is none."""
-    match = _DEFINITION.search(header.read_text(encoding="utf-8", errors="surrogateescape"))
-    if match is None:
-        return None
-    text = "".join(_LITERAL.findall(match[1]))
-    return re.sub(r"\\(.)", lambda escape: _ESCAPES.get(escape[1], escape[1]), text)
+def _joined(texts: list[str | None], halves: list[str], file: Path) -> Definition | None:
+    """The definition that has its halves in `texts`, None when one of them is missing."""
+    found = [text for text in texts if text is not None]
+    return Definition("---\n".join(found), file) if len(found) == len(halves) else None
 
 
-def own_text(full_definition: str | None) -> str | None:
-    """A full definition without the nested types that follow."""
-    return None if full_definition is None else full_definition.split(SEPARATOR, 1)[0]
-
-
-def build_index(project: Path, build: Path, prefixes: Iterable[Path], package_path: Iterable[Path]) -> PackageIndex:
+def build_index(
+    project: Path | None, build: Path | None, prefixes: Iterable[Path], package_path: Iterable[Path]
+) -> PackageIndex:
     """Looks through everything in the order in which it wins.
 
-    project: root of this project; build: its build folder, which may be the only one of the two inside the workspace;
-    prefixes: CMAKE_PREFIX_PATH; package_path: ROS_PACKAGE_PATH.
+    project: root of this project, None when only its installation is there; build: its build folder, which may be the
+    only one of the two inside the workspace; prefixes: CMAKE_PREFIX_PATH; package_path: ROS_PACKAGE_PATH.
     """
-    index = PackageIndex()
-    for source_space in _unique(_source_space(folder) for folder in _workspaces([project, build])):
+    index = PackageIndex(python_folders=[Path(entry) for entry in sys.path if entry])
+    workspaces = (find_workspace(start) for start in (project, build) if start)
+    for source_space in _unique(_source_space(workspace) for workspace in workspaces if workspace):
         index.add_source_space(source_space)
-    index.add_share(project / "msg")
+    if project:
+        index.add_share(project / "msg")
     for prefix in [*prefixes, Path("/usr")]:
         for source_space in _devel_source_spaces(prefix):
             index.add_source_space(source_space)
@@ -128,19 +128,34 @@ def build_index(project: Path, build: Path, prefixes: Iterable[Path], package_pa
     return index
 
 
+def machine_index() -> PackageIndex:
+    """What a program finds that runs in the present environment."""
+    prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
+    package_path = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
+    return build_index(
+        project_root(), None, [Path(path) for path in prefixes if path], [Path(path) for path in package_path if path]
+    )
+
+
+def project_root() -> Path | None:
+    """The root of this project's sources, None when this is an installation."""
+    root = Path(__file__).absolute().parents[3]  # not resolved: the workspace may have links to the sources
+    return root if (root / "meta" / "messages.txt").is_file() else None
+
+
+def find_workspace(start: Path) -> Path | None:
+    """The catkin workspace that a folder lies in."""
+    for folder in [start, *start.parents]:
+        if (folder / ".catkin_tools").exists() or (folder / ".catkin_workspace").exists():
+            return folder
+    return None
+
+
 def _package_name(manifest: Path) -> str | None:
     try:
         return (ElementTree.parse(manifest).findtext("name") or "").strip() or None
     except (OSError, ElementTree.ParseError):
         return None  # catkin reports a broken package.xml better than we could
-
-
-def _workspaces(starts: Iterable[Path]) -> Iterator[Path]:
-    for start in starts:
-        for folder in [start, *start.parents]:
-            if (folder / ".catkin_tools").exists() or (folder / ".catkin_workspace").exists():
-                yield folder
-                break
 
 
 def _source_space(workspace: Path) -> Path:

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The lists of types that a build compiles: meta/messages.txt and meta/services.txt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from bubblesim.messages.names import type_name
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of a list that names a type."""
+
+    place: str  # "meta/messages.txt:12"
+    name: str  # "geometry_msgs/Twist"
+
+
+def read_list(path: Path, shown_as: str, problems: list[str]) -> list[Entry]:
+    """The entries of messages.txt or services.txt; malformed and repeated lines go to `problems`."""
+    entries: dict[str, Entry] = {}
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        text = _content(line)
+        if not text:
+            continue
+        place = f"{shown_as}:{number}"
+        name = type_name(text)
+        if name is None:
+            problems.append(f"{place}: '{text}' is no type name, expected package/Type such as geometry_msgs/Twist")
+        elif name in entries:
+            problems.append(f"{place}: {name} is listed twice, first at {entries[name].place}; remove one")
+        else:
+            entries[name] = Entry(place, name)
+    return list(entries.values())
+
+
+def _content(line: str) -> str:
+    return line.partition("#")[0].strip()
