@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The node among other ROS nodes: how it pauses, ends and gets on without a master."""
+
+import signal
+from pathlib import Path
+
+import pytest
+
+from node_support import NAME, Node, write
+from ros_support import RosCore, free_port, ros_environment, wait_until
+
+TELL = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signals_end_it_cleanly(roscore: RosCore, tmp_path: Path, number: signal.Signals) -> None:
+    script = write(tmp_path / "script.py", TELL)
+    with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
+        node.wait_until_listed(roscore)
+        node.wait_for_output("init")
+        assert node.end(number) == 0
+        assert node.output.endswith("cleanup\n")
+        assert NAME not in roscore.nodes()
+
+
+@pytest.mark.parametrize("options", [["--paused"], ["--speed", "0.0001"]], ids=["paused", "slow"])
+def test_signals_end_it_while_it_waits(roscore: RosCore, tmp_path: Path, options: list[str]) -> None:
+    with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
+        node.wait_until_listed(roscore)
+        assert node.end() == 0
+
+
+def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
+    script = write(tmp_path / "script.py", TELL)
+    options = ["--paused", "--until", 0.5, "--child-script", f"/Ball={script}"]
+    with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
+        wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the service")
+        assert "init" not in node.output
+        roscore.run("rosservice", "call", f"{NAME}/unpause")
+        assert node.process.wait(timeout=20) == 0
+        assert node.output.endswith("init\ncleanup\n")
+
+
+def test_without_a_master_it_says_so_and_runs_on(tmp_path: Path) -> None:
+    port = free_port()
+    script = write(tmp_path / "script.py", TELL)
+    options = ["--until", 0.5, "--child-script", f"/Ball={script}"]
+    with Node(ros_environment(port, tmp_path), tmp_path / "log", "ball", *options) as node:
+        assert node.process.wait(timeout=20) == 0
+        assert "plugin 'ROSInterface': load failed (failed initialization)" in node.output
+        assert f"http://localhost:{port}" in node.output
+        assert "roscore" in node.output
+        assert node.output.endswith("init\ncleanup\n")
+
+
+def test_topics_appear_when_a_master_comes_late(tmp_path: Path) -> None:
+    port = free_port()
+    with Node(ros_environment(port, tmp_path), tmp_path / "log", "ball") as node:
+        node.wait_for_output("load failed")
+        with RosCore(tmp_path / "roslog", port) as core:
+            wait_until(lambda: NAME in core.state()["publishers"].get("/simulationTime", []), "the topic")
+            assert "data:" in core.run("rostopic", "echo", "-n", "1", "/simulationTime")
+            assert node.end() == 0
+
+
+def test_remappings_are_taken(roscore: RosCore, tmp_path: Path) -> None:
+    options = ["ball", "__name:=robot", "/simulationTime:=/other/time"]
+    with Node(roscore.env, tmp_path / "log", *options):
+        wait_until(lambda: "/robot" in roscore.state()["publishers"].get("/other/time", []), "the remapped topic")
+
+
+def test_diverging_physics_take_the_node_off_the_master(roscore: RosCore, tmp_path: Path) -> None:
+    code = """
+        def sysCall_init():
+            simROS.subscribe('/go', 'std_msgs/Empty', on_go)
+        def on_go(message): self.go = True
+        def sysCall_actuation():
+            if hasattr(self, 'go'): sim.setObjectPosition(sim.getObject('.'), [0, 0, -999999.9])
+    """
+    script = write(tmp_path / "script.py", code)
+    options = ["--speed", "max", "--child-script", f"/Ball={script}"]
+    with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
+        wait_until(lambda: "/go" in roscore.state()["subscribers"], "the subscriber")
+        roscore.run("rostopic", "pub", "-1", "/go", "std_msgs/Empty")
+        assert node.process.wait(timeout=20) == 4
+        assert NAME not in roscore.nodes()

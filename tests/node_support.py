@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The simulator's node as tests run it: to its end, or in the background."""
+
+import os
+import signal
+import subprocess
+import textwrap
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+
+from ros_support import DEADLINE, RosCore, built, start, stop, wait_until
+
+NAME = "/sim_ros_interface"
+
+
+def clean_environment(**changes: str) -> dict[str, str]:
+    """The environment without a trace of ROS or of a workspace."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))}
+    return kept | changes
+
+
+def run_sim(
+    *arguments: object, env: Mapping[str, str] | None = None, timeout: float = 3 * DEADLINE
+) -> "subprocess.CompletedProcess[str]":
+    """Runs the node until it ends by itself."""
+    command = [str(built("sim")), *map(str, arguments)]
+    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout, check=False)
+
+
+def run_script(
+    folder: Path, code: str, *arguments: object, scene: str = "ball", target: str = "/Ball", until: float = 0.2
+) -> "subprocess.CompletedProcess[str]":
+    """Runs a child script in a scene without ROS, as fast as it goes; the script is `folder`/script.py."""
+    file = write(folder / "script.py", code)
+    options = ["--no-ros", "--speed", "max", "--until", until, "--child-script", f"{target}={file}"]
+    return run_sim(scene, *options, *arguments)
+
+
+def write(file: Path, code: str) -> Path:
+    file.write_text(textwrap.dedent(code), encoding="utf-8")
+    return file
+
+
+class Node:
+    """The node in the background; it ends with the block, and `output` holds what it wrote."""
+
+    def __init__(self, env: dict[str, str], log: Path, *arguments: object) -> None:
+        self._log = log
+        with log.open("w") as output:
+            self.process = start(
+                [str(built("sim")), *map(str, arguments)], env, stdout=output, stderr=subprocess.STDOUT
+            )
+
+    @property
+    def output(self) -> str:
+        return self._log.read_text(encoding="utf-8")
+
+    def wait_for_output(self, text: str) -> None:
+        wait_until(lambda: text in self.output, f"'{text}' in the output")
+
+    def wait_until_listed(self, core: RosCore) -> None:
+        wait_until(lambda: NAME in core.nodes(), "the node to be listed")
+
+    def end(self, number: int = signal.SIGINT) -> int:
+        """Sends a signal to the node alone and returns its exit code."""
+        self.process.send_signal(number)
+        return self.process.wait(timeout=DEADLINE)
+
+    def __enter__(self) -> "Node":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        stop(self.process)
+
+
+def processes_with(text: str) -> list[str]:
+    """Command lines of running processes that contain `text`."""
+    found = []
+    for file in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            command = file.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue  # ended meanwhile
+        if text in command:
+            found.append(command)
+    return found
