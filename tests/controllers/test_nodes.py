@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The controllers' nodes as processes: how they start, hand over the wheels, and end."""
 
+import contextlib
+import os
 import signal
 import subprocess
 import time
@@ -28,6 +30,9 @@ def run(roscore: RosCore) -> Iterator[Run]:
         return processes[-1]
 
     yield start_one
+    for process in processes:  # all at once: each takes its time
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGINT)
     for process in processes:
         stop(process)
 

@@ -130,7 +130,7 @@ def run(scene: str, seconds: float, picture: Path) -> None:
 
     draw(scene, recording, picture)
     print(f"{recording.summary()}\npicture            {picture}", flush=True)
-    if recording.distance() < _LEAST_DISTANCE:
+    if recording.distance() < _LEAST_DISTANCE and not stop.requested:
         raise DemoError("nothing moved")
 
 

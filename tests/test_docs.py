@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the documentation tells a reader to type works: its bash and python blocks run, its links lead somewhere.
+
+A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->. Blocks marked console are for
+the reader only.
+"""
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ros_support import REPOSITORY, RosCore, start, stop, wait_until
+
+PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
+BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?) -->")
+LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
+CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
+
+PYTHON_ENDS_ALONE = [
+    (page, code)
+    for page in PAGES
+    for language, code in BLOCK.findall(page.read_text())
+    if language == "python" and CHILD_SCRIPT not in code
+]
+WITH_BASH = [page for page in PAGES if any(language == "bash" for language, _ in BLOCK.findall(page.read_text()))]
+
+
+def name(page: Path) -> str:
+    return str(page.relative_to(REPOSITORY))
+
+
+@pytest.fixture
+def simulator(request: pytest.FixtureRequest, roscore: RosCore) -> Iterator[RosCore]:
+    """The master with what the page runs in another terminal."""
+    command = OTHER_TERMINAL.search(request.param.read_text())
+    assert command, "a page with bash blocks names what runs meanwhile"
+    process = start(command[1].split(), roscore.env, stdout=subprocess.DEVNULL)
+    wait_until(lambda: "/tf" in roscore.state()["publishers"], "the simulation's topics")
+    yield roscore
+    stop(process)
+
+
+@pytest.mark.parametrize(("simulator", "page"), [(page, page) for page in WITH_BASH], indirect=["simulator"], ids=name)
+def test_bash_blocks_run(simulator: RosCore, page: Path) -> None:
+    for language, code in BLOCK.findall(page.read_text()):
+        if language == "bash":
+            for command in code.splitlines() if "=$(" not in code else [code]:
+                run = subprocess.run(
+                    ["bash", "-eu", "-c", command],
+                    env=simulator.env,
+                    capture_output=True,
+                    text=True,
+                    timeout=60,
+                    check=False,
+                )
+                assert run.returncode == 0, f"{command}\n{run.stdout}{run.stderr}"
+
+
+@pytest.mark.parametrize(("page", "code"), PYTHON_ENDS_ALONE)
+def test_python_blocks_run(page: Path, code: str) -> None:
+    subprocess.run([sys.executable, "-c", code], cwd=REPOSITORY, check=True, timeout=60)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_links_lead_somewhere(page: Path) -> None:
+    broken = [link for link in LINK.findall(page.read_text()) if not (page.parent / link).exists()]
+    assert broken == []
