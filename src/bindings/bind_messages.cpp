@@ -35,20 +35,27 @@ py::object decode_buffer(const std::string& name, const py::buffer& data, TimeFo
   return decode(type, messages::WireView(static_cast<const std::uint8_t*>(info.ptr), size), {time});
 }
 
-py::object constant_value(const messages::Constant& constant) {
-  return std::visit([](const auto& value) -> py::object { return py::cast(value); }, constant.value);
-}
-
-py::dict constants(const std::string& name) {
-  py::dict values;
-  for (const auto& constant : listed_message(name).constants) values[py::str(constant.name)] = constant_value(constant);
-  return values;
-}
-
+/// What is no UTF-8, as in comments of old definitions, becomes surrogates.
 py::str text_of(const std::string& bytes) {
   PyObject* text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape");
   if (text == nullptr) throw py::error_already_set();
   return py::reinterpret_steal<py::str>(text);
+}
+
+struct ConstantValue {
+  py::object operator()(const std::string& text) const { return text_of(text); }
+  template <class T>
+  py::object operator()(T number) const {
+    return py::cast(number);
+  }
+};
+
+py::dict constants(const std::string& name) {
+  py::dict values;
+  for (const auto& constant : listed_message(name).constants) {
+    values[py::str(constant.name)] = std::visit(ConstantValue(), constant.value);
+  }
+  return values;
 }
 
 /// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]".
@@ -91,8 +98,9 @@ void bind_messages(py::module_& core) {
       "default", [](const std::string& name, TimeForm time) { return default_message(listed_message(name), {time}); },
       py::arg("type_name"), py::arg("time_form") = TimeForm::kSecsNsecs, "A dict with all fields at their defaults.");
 
-  m.def("message_names", &messages::message_names, "All types, sorted; those that only occur in others are included.");
-  m.def("service_names", &messages::service_names, "All service types, sorted.");
+  m.def("message_names", &messages::message_names,
+        "All listed types, sorted; those that only occur in others are included.");
+  m.def("service_names", &messages::service_names, "All listed service types, sorted.");
   m.def(
       "md5", [](const std::string& name) { return listed_message(name).md5; }, py::arg("type_name"));
   m.def(
@@ -109,6 +117,7 @@ void bind_messages(py::module_& core) {
       py::arg("type_name"), "The .msg text, followed by those of nested types.");
   m.def("fields", &fields, py::arg("type_name"), "Field name -> type, in the order of the message.");
   m.def("constants", &constants, py::arg("type_name"), "Constant name -> value.");
+  bind_added_types(m);
 }
 
 }  // namespace bubblesim::bindings

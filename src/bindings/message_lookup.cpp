@@ -15,8 +15,18 @@ namespace py = pybind11;
 using messages::MessageType;
 using messages::ServiceType;
 
-[[noreturn]] void throw_unlisted(const std::string& what, const std::string& name, const std::string& list,
-                                 const std::vector<std::string>& similar) {
+/// Lets python/bubblesim/messages/runtime.py add the type from its definition on this machine. Returns without it when
+/// what reads definitions is not installed; raises MessageError when it fails.
+void add_from_definition(const char* function, const std::string& name) {
+  try {
+    py::module_::import("bubblesim.messages.runtime").attr(function)(name);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ImportError)) throw;
+  }
+}
+
+[[noreturn]] void throw_unknown(const std::string& what, const std::string& name, const std::string& list,
+                                const std::vector<std::string>& similar) {
   std::string hint;
   for (const std::string& candidate : similar) hint += (hint.empty() ? "" : " or ") + candidate;
   if (!hint.empty()) hint = "; did you mean " + hint + "?";
@@ -31,12 +41,16 @@ using messages::ServiceType;
 
 const MessageType& listed_message(const std::string& name) {
   if (const MessageType* type = messages::find_message(name)) return *type;
-  throw_unlisted("message", name, "meta/messages.txt", messages::similar_message_names(name));
+  add_from_definition("add_message", name);
+  if (const MessageType* type = messages::find_message(name)) return *type;
+  throw_unknown("message", name, "meta/messages.txt", messages::similar_message_names(name));
 }
 
 const ServiceType& listed_service(const std::string& name) {
   if (const ServiceType* type = messages::find_service(name)) return *type;
-  throw_unlisted("service", name, "meta/services.txt", messages::similar_service_names(name));
+  add_from_definition("add_service", name);
+  if (const ServiceType* type = messages::find_service(name)) return *type;
+  throw_unknown("service", name, "meta/services.txt", messages::similar_service_names(name));
 }
 
 }  // namespace bubblesim::bindings

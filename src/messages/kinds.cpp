@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of field kinds.
+#include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string>
 
 #include "bubblesim/messages/message_type.hpp"
 
@@ -36,6 +39,12 @@ constexpr std::array<KindRow, 15> kKinds{{
 std::uint32_t wire_size(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].wire_size; }
 
 std::string_view kind_name(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
+
+FieldKind kind_of(std::string_view name) {
+  const auto found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindRow& row) { return row.name == name; });
+  if (found == kKinds.end()) throw std::invalid_argument("'" + std::string(name) + "' is no kind of field");
+  return static_cast<FieldKind>(found - kKinds.begin());
+}
 
 std::size_t default_size(const MessageType& type) {
   std::size_t size = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns the generated tables into MessageType objects, at the first question about any of them.
+// Turns the generated tables into MessageType objects, at the first question about any of them, and keeps those that
+// are added later.
 #include "bubblesim/messages/registry.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -70,10 +72,9 @@ class Registry {
     }
     for (const auto& package : packages) {
       for (const auto& row : package.services) {
-        const MessageType* request = add(*row.request, halves_);
-        const MessageType* response = add(*row.response, halves_);
-        services_.push_back({row.name, row.md5, request, response});
-        service_by_name_.emplace(services_.back().name, &services_.back());
+        const MessageType* request = add(*row.request, others_);
+        const MessageType* response = add(*row.response, others_);
+        keep({row.name, row.md5, request, response}, services_);
       }
     }
     for (const auto& [field, name] : unresolved_) field->message = find(name);
@@ -82,27 +83,63 @@ class Registry {
 
   const MessageType* find_message(std::string_view name) const { return at(message_by_name_, name, "msg/"); }
   const ServiceType* find_service(std::string_view name) const { return at(service_by_name_, name, "srv/"); }
-  const std::deque<MessageType>& messages() const { return messages_; }
-  const std::deque<ServiceType>& services() const { return services_; }
+  std::vector<std::string> message_names() const { return sorted_names(messages_); }
+  std::vector<std::string> service_names() const { return sorted_names(services_); }
+
+  const MessageType& add_message(MessageType type) {
+    const std::unique_lock lock(mutex_);
+    return add(std::move(type));
+  }
+
+  const ServiceType& add_service(std::string name, std::string md5, MessageType request, MessageType response) {
+    const std::unique_lock lock(mutex_);
+    if (const ServiceType* known = same(service_by_name_, name, md5)) return *known;
+    ServiceType service{std::move(name), std::move(md5), nullptr, nullptr};
+    service.request = &add(std::move(request));
+    service.response = &add(std::move(response));
+    return *keep(std::move(service), other_services_);
+  }
 
  private:
   template <class T>
   using ByName = std::unordered_map<std::string_view, const T*>;
 
   const MessageType* add(const tables::MessageRow& row, std::deque<MessageType>& types) {
-    MessageType& type = types.emplace_back();
-    type.name = row.name;
-    type.md5 = row.md5;
-    type.definition = row.definition;
-    type.has_header = row.has_header;
+    MessageType& type = *keep({row.name, row.md5, row.definition, row.has_header, {}, {}}, types);
     type.fields.reserve(row.fields.count);  // unresolved_ points into it
     for (const auto& field : row.fields) {
       type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name)});
       if (field.message != nullptr) unresolved_.emplace_back(&type.fields.back(), field.message);
     }
     for (const auto& constant : row.constants) type.constants.push_back(make_constant(constant));
-    message_by_name_.emplace(type.name, &type);
     return &type;
+  }
+
+  const MessageType& add(MessageType type) {
+    if (const MessageType* known = same(message_by_name_, type.name, type.md5)) return *known;
+    for (Field& field : type.fields) field.key = field_key(field.name);
+    return *keep(std::move(type), others_);
+  }
+
+  MessageType* keep(MessageType type, std::deque<MessageType>& types) {
+    MessageType* kept = &types.emplace_back(std::move(type));
+    message_by_name_.emplace(kept->name, kept);
+    return kept;
+  }
+
+  ServiceType* keep(ServiceType type, std::deque<ServiceType>& types) {
+    ServiceType* kept = &types.emplace_back(std::move(type));
+    service_by_name_.emplace(kept->name, kept);
+    return kept;
+  }
+
+  /// The known type of that name, nullptr when there is none.
+  template <class T>
+  static const T* same(const ByName<T>& types, const std::string& name, const std::string& md5) {
+    const auto found = types.find(name);
+    if (found == types.end()) return nullptr;
+    if (found->second->md5 == md5) return found->second;
+    throw std::invalid_argument(name + " is known with md5 " + found->second->md5 + " and cannot become " + md5);
   }
 
   const MessageType* find(std::string_view name) const {
@@ -114,24 +151,27 @@ class Registry {
   }
 
   template <class T>
-  static const T* at(const ByName<T>& types, std::string_view name, std::string_view folder) {
+  const T* at(const ByName<T>& types, std::string_view name, std::string_view folder) const {
+    const std::shared_lock lock(mutex_);
     auto found = types.find(name);
     if (found == types.end()) found = types.find(without_folder(name, folder));
     return found == types.end() ? nullptr : found->second;
   }
 
+  mutable std::shared_mutex mutex_;  // for what is added after the construction: all but messages_ and services_
   // Deques: their elements stay where they are.
-  std::deque<MessageType> messages_;
-  std::deque<MessageType> halves_;
-  std::deque<ServiceType> services_;
+  std::deque<MessageType> messages_;        // listed
+  std::deque<MessageType> others_;          // halves of services, added types
+  std::deque<ServiceType> services_;        // listed
+  std::deque<ServiceType> other_services_;  // added
   ByName<MessageType> message_by_name_;
   ByName<ServiceType> service_by_name_;
   std::vector<std::pair<Field*, const char*>> unresolved_;
 };
 
-const Registry& registry() {
+Registry& registry() {
   // Never destroyed: threads of the bridge may still use a type while the process ends.
-  static const Registry& instance = *std::make_unique<Registry>().release();
+  static Registry& instance = *std::make_unique<Registry>().release();
   return instance;
 }
 
@@ -141,9 +181,15 @@ const MessageType* find_message(std::string_view name) { return registry().find_
 
 const ServiceType* find_service(std::string_view name) { return registry().find_service(name); }
 
-std::vector<std::string> message_names() { return sorted_names(registry().messages()); }
+const MessageType& add_message(MessageType type) { return registry().add_message(std::move(type)); }
 
-std::vector<std::string> service_names() { return sorted_names(registry().services()); }
+const ServiceType& add_service(std::string name, std::string md5, MessageType request, MessageType response) {
+  return registry().add_service(std::move(name), std::move(md5), std::move(request), std::move(response));
+}
+
+std::vector<std::string> message_names() { return registry().message_names(); }
+
+std::vector<std::string> service_names() { return registry().service_names(); }
 
 std::uint32_t field_key(std::string_view name) {
   static std::mutex mutex;

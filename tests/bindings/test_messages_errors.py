@@ -131,13 +131,36 @@ def test_long_values_are_shortened() -> None:
     assert len(error("std_msgs/Float64", {"data": "x" * 100_000})) < 200
 
 
-def test_unlisted_types_name_the_list_and_the_command() -> None:
+def test_unknown_types_name_the_list_and_the_command() -> None:
     with pytest.raises(codec.MessageError) as caught:
         codec.encode("geometry_msgs/Twits", {})
     assert str(caught.value) == (
-        "geometry_msgs/Twits is not among the message types of this build; did you mean geometry_msgs/Twist? "
-        "to add it, write its line into meta/messages.txt and run 'catkin build'"
+        "geometry_msgs/Twits is not among the message types of this build, and this machine has no definition of it; "
+        "did you mean geometry_msgs/Twist? to add it, install its package or put it into the workspace, and list it "
+        "in meta/messages.txt: rosrun bubblesim add_message geometry_msgs/Twits"
     )
+
+
+def test_unknown_services_name_their_list() -> None:
+    with pytest.raises(codec.MessageError, match=r"did you mean std_srvs/SetBool\?.*in meta/services\.txt: rosrun"):
+        codec.service_md5("std_srvs/SetBol")
+
+
+def test_unknown_types_may_have_meant_one_that_is_not_listed() -> None:
+    with pytest.raises(codec.MessageError, match="did you mean shape_msgs/SolidPrimitive"):
+        codec.md5("shape_msgs/SolidPrimitiv")
+
+
+@pytest.mark.parametrize("name", ["Twist", "std_msgs/Twist"])
+def test_the_right_type_of_the_wrong_package_is_recognised(name: str) -> None:
+    with pytest.raises(codec.MessageError, match="did you mean geometry_msgs/Twist"):
+        codec.md5(name)
+
+
+def test_services_are_no_messages() -> None:
+    with pytest.raises(codec.MessageError) as caught:
+        codec.md5("std_srvs/SetBool")
+    assert str(caught.value) == "std_srvs/SetBool is a service type, expected a message type"
 
 
 def test_short_messages_say_what_is_missing_where() -> None:

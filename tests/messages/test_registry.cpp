@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <variant>
@@ -115,6 +116,60 @@ TEST(Registry, AnswersManyThreadsAlike) {
   EXPECT_EQ(std::count(keys.begin(), keys.end(), keys[0]), 8);
 }
 
+MessageType small_type(const std::string& name, const std::string& md5) {
+  Field field;
+  field.name = "linear";
+  field.kind = FieldKind::kMessage;
+  field.message = find_message("geometry_msgs/Vector3");
+  return {name, md5, "geometry_msgs/Vector3 linear\n", false, {field}, {}};
+}
+
+TEST(AddedTypes, AreFoundAndHaveFieldKeys) {
+  const MessageType& added = add_message(small_type("added_msgs/Small", "1"));
+  EXPECT_EQ(find_message("added_msgs/msg/Small"), &added);
+  EXPECT_EQ(added.fields[0].key, field_key("linear"));
+}
+
+TEST(AddedTypes, AreNotAmongTheListedNames) {
+  add_message(small_type("added_msgs/Unnamed", "1"));
+  const std::vector<std::string> names = message_names();
+  EXPECT_FALSE(std::binary_search(names.begin(), names.end(), "added_msgs/Unnamed"));
+}
+
+TEST(AddedTypes, AreAddedOnce) {
+  const MessageType& first = add_message(small_type("added_msgs/Once", "1"));
+  EXPECT_EQ(&add_message(small_type("added_msgs/Once", "1")), &first);
+}
+
+TEST(AddedTypes, CannotReplaceADifferentType) {
+  add_message(small_type("added_msgs/Fixed", "1"));
+  EXPECT_THROW(add_message(small_type("added_msgs/Fixed", "2")), std::invalid_argument);
+  EXPECT_THROW(add_message(small_type("geometry_msgs/Twist", "2")), std::invalid_argument);
+}
+
+TEST(AddedTypes, MayBeServices) {
+  const ServiceType& added = add_service("added_msgs/Serve", "3", small_type("added_msgs/ServeRequest", "1"),
+                                         small_type("added_msgs/ServeResponse", "2"));
+  EXPECT_EQ(find_service("added_msgs/srv/Serve"), &added);
+  EXPECT_EQ(find_message("added_msgs/ServeResponse"), added.response);
+}
+
+TEST(AddedTypes, StayWhereTheyAreWhileThreadsAddMore) {
+  const MessageType& first = add_message(small_type("added_msgs/First", "1"));
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 4; ++thread) {
+    threads.emplace_back([thread] {
+      for (int i = 0; i < 200; ++i) {
+        add_message(small_type("added_msgs/Many" + std::to_string(i % 50 + thread), "1"));
+        find_message("added_msgs/First");
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(find_message("added_msgs/First"), &first);
+  EXPECT_EQ(first.fields[0].message, find_message("geometry_msgs/Vector3"));
+}
+
 TEST(DefaultSize, CountsLengthsAndFixedArrays) {
   EXPECT_EQ(default_size(*find_message("geometry_msgs/Twist")), 48U);
   // Header: seq, stamp, empty frame_id.
@@ -128,6 +183,8 @@ TEST(Kinds, HaveTheNamesAndSizesOfTheMessageLanguage) {
   EXPECT_EQ(kind_name(FieldKind::kFloat32), "float32");
   EXPECT_EQ(wire_size(FieldKind::kFloat32), 4U);
   EXPECT_EQ(kind_name(FieldKind::kMessage), "message");
+  EXPECT_EQ(kind_of("float32"), FieldKind::kFloat32);
+  EXPECT_THROW(kind_of("flaot32"), std::invalid_argument);
   EXPECT_EQ(wire_size(FieldKind::kString), 0U);
   EXPECT_EQ(wire_size(FieldKind::kTime), 8U);
 }

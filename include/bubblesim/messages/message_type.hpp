@@ -84,4 +84,7 @@ std::size_t default_element_size(const Field& field);
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);
 
+/// The kind of that spelling; std::invalid_argument when there is none.
+FieldKind kind_of(std::string_view name);
+
 }  // namespace bubblesim::messages

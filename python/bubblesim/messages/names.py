@@ -7,6 +7,7 @@ import difflib
 import re
 
 _NAME = re.compile(r"([a-z][a-z0-9_]*)/(?:(?:msg|srv)/)?([a-z][a-z0-9_]*)", re.IGNORECASE)
+_LIKELY = 0.75  # likeness, at most 1, from which on a name is worth mentioning
 
 
 def type_name(text: str) -> str | None:
@@ -28,11 +29,12 @@ def nearest_names(name: str, known: list[str]) -> list[str]:
     def likeness(candidate: str) -> float:
         other_package, other_short = split_name(candidate)
         parts = ((package, other_package), (short, other_short))
-        return sum(difflib.SequenceMatcher(None, a.lower(), b.lower()).ratio() for a, b in parts) / 2
+        alike = sum(difflib.SequenceMatcher(None, a.lower(), b.lower()).ratio() for a, b in parts) / 2
+        return max(alike, _LIKELY) if other_short == short else alike  # the right type of another package
 
     # Package and type are compared apart: a long package name alone must not make two types alike.
     ranked = sorted(((likeness(candidate), candidate) for candidate in known), key=lambda pair: (-pair[0], pair[1]))
-    best = [pair for pair in ranked if pair[0] >= 0.75][:2]
+    best = [pair for pair in ranked if pair[0] >= _LIKELY][:2]
     return [candidate for score, candidate in best if score > best[0][0] - 0.05]
 
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes types that are not listed known to the running process, from their definitions on this machine.
+
+The compiled module calls add_message() and add_service() when it meets a name that it does not know.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.messages.kinds import KINDS, has_header
+from bubblesim.messages.names import did_you_mean, nearest_names, type_name
+from bubblesim.messages.packages import machine_index
+from bubblesim.messages.specs import SpecError, Specs
+
+_lock = threading.Lock()
+_added: set[tuple[str, str]] = set()  # kind, name
+
+
+def add_message(name: str) -> None:
+    """Add a message, or half of a service, with all that it contains; MessageError says why that cannot be done."""
+    _add(name, "msg")
+
+
+def add_service(name: str) -> None:
+    """Add a service with all that it contains; MessageError says why that cannot be done."""
+    _add(name, "srv")
+
+
+def _add(given_name: str, kind: str) -> None:
+    specs = Specs(machine_index())
+    name = type_name(given_name)
+    if name is None:
+        hint = did_you_mean(_similar(specs, "/" + given_name, kind))
+        expected = f"expected package/Type such as geometry_msgs/Twist{hint}"
+        raise _core.MessageError(f"'{given_name}' is no type name, {expected}")
+    if kind == "msg" and not specs.index.find(name, "msg") and (service := _service_of_half(specs, name)):
+        name, kind = service, "srv"
+    if not specs.index.find(name, kind):
+        raise _core.MessageError(_unknown(specs, name, kind))
+    try:
+        file = specs.load(name, kind)
+    except SpecError as error:
+        raise _core.MessageError(str(error)) from error
+    with _lock:
+        _hand_over(specs)
+        if (kind, name) not in _added:
+            _added.add((kind, name))
+            _tell(name, file)
+
+
+def _service_of_half(specs: Specs, name: str) -> str | None:
+    """`std_srvs/SetBoolRequest` -> `std_srvs/SetBool`, if there is such a service."""
+    for half in ("Request", "Response"):
+        service = name.removesuffix(half)
+        if service != name and specs.index.find(service, "srv"):
+            return service
+    return None
+
+
+def _hand_over(specs: Specs) -> None:
+    messages = [_message_tuple(specs, spec) for spec in specs.messages.values()]
+    services = [
+        (name, specs.md5(spec), _message_tuple(specs, spec.request), _message_tuple(specs, spec.response))
+        for name, spec in specs.services.items()
+    ]
+    try:
+        for message in messages:
+            _core.messages.add_message(message)
+        for service in services:
+            _core.messages.add_service(*service)
+    except ValueError as error:
+        cure = "its definition has changed since bubblesim was built or started; build it again: catkin build bubblesim"
+        raise _core.MessageError(f"{error}: {cure}") from error
+
+
+def _message_tuple(specs: Specs, spec: Any) -> tuple[Any, ...]:
+    fields = [(f.name, KINDS.get(f.base_type, f.base_type), f.is_array, f.array_len) for f in spec.parsed_fields()]
+    constants = [(c.name.strip(), KINDS[c.type], _bytes_of(c.val)) for c in spec.constants]
+    definition = _bytes_of(specs.full_text(spec))
+    return spec.full_name, specs.md5(spec), definition, has_header(spec.types), fields, constants
+
+
+def _bytes_of(value: Any) -> Any:
+    """Texts as they are in the file; other values are left alone."""
+    return value.encode("utf-8", errors="surrogateescape") if isinstance(value, str) else value
+
+
+def _unknown(specs: Specs, name: str, kind: str) -> str:
+    what, other = ("message", "service") if kind == "msg" else ("service", "message")
+    if specs.index.find(name, "srv" if kind == "msg" else "msg"):
+        return f"{name} is a {other} type, expected a {what} type"
+    hint = did_you_mean(_similar(specs, name, kind))
+    return (
+        f"{name} is not among the {what} types of this build, and this machine has no definition of it"
+        f"{hint or ';'} to add it, install its package or put it into the workspace, and list it in "
+        f"meta/{what}s.txt: rosrun bubblesim add_message {name}"
+    )
+
+
+def _similar(specs: Specs, name: str, kind: str) -> list[str]:
+    listed = _core.messages.message_names() if kind == "msg" else _core.messages.service_names()
+    return nearest_names(name, sorted({*listed, *specs.index.names(kind)}))
+
+
+def _tell(name: str, file: Path) -> None:
+    print(
+        f"info: {name} is not listed; using its definition from {file}. "
+        f"List it with: rosrun bubblesim add_message {name}",
+        file=sys.stderr,
+        flush=True,
+    )

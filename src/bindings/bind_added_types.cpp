@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bubblesim._core.messages: how python/bubblesim/messages hands over types that are not listed.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "bubblesim/messages/registry.hpp"
+#include "message_codec.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+using messages::ArrayKind;
+using messages::Constant;
+using messages::Field;
+using messages::FieldKind;
+using messages::MessageType;
+
+/// name; kind or name of a message; whether it is an array; length if that is fixed
+using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>>;
+/// name, kind, value; texts are bytes
+using ConstantTuple = std::tuple<std::string, std::string, py::object>;
+/// name, md5, definition, has_header, fields, constants
+using MessageTuple =
+    std::tuple<std::string, std::string, py::bytes, bool, std::vector<FieldTuple>, std::vector<ConstantTuple>>;
+
+Field make_field(const FieldTuple& tuple) {
+  const auto& [name, type, is_array, length] = tuple;
+  Field field;
+  field.name = name;
+  field.array = !is_array ? ArrayKind::kNone : length ? ArrayKind::kFixed : ArrayKind::kVariable;
+  field.fixed_length = length.value_or(0);
+  if (type.find('/') == type.npos) {
+    field.kind = messages::kind_of(type);
+    return field;
+  }
+  field.kind = FieldKind::kMessage;
+  field.message = messages::find_message(type);
+  if (field.message == nullptr) throw std::invalid_argument(type + " must be added before what contains it");
+  return field;
+}
+
+Constant make_constant(const ConstantTuple& tuple) {
+  const auto& [name, kind, value] = tuple;
+  switch (messages::kind_of(kind)) {
+    case FieldKind::kString:
+      return {name, value.cast<std::string>()};
+    case FieldKind::kBool:
+      return {name, value.cast<bool>()};
+    case FieldKind::kFloat32:
+    case FieldKind::kFloat64:
+      return {name, value.cast<double>()};
+    case FieldKind::kUint64:
+      return {name, value.cast<std::uint64_t>()};
+    default:
+      return {name, value.cast<std::int64_t>()};
+  }
+}
+
+MessageType make_type(const MessageTuple& tuple) {
+  const auto& [name, md5, definition, has_header, fields, constants] = tuple;
+  MessageType type{name, md5, definition, has_header, {}, {}};
+  for (const FieldTuple& field : fields) type.fields.push_back(make_field(field));
+  for (const ConstantTuple& constant : constants) type.constants.push_back(make_constant(constant));
+  return type;
+}
+
+void add_message(const MessageTuple& message) { messages::add_message(make_type(message)); }
+
+void add_service(const std::string& name, const std::string& md5, const MessageTuple& request,
+                 const MessageTuple& response) {
+  messages::add_service(name, md5, make_type(request), make_type(response));
+}
+
+}  // namespace
+
+void bind_added_types(py::module_& m) {
+  m.def("add_message", &add_message, py::arg("message"),
+        "Makes a type known that is not listed, after the types that it contains. The message is a tuple (name, md5, "
+        "definition as bytes, has_header, fields, constants), with fields (name, kind or package/Type, is_array, "
+        "length or None) and constants (name, kind, value). ValueError when another type of that name is known.");
+  m.def("add_service", &add_service, py::arg("name"), py::arg("md5"), py::arg("request"), py::arg("response"),
+        "The same for a service; its halves are tuples as in add_message.");
+}
+
+}  // namespace bubblesim::bindings
