@@ -16,7 +16,9 @@ NAME = "/sim_ros_interface"
 
 def clean_environment(**changes: str) -> dict[str, str]:
     """The environment without a trace of ROS or of a workspace."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))}
+    kept = {
+        name: value for name, value in os.environ.items() if not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))
+    }
     return kept | changes
 
 
@@ -40,6 +42,28 @@ def run_script(
 def write(file: Path, code: str) -> Path:
     file.write_text(textwrap.dedent(code), encoding="utf-8")
     return file
+
+
+def endless_fall(folder: Path) -> Path:
+    """A scene whose /Ball is about to leave the finite world: it falls where there is no floor."""
+    return write(
+        folder / "fall.sdf",
+        """\
+        <?xml version="1.0"?>
+        <sdf version="1.9">
+          <world name="fall">
+            <physics name="default" type="ode"><max_step_size>0.005</max_step_size></physics>
+            <model name="Ball">
+              <pose>0 0 -999999.5 0 0 0</pose>
+              <link name="link">
+                <inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
+                <collision name="ball"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+              </link>
+            </model>
+          </world>
+        </sdf>
+        """,
+    )
 
 
 class Node:

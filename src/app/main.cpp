@@ -38,8 +38,8 @@ class RosParticipant final : public Participant {
 };
 
 bool time_is_up(const Options& options, const Simulation& simulation) {
-  // Half a pass of tolerance, so that rounding does not add one.
-  return options.until && simulation.time() > *options.until - simulation.time_step() / 2;
+  // With a little tolerance, so that rounding does not add a pass.
+  return options.until && simulation.time() > *options.until - 1e-6 * simulation.time_step();
 }
 
 int run(const Options& options, Simulation& simulation, const ChildScripts& scripts) {

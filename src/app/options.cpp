@@ -58,7 +58,10 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_option("SCENE", options.scene, "name of a scene, or path of an .sdf file");
   app.add_option("--seed", options.seed, "of everything random (default 0)");
   CLI::Option* until_option = app.add_option("--until", until, "end at this simulation time, seconds");
-  until_option->check(CLI::Range(0.0, std::numeric_limits<double>::max()).description(""));
+  until_option->check([](const std::string& text) {
+    return CLI::NonNegativeNumber(text).empty() && text != "nan" ? ""
+                                                                 : "takes seconds, 0 or more, found '" + text + "'";
+  });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
   app.add_flag("--no-ros", no_ros, "run without ROS; simROS is None in scripts");

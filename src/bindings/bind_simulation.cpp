@@ -81,6 +81,9 @@ void bind_errors(py::module_& module) {
   static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
   static py::exception<Diverged> diverged(module, "Diverged", PyExc_RuntimeError);
+  for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(diverged)}) {
+    error.attr("__module__") = "bubblesim";  // where users import it from
+  }
   py::register_exception_translator([](std::exception_ptr raised) {
     try {
       if (raised) std::rethrow_exception(raised);

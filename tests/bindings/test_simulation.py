@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim.Simulation from Python: stepping, objects, errors."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import bubblesim
+import numpy as np
+import pytest
+
+from node_support import clean_environment, endless_fall
+from ros_support import REPOSITORY
+
+
+@pytest.fixture
+def tricycle() -> bubblesim.Simulation:
+    return bubblesim.Simulation("tricycle", seed=1)
+
+
+def run_python(code: str, **environment: str) -> str:
+    """Output of a process of its own."""
+    env = clean_environment(PYTHONPATH=str(Path(bubblesim.__file__).parents[1]), PATH="/usr/bin:/bin", **environment)
+    return subprocess.run(["/usr/bin/python3", "-c", code], env=env, capture_output=True, text=True, check=True).stdout
+
+
+def test_time_advances_by_passes(tricycle: bubblesim.Simulation) -> None:
+    assert (tricycle.time, tricycle.time_step, tricycle.seed) == (0.0, 0.05, 1)
+    tricycle.step()
+    tricycle.step(19)
+    tricycle.step(0)
+    assert tricycle.time == pytest.approx(1.0)
+
+
+def test_poses_are_arrays_of_doubles(tricycle: bubblesim.Simulation) -> None:
+    body = tricycle.object("/Tricycle")
+    np.testing.assert_allclose(body.position, [-2.5, -1.2, 0])
+    np.testing.assert_allclose(body.orientation, [0, 0, 0, 1])
+    for array, size in (
+        (body.position, 3),
+        (body.orientation, 4),
+        (body.linear_velocity, 3),
+        (body.angular_velocity, 3),
+    ):
+        assert array.shape == (size,)
+        assert array.dtype == np.float64
+
+
+def test_what_is_set_is_read_back() -> None:
+    ball = bubblesim.Simulation("ball").object("/Ball")
+    ball.position = [1, 2, 3]
+    ball.orientation = np.array([0, 0, 1, 0], dtype=np.float32)
+    ball.linear_velocity = (4, 5, 6)
+    ball.angular_velocity = np.array([7, 8, 9])
+    np.testing.assert_allclose(ball.position, [1, 2, 3])
+    np.testing.assert_allclose(np.abs(ball.orientation), [0, 0, 1, 0])
+    np.testing.assert_allclose(ball.linear_velocity, [4, 5, 6])
+    np.testing.assert_allclose(ball.angular_velocity, [7, 8, 9])
+
+
+def test_a_read_array_is_a_copy() -> None:
+    ball = bubblesim.Simulation("ball").object("/Ball")
+    ball.position[:] = 9
+    np.testing.assert_allclose(ball.position, [-1.5, 0, 0.4])
+
+
+def test_joints_are_driven(tricycle: bubblesim.Simulation) -> None:
+    steering, motor = tricycle.object("/Steering"), tricycle.object("/FrontMotor")
+    steering.target_position = 0.3
+    motor.target_velocity = 2.0
+    motor.max_force = 40.0
+    tricycle.step(40)
+    assert steering.joint_position == pytest.approx(0.3, abs=1e-3)
+    assert motor.joint_velocity == pytest.approx(2.0, abs=1e-2)
+    assert (steering.target_position, motor.target_velocity, motor.max_force) == (0.3, 2.0, 40.0)
+
+
+def test_objects_know_their_place(tricycle: bubblesim.Simulation) -> None:
+    sonar = tricycle.object("/FrontSonar")
+    assert (sonar.name, sonar.kind, sonar.path) == ("FrontSonar", "sensor", "/Tricycle/base_link/FrontSonar")
+    assert sonar.parent.path == "/Tricycle/base_link"
+    assert tricycle.object("/Tricycle").parent is None
+    assert sonar.path in [thing.path for thing in tricycle.objects]
+    assert "/FrontSonar (sensor)" in repr(sonar)
+
+
+def test_a_sonar_reads_in_its_own_frame(tricycle: bubblesim.Simulation) -> None:
+    body, sonar = tricycle.object("/Tricycle"), tricycle.object("/FrontSonar")
+    assert not sonar.reading.detected
+    assert sonar.reading.distance == 0
+    body.position = [-3.5, -1.2, 0]
+    body.orientation = [0, 0, 1, 0]  # faces the wall behind it
+    tricycle.step()
+    reading = sonar.reading
+    assert reading.detected
+    assert np.linalg.norm(reading.point) == pytest.approx(reading.distance)
+    assert np.linalg.norm(reading.normal) == pytest.approx(1)
+    assert reading.handle >= 0
+
+
+def test_collision_shapes_tell_where_they_are() -> None:
+    shapes = {shape.object_path: shape for shape in bubblesim.Simulation("ball").collisions}
+    ball, board, floor = shapes["/Ball/link"], shapes["/Ramp/link"], shapes["/Floor/link"]
+    assert (ball.kind, ball.size, ball.is_static) == ("sphere", [0.1], False)
+    assert (board.kind, board.size, board.is_static) == ("box", [1.5, 0.6, 0.05], True)
+    assert (floor.kind, floor.size) == ("plane", [0, 0, 1])
+    np.testing.assert_allclose(ball.position, [-1.5, 0, 0.4])
+    np.testing.assert_allclose(board.orientation, [0, np.sin(0.1), 0, np.cos(0.1)])
+
+
+def test_objects_outlive_the_name_of_their_simulation() -> None:
+    ball = bubblesim.Simulation("ball").object("/Ball")
+    world = bubblesim.Simulation("ball").world
+    gc.collect()
+    np.testing.assert_allclose(ball.position, [-1.5, 0, 0.4])
+    assert world.path(world.find("/Ball")) == "/Ball"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "text"),
+    [
+        ("position", [1, 2], "position takes 3 numbers, found 2"),
+        ("position", [[1, 2, 3]], "position takes 3 numbers, found 1 x 3"),
+        ("position", 5.0, "position takes 3 numbers, found a single value"),
+        ("position", [1, 2, np.nan], "finite"),
+        ("position", [1e9, 0, 0], "within 1e6 m"),
+        ("orientation", [0, 0, 0, 0], "uaternion"),
+        ("linear_velocity", [1e9, 0, 0], "at most 1e6"),
+        ("target_velocity", 1.0, "/Ball is a model, not a joint"),
+    ],
+)
+def test_bad_values_are_refused_and_change_nothing(name: str, value: object, text: str) -> None:
+    simulation = bubblesim.Simulation("ball")
+    before = simulation.state_hash()
+    with pytest.raises((ValueError, bubblesim.NoSuchObject), match=text):
+        setattr(simulation.object("/Ball"), name, value)
+    assert simulation.state_hash() == before
+
+
+def test_unknown_objects_are_named_with_similar_ones(tricycle: bubblesim.Simulation) -> None:
+    with pytest.raises(bubblesim.NoSuchObject, match="'/FrontMoter'; did you mean /FrontMotor") as caught:
+        tricycle.object("/FrontMoter")
+    assert isinstance(caught.value, LookupError)
+
+
+def test_a_bad_scene_tells_all_its_problems(tmp_path: Path) -> None:
+    text = (REPOSITORY / "scenes" / "ball.sdf").read_text()
+    bad = tmp_path / "bad.sdf"
+    text = text.replace("<mass>0.5</mass>", "<mass>-1</mass>").replace("<radius>0.1</radius>", "<radius>-2</radius>")
+    bad.write_text(text.replace(">ball.py<", ">nothing.py<"))
+    with pytest.raises(bubblesim.SceneError) as caught:
+        bubblesim.Simulation(str(bad))
+    for part in ("nothing.py", "mass", "radius"):
+        assert any(part in line and f"{bad}:" in line for line in str(caught.value).splitlines()), str(caught.value)
+
+
+def test_diverging_is_an_exception_of_its_own(tmp_path: Path) -> None:
+    simulation = bubblesim.Simulation(str(endless_fall(tmp_path)))
+    with pytest.raises(bubblesim.Diverged, match="/Ball"):
+        simulation.step(1000)
+
+
+def test_other_threads_run_while_it_steps() -> None:
+    simulation = bubblesim.Simulation("ball")
+    stepping = threading.Thread(target=simulation.step, args=(200_000,))
+    stepping.start()
+    counted = 0
+    while stepping.is_alive():
+        counted += 1
+        time.sleep(0)
+    stepping.join()
+    assert counted > 1000
+
+
+def test_ctrl_c_ends_a_long_call() -> None:
+    code = "import bubblesim; s = bubblesim.Simulation('ball'); print('ready', flush=True); s.step(10**12)"
+    process = subprocess.Popen(
+        ["/usr/bin/python3", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
+    )
+    try:
+        assert process.stdout is not None
+        process.stdout.readline()
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+        assert "KeyboardInterrupt" in errors
+    finally:
+        process.kill()
+        process.wait()
+
+
+HASH = """
+import bubblesim
+s = bubblesim.Simulation("tricycle", seed=7)
+s.object("/Steering").target_position = 0.4
+s.object("/FrontMotor").target_velocity = 3.0
+s.step(200)
+print(s.state_hash())
+"""
+
+
+def test_equal_seeds_give_equal_states_in_20_runs_and_2_processes() -> None:
+    def state_hash() -> int:
+        simulation = bubblesim.Simulation("tricycle", seed=7)
+        simulation.object("/Steering").target_position = 0.4
+        simulation.object("/FrontMotor").target_velocity = 3.0
+        simulation.step(200)
+        return int(simulation.state_hash())
+
+    hashes = {state_hash() for _ in range(20)} | {int(run_python(HASH)) for _ in range(2)}
+    assert len(hashes) == 1
+
+
+def test_it_needs_no_ros() -> None:
+    code = (
+        "import sys, bubblesim; s = bubblesim.Simulation('tricycle'); s.step(5); "
+        "maps = open('/proc/self/maps').read(); "
+        "print([m for m in sys.modules if m.startswith('ros')], [l for l in maps.split() if '/libros' in l])"
+    )
+    assert run_python(code) == "[] []\n"
