@@ -21,7 +21,7 @@ struct Segment {
 Segment parse_segment(std::string_view text) {
   Segment segment{text, {}, {}};
   const std::size_t open = text.find_first_of("[{");
-  if (open == std::string_view::npos || (text.back() != ']' && text.back() != '}')) return segment;
+  if (open == std::string_view::npos || text.back() != (text[open] == '[' ? ']' : '}')) return segment;
   std::size_t number = 0;
   const char* end = text.data() + text.size() - 1;
   const auto parsed = std::from_chars(text.data() + open + 1, end, number);
@@ -33,13 +33,19 @@ Segment parse_segment(std::string_view text) {
 
 /// Whether `name` fits `pattern`, in which `*` stands for any characters.
 bool fits(std::string_view name, std::string_view pattern) {
-  const std::size_t star = pattern.find('*');
+  std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return name == pattern;
   if (name.substr(0, star) != pattern.substr(0, star)) return false;
-  for (std::size_t skip = star; skip <= name.size(); ++skip) {
-    if (fits(name.substr(skip), pattern.substr(star + 1))) return true;
+  name.remove_prefix(star);
+  pattern.remove_prefix(star + 1);
+  // What stands between two stars may be taken where it occurs first: that leaves the most for the rest.
+  while ((star = pattern.find('*')) != std::string_view::npos) {
+    const std::size_t place = name.find(pattern.substr(0, star));
+    if (place == std::string_view::npos) return false;
+    name.remove_prefix(place + star);
+    pattern.remove_prefix(star + 1);
   }
-  return false;
+  return name.size() >= pattern.size() && name.substr(name.size() - pattern.size()) == pattern;
 }
 
 std::vector<std::string_view> split(std::string_view path) {
@@ -140,7 +146,13 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
     } else {
       return {};
     }
+    const bool from_parent = anchor == "..";
     parts.erase(parts.begin());
+    while (from_parent && !parts.empty() && parts.front() == "..") {
+      if (start == kNoObject) return {};  // nothing lies above the scene
+      start = at(start).parent;
+      parts.erase(parts.begin());
+    }
     if (parts.empty()) return start == kNoObject ? std::vector<ObjectId>{} : std::vector<ObjectId>{start};
   }
   if (parts.empty()) return {};
@@ -200,7 +212,7 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
   const bool is_path = !path.empty() && (path.front() == '/' || path.front() == '.' || path.front() == ':');
   throw NoSuchObject("no object matches '" + shown + "'" +
                      (is_path ? "" : " (a path starts with '/', './', '../', ':/' or '::/')") +
-                     did_you_mean(shown.substr(std::min(shown.find('/'), shown.size())), known));
+                     did_you_mean("/" + shown.substr(std::min(shown.find_first_not_of("./:"), shown.size())), known));
 }
 
 }  // namespace bubblesim

@@ -17,7 +17,8 @@ class Ball final : public Joint {
   double velocity(int) const override { return 0; }
 
  private:
-  void set_parameter(int, int, double) override {}
+  void set_stop(int, int, double) override {}
+  void set_motor(int, int, double) override {}
 };
 
 }  // namespace

@@ -14,11 +14,29 @@ constexpr double kServoTime = 0.05;
 /// The turn from `from` to `to` that is at most half a revolution.
 double shortest_turn(double from, double to) { return std::remainder(to - from, 2 * M_PI); }
 
+bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) || std::isfinite(axis.upper); }
+
+bool needs_driving(const AxisDescription& axis) {
+  switch (axis.motor) {
+    case MotorMode::kPosition:
+      return true;
+    case MotorMode::kVelocity:
+      return has_limits(axis);
+    case MotorMode::kNone:
+      return axis.friction > 0 && axis.damping > 0;
+  }
+  return false;
+}
+
+double target_speed(const AxisDescription& axis, double target) {
+  return std::clamp(target, -axis.max_velocity, axis.max_velocity);
+}
+
 }  // namespace
 
 Joint::Joint(std::vector<AxisDescription> axes) {
   for (AxisDescription& description : axes) {
-    if (description.motor == MotorMode::kPosition) position_controlled_.push_back(static_cast<int>(axes_.size()));
+    if (needs_driving(description)) busy_.push_back(static_cast<int>(axes_.size()));
     axes_.push_back({std::move(description), 0, 0});
   }
 }
@@ -26,10 +44,8 @@ Joint::Joint(std::vector<AxisDescription> axes) {
 void Joint::apply_axes() {
   for (int i = 0; i < axis_count(); ++i) {
     const AxisDescription& description = axis(i);
-    // ODE wants the upper stop set first when the lower one lies above the default upper one.
-    if (std::isfinite(description.upper)) set_parameter(i, dParamHiStop, description.upper);
-    if (std::isfinite(description.lower)) set_parameter(i, dParamLoStop, description.lower);
-    if (std::isfinite(description.upper)) set_parameter(i, dParamHiStop, description.upper);
+    if (std::isfinite(description.lower)) set_stop(i, dParamLoStop, description.lower);
+    if (std::isfinite(description.upper)) set_stop(i, dParamHiStop, description.upper);
     apply_motor(i);
   }
 }
@@ -40,16 +56,15 @@ void Joint::apply_motor(int index) {
   if (description.motor == MotorMode::kNone) {
     // A motor at rest that may slip: limited by the friction, softened by 1/damping (implicit, so stable for any
     // value).
-    const bool damped = description.damping > 0;
-    set_parameter(index, dParamVel, 0);
-    set_parameter(index, dParamFMax, damped ? dInfinity : description.friction);
-    if (damped) set_parameter(index, dParamCFM, 1 / description.damping);
+    const bool damped = description.damping > 0 && description.friction == 0;  // for both see drive()
+    set_motor(index, dParamVel, 0);
+    set_motor(index, dParamFMax, damped ? dInfinity : description.friction);
+    if (damped) set_motor(index, dParamCFM, 1 / description.damping);
     return;
   }
-  set_parameter(index, dParamFMax, std::isfinite(description.max_force) ? description.max_force : dInfinity);
+  set_motor(index, dParamFMax, std::isfinite(description.max_force) ? description.max_force : dInfinity);
   if (description.motor == MotorMode::kVelocity) {
-    set_parameter(index, dParamVel,
-                  std::clamp(axis.target_velocity, -description.max_velocity, description.max_velocity));
+    set_motor(index, dParamVel, target_speed(description, axis.target_velocity));
   }
 }
 
@@ -68,16 +83,50 @@ void Joint::set_max_force(int axis, double force) {
 }
 
 void Joint::drive(double step) {
-  for (const int index : position_controlled_) {
-    const Axis& axis = axes_[static_cast<std::size_t>(index)];
-    const AxisDescription& description = axis.description;
-    const bool endless = !std::isfinite(description.lower) && !std::isfinite(description.upper);
-    const double here = position(index);
-    const double gap = endless ? shortest_turn(here, axis.target_position)
-                               : std::clamp(axis.target_position, description.lower, description.upper) - here;
-    set_parameter(index, dParamVel,
-                  std::clamp(gap / std::max(kServoTime, step), -description.max_velocity, description.max_velocity));
+  follow();
+  for (const int index : busy_) drive_axis(index, step);
+}
+
+void Joint::drive_axis(int index, double step) {
+  const Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const AxisDescription& description = axis.description;
+  if (description.motor == MotorMode::kNone) {
+    // A brake of the force that friction and damping have at this speed: it can stop the motion, never turn it round.
+    set_motor(index, dParamFMax, description.friction + description.damping * std::abs(velocity(index)));
+    return;
   }
+  const double here = position(index);
+  if (description.motor == MotorMode::kVelocity) {
+    // Not beyond the limit: motor and stop, each of any force, would meet somewhere behind it.
+    const double speed = target_speed(description, axis.target_velocity);
+    const double room = speed > 0 ? description.upper - here : here - description.lower;
+    set_motor(index, dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
+    return;
+  }
+  const double gap = has_limits(description)
+                         ? std::clamp(axis.target_position, description.lower, description.upper) - here
+                         : shortest_turn(here, axis.target_position);
+  set_motor(index, dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
+}
+
+dJointID separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
+                                dBodyID second) {
+  if (!has_limits(axis)) return nullptr;
+  dJointID motor = dJointCreateAMotor(world, nullptr);
+  dJointAttach(motor, first, second);
+  dJointSetAMotorNumAxes(motor, 1);
+  dJointSetAMotorAxis(motor, 0, 1, direction.X(), direction.Y(), direction.Z());
+  return motor;
+}
+
+dJointID separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
+                                dBodyID second) {
+  if (!has_limits(axis)) return nullptr;
+  dJointID motor = dJointCreateLMotor(world, nullptr);
+  dJointAttach(motor, first, second);
+  dJointSetLMotorNumAxes(motor, 1);
+  dJointSetLMotorAxis(motor, 0, 1, direction.X(), direction.Y(), direction.Z());
+  return motor;
 }
 
 }  // namespace bubblesim

@@ -37,14 +37,17 @@ class Joint {
   void set_target_velocity(int axis, double velocity);
   void set_max_force(int axis, double force);
 
-  /// Sets ODE's motors for the next substep of `step` seconds. Only position control has work to do in each.
+  /// Sets ODE's motors for the next substep of `step` seconds.
   void drive(double step);
 
  protected:
   /// Hands limits, friction and damping to ODE; to be called once the ODE joint exists.
   void apply_axes();
-  /// dJointSet<Kind>Param of axis 0 or 1, without the group offset.
-  virtual void set_parameter(int axis, int parameter, double value) = 0;
+  /// Sets one of ODE's parameters (dParam...) of axis 0 or 1, without the group offset: a stop, or one of its motor.
+  virtual void set_stop(int axis, int parameter, double value) = 0;
+  virtual void set_motor(int axis, int parameter, double value) = 0;
+  /// Called before each substep.
+  virtual void follow() {}
 
  private:
   struct Axis {
@@ -53,10 +56,19 @@ class Joint {
     double target_velocity = 0;
   };
   void apply_motor(int index);
+  void drive_axis(int index, double step);
 
   std::vector<Axis> axes_;
-  std::vector<int> position_controlled_;
+  std::vector<int> busy_;  // axes whose motor is set anew in each substep
 };
+
+/// ODE serves the stop and the motor of an axis by one constraint: a motor that pushes on a stop becomes a plain force,
+/// infinite when it has no limit. An axis with limits therefore has its motor in a joint of its own; these make it, for
+/// the motion of the first body relative to the second. They return null for an axis without limits.
+dJointID separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
+                                dBodyID second);
+dJointID separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
+                                dBodyID second);
 
 /// Makes the joint in ODE. `pose` is the joint's frame in the world. Throws InvalidInput for a type that is not known.
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const Pose& pose,

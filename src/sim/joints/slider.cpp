@@ -12,6 +12,7 @@ class Slider final : public Joint {
     dJointAttach(joint_, bodies.child, bodies.parent);
     const Vector3 axis = pose.Rot().RotateVector(description.axes[0].direction);
     dJointSetSliderAxis(joint_, axis.X(), axis.Y(), axis.Z());
+    motor_ = separate_sliding_motor(world, description.axes[0], axis, bodies.child, bodies.parent);
     apply_axes();
   }
 
@@ -19,9 +20,13 @@ class Slider final : public Joint {
   double velocity(int) const override { return dJointGetSliderPositionRate(joint_); }
 
  private:
-  void set_parameter(int, int parameter, double value) override { dJointSetSliderParam(joint_, parameter, value); }
+  void set_stop(int, int parameter, double value) override { dJointSetSliderParam(joint_, parameter, value); }
+  void set_motor(int, int parameter, double value) override {
+    motor_ != nullptr ? dJointSetLMotorParam(motor_, parameter, value) : dJointSetSliderParam(joint_, parameter, value);
+  }
 
-  dJointID joint_;  // owned by the ODE world
+  dJointID joint_;            // owned by the ODE world
+  dJointID motor_ = nullptr;  // too; null when the slider drives itself
 };
 
 }  // namespace

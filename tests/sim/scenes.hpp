@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small scenes built in code, as the loader would hand them over.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/world.hpp"
+
+namespace bubblesim::test {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+inline Quaternion turn(double roll, double pitch, double yaw) { return {roll, pitch, yaw}; }
+
+/// One link without a shape: 1 kg, inertia 1 kg m^2 about each axis.
+inline LinkDescription link(const std::string& name, const Vector3& position = {}) {
+  LinkDescription link;
+  link.name = name;
+  link.pose = Pose(position, Quaternion::Identity);
+  return link;
+}
+
+inline CollisionDescription shape(Geometry geometry, double mu = 1, std::uint16_t mask = 0xff) {
+  CollisionDescription collision;
+  collision.name = "shape";
+  collision.geometry = std::move(geometry);
+  collision.surface = {mu, mask};
+  return collision;
+}
+
+inline LinkDescription link_with(Geometry geometry, double mu = 1, std::uint16_t mask = 0xff) {
+  LinkDescription described = link("link");
+  described.collisions.push_back(shape(std::move(geometry), mu, mask));
+  return described;
+}
+
+inline ModelDescription model(const std::string& name, LinkDescription described, const Pose& pose = {}) {
+  ModelDescription model;
+  model.name = name;
+  model.pose = pose;
+  model.links.push_back(std::move(described));
+  return model;
+}
+
+inline ModelDescription still(ModelDescription model) {
+  model.is_static = true;
+  return model;
+}
+
+inline Pose at(double x, double y, double z) { return {x, y, z, 0, 0, 0}; }
+
+inline ModelDescription floor(double mu = 1, std::uint16_t mask = 0xff) {
+  return still(model("Floor", link_with(Plane{}, mu, mask)));
+}
+
+inline AxisDescription axis(const Vector3& direction, MotorMode motor = MotorMode::kNone) {
+  AxisDescription axis;
+  axis.direction = direction;
+  axis.motor = motor;
+  return axis;
+}
+
+inline JointDescription joint(const std::string& type, std::vector<AxisDescription> axes, const Vector3& anchor = {},
+                              const std::string& parent = "base", const std::string& child = "arm") {
+  JointDescription joint;
+  joint.name = "joint";
+  joint.type = type;
+  joint.parent = parent;
+  joint.child = child;
+  joint.pose = Pose(anchor, Quaternion::Identity);
+  joint.axes = std::move(axes);
+  return joint;
+}
+
+inline SceneDescription scene(std::vector<ModelDescription> models, const Vector3& gravity = {0, 0, -9.81}) {
+  SceneDescription scene;
+  scene.name = "test";
+  scene.gravity = gravity;
+  scene.models = std::move(models);
+  return scene;
+}
+
+/// Two links, `base` and `arm`, and `joint` between them, without gravity and without shapes.
+inline SceneDescription jointed(JointDescription joint) {
+  ModelDescription robot = model("Robot", link("base"));
+  robot.links.push_back(link("arm"));
+  robot.joints.push_back(std::move(joint));
+  return scene({robot}, Vector3::Zero);
+}
+
+/// How `b` is turned relative to `a`: the angle about `axis`, in -pi..pi.
+inline double turn_about(const Vector3& axis, const Pose& a, const Pose& b) {
+  const Quaternion relative = a.Rot().Inverse() * b.Rot();
+  const double sine = Vector3(relative.X(), relative.Y(), relative.Z()).Dot(axis);
+  return 2 * std::atan2(sine, relative.W());
+}
+
+}  // namespace bubblesim::test

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/scene_tree.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// /Robot {base {eye, eye}, arm, Motor {axis2}}, /Other {base {eye}, wheel, wheel, wheel}, /Robot2 {arm}
+class SceneTreePaths : public ::testing::Test {
+ protected:
+  ObjectId add(ObjectKind kind, const std::string& name, ObjectId parent) { return tree.add(kind, name, parent, 0); }
+
+  /// What find() says when it finds nothing.
+  std::string complaint(const std::string& path, ObjectId from = kNoObject, std::size_t index = 0) const {
+    try {
+      tree.find(path, from, index);
+    } catch (const NoSuchObject& error) {
+      return error.what();
+    }
+    return "found";
+  }
+
+  SceneTree tree;
+  ObjectId robot = add(ObjectKind::kModel, "Robot", kNoObject);
+  ObjectId base = add(ObjectKind::kLink, "base", robot);
+  ObjectId eye0 = add(ObjectKind::kSensor, "eye", base);
+  ObjectId eye1 = add(ObjectKind::kSensor, "eye", base);
+  ObjectId arm = add(ObjectKind::kLink, "arm", robot);
+  ObjectId motor = add(ObjectKind::kJoint, "Motor", robot);
+  ObjectId axis2 = add(ObjectKind::kJoint, "axis2", motor);
+  ObjectId other = add(ObjectKind::kModel, "Other", kNoObject);
+  ObjectId other_base = add(ObjectKind::kLink, "base", other);
+  ObjectId other_eye = add(ObjectKind::kSensor, "eye", other_base);
+  ObjectId wheel0 = add(ObjectKind::kLink, "wheel", other);
+  ObjectId wheel1 = add(ObjectKind::kLink, "wheel", other);
+  ObjectId wheel2 = add(ObjectKind::kLink, "wheel", other);
+  ObjectId robot2 = add(ObjectKind::kModel, "Robot2", kNoObject);
+  ObjectId robot2_arm = add(ObjectKind::kLink, "arm", robot2);
+};
+
+TEST_F(SceneTreePaths, AbsolutePathNamesEveryLevel) {
+  EXPECT_EQ(tree.find("/Robot"), robot);
+  EXPECT_EQ(tree.find("/Robot/base/eye"), eye0);
+  EXPECT_EQ(tree.find("/Other/base/eye"), other_eye);
+}
+
+TEST_F(SceneTreePaths, AbsolutePathMayLeaveOutLevels) {
+  EXPECT_EQ(tree.find("/Robot/eye"), eye0);
+  EXPECT_EQ(tree.find("/Other/eye"), other_eye);
+  EXPECT_EQ(tree.find("/Robot/axis2"), axis2);
+}
+
+TEST_F(SceneTreePaths, UniqueNameIsFoundAnywhere) {
+  EXPECT_EQ(tree.find("/Motor"), motor);
+  EXPECT_EQ(tree.find("/axis2"), axis2);
+}
+
+TEST_F(SceneTreePaths, LevelsInTheWrongOrderMatchNothing) { EXPECT_NE(complaint("/base/Robot"), "found"); }
+
+TEST_F(SceneTreePaths, NearestToTheTopCountsFirst) {
+  const ObjectId deep = add(ObjectKind::kLink, "Solo", base);
+  const ObjectId high = add(ObjectKind::kModel, "Solo", kNoObject);
+  EXPECT_EQ(tree.find("/Solo"), high);
+  EXPECT_EQ(tree.find("/Solo", kNoObject, 1), deep);
+}
+
+TEST_F(SceneTreePaths, DotIsTheObjectItself) {
+  EXPECT_EQ(tree.find(".", base), base);
+  EXPECT_EQ(tree.find("./", base), base);
+  EXPECT_EQ(tree.find("./eye", base), eye0);
+  EXPECT_EQ(tree.find("./eye", robot), eye0);
+}
+
+TEST_F(SceneTreePaths, TwoDotsAreTheParent) {
+  EXPECT_EQ(tree.find("..", eye0), base);
+  EXPECT_EQ(tree.find("../arm", base), arm);
+  EXPECT_EQ(tree.find("../Other", robot), other) << "the parent of a model is the scene";
+}
+
+TEST_F(SceneTreePaths, TwoDotsRepeatedGoUpLevelByLevel) {
+  EXPECT_EQ(tree.find("../..", eye0), robot);
+  EXPECT_EQ(tree.find("../../arm", eye0), arm);
+  EXPECT_EQ(tree.find("../../../Other", eye0), other);
+  EXPECT_NE(complaint("../../../../Other", eye0), "found") << "there is nothing above the scene";
+}
+
+TEST_F(SceneTreePaths, ColonIsTheModel) {
+  EXPECT_EQ(tree.find(":", eye0), robot);
+  EXPECT_EQ(tree.find(":/Motor", eye0), motor);
+  EXPECT_EQ(tree.find(":", robot), robot) << "a model is its own";
+}
+
+TEST_F(SceneTreePaths, TwoColonsAreWhatTheModelStandsIn) {
+  EXPECT_EQ(tree.find("::/Other", eye0), other);
+  EXPECT_NE(complaint("::", eye0), "found") << "the scene is no object";
+}
+
+TEST_F(SceneTreePaths, RelativePathNeedsAStart) {
+  EXPECT_NE(complaint("./eye"), "found");
+  EXPECT_NE(complaint("../eye"), "found");
+  EXPECT_NE(complaint(":/eye"), "found");
+}
+
+TEST_F(SceneTreePaths, BracketsPickAmongSiblings) {
+  EXPECT_EQ(tree.find("/Robot/eye[0]"), eye0);
+  EXPECT_EQ(tree.find("/Robot/eye[1]"), eye1);
+  EXPECT_EQ(tree.find("/wheel[2]"), wheel2);
+  EXPECT_NE(complaint("/wheel[3]"), "found");
+  EXPECT_EQ(tree.find("/Robot2/arm[0]"), robot2_arm);
+  EXPECT_NE(complaint("/arm[1]"), "found") << "the two arms are no siblings";
+}
+
+TEST_F(SceneTreePaths, BracesPickInTheScene) {
+  EXPECT_EQ(tree.find("/arm{0}"), arm);
+  EXPECT_EQ(tree.find("/arm{1}"), robot2_arm);
+  EXPECT_EQ(tree.find("/eye{2}"), other_eye);
+  EXPECT_NE(complaint("/arm{2}"), "found");
+}
+
+TEST_F(SceneTreePaths, StarStandsForAnyCharacters) {
+  EXPECT_EQ(tree.find("/Rob*2"), robot2);
+  EXPECT_EQ(tree.find("/Robot*", kNoObject, 1), robot2);
+  EXPECT_EQ(tree.find("/*heel", kNoObject, 1), wheel1);
+  EXPECT_EQ(tree.find("/M*t*r"), motor);
+  EXPECT_EQ(tree.find("./*", base), eye0);
+  EXPECT_NE(complaint("/x*"), "found");
+}
+
+TEST_F(SceneTreePaths, ManyStarsAreDecidedQuickly) {
+  const ObjectId odd = add(ObjectKind::kModel, std::string(60, 'a'), kNoObject);
+  EXPECT_EQ(tree.find("/*a*a*a*a*a*a*a*a*a*a*"), odd);
+  EXPECT_NE(complaint("/*a*a*a*a*a*a*a*a*a*a*b"), "found");
+}
+
+TEST_F(SceneTreePaths, IndexPicksALaterMatch) {
+  EXPECT_EQ(tree.find("/arm", kNoObject, 1), robot2_arm);
+  EXPECT_EQ(complaint("/arm", kNoObject, 2), "only 2 objects match '/arm', there is none with index 2");
+}
+
+TEST_F(SceneTreePaths, SimilarNamesAreSuggested) {
+  EXPECT_EQ(complaint("/Moter"), "no object matches '/Moter'; did you mean /Motor, /Other?");
+  EXPECT_EQ(complaint("/Robot/bse"), "no object matches '/Robot/bse'; did you mean /Robot/base, /Robot/arm?");
+  EXPECT_EQ(complaint("./Motro", robot), "no object matches './Motro'; did you mean /Motor?");
+  EXPECT_EQ(complaint("/Quadrocopter"), "no object matches '/Quadrocopter'");
+}
+
+TEST_F(SceneTreePaths, NameWithoutSlashIsExplainedAndCorrected) {
+  EXPECT_EQ(complaint("Motor"),
+            "no object matches 'Motor' (a path starts with '/', './', '../', ':/' or '::/'); did you mean /Motor?");
+}
+
+TEST_F(SceneTreePaths, EmptyPathsMatchNothing) {
+  EXPECT_NE(complaint(""), "found");
+  EXPECT_NE(complaint("/"), "found");
+  EXPECT_NE(complaint("//"), "found");
+}
+
+TEST_F(SceneTreePaths, MalformedIndicesArePartOfTheName) {
+  for (const char* path :
+       {"/arm[", "/arm]", "/arm[x]", "/arm[-1]", "/arm[0}", "/arm{0]", "/arm[99999999999999999999]", "/[0]"}) {
+    EXPECT_NE(complaint(path), "found") << path;
+  }
+}
+
+TEST_F(SceneTreePaths, PathNamesAllLevelsAndNumbersSiblings) {
+  EXPECT_EQ(tree.path(axis2), "/Robot/Motor/axis2");
+  EXPECT_EQ(tree.path(eye1), "/Robot/base/eye[1]");
+  EXPECT_EQ(tree.path(other_eye), "/Other/base/eye");
+  EXPECT_EQ(tree.path(wheel0), "/Other/wheel[0]");
+}
+
+TEST_F(SceneTreePaths, ShortPathIsTheShortestUniqueEnding) {
+  EXPECT_EQ(tree.short_path(motor), "/Motor");
+  EXPECT_EQ(tree.short_path(arm), "/Robot/arm");
+  EXPECT_EQ(tree.short_path(wheel1), "/wheel[1]");
+}
+
+TEST_F(SceneTreePaths, EveryPathLeadsBackToItsObject) {
+  for (const Object& object : tree.objects()) {
+    EXPECT_EQ(tree.find(tree.path(object.id)), object.id) << tree.path(object.id);
+    EXPECT_EQ(tree.find(tree.short_path(object.id)), object.id) << tree.short_path(object.id);
+  }
+}
+
+TEST_F(SceneTreePaths, SiblingModelsOfOneNameAreNumbered) {
+  const ObjectId twin = add(ObjectKind::kModel, "Robot", kNoObject);
+  EXPECT_EQ(tree.path(robot), "/Robot[0]");
+  EXPECT_EQ(tree.path(twin), "/Robot[1]");
+  EXPECT_EQ(tree.path(base), "/Robot[0]/base");
+}
+
+TEST_F(SceneTreePaths, UnknownHandlesAreNamed) {
+  for (const ObjectId id : {kNoObject, ObjectId{99}, ObjectId{-5}}) {
+    try {
+      tree.at(id);
+      ADD_FAILURE() << id;
+    } catch (const NoSuchObject& error) {
+      EXPECT_EQ(error.what(), "no object has the handle " + std::to_string(id));
+    }
+  }
+}
+
+TEST_F(SceneTreePaths, ModelOfAnObjectIsTheOneItStandsIn) {
+  EXPECT_EQ(tree.model_of(eye1), robot);
+  EXPECT_EQ(tree.model_of(axis2), robot);
+  EXPECT_EQ(tree.model_of(robot2), robot2);
+}
+
+}  // namespace
+}  // namespace bubblesim
