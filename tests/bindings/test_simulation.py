@@ -5,15 +5,14 @@ import gc
 import os
 import signal
 import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
 
-import bubblesim
 import numpy as np
 import pytest
 
+import bubblesim
 from node_support import clean_environment, endless_fall
 from ros_support import REPOSITORY
 

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scenes through ordinary ROS tools, as the tutorials use them."""
+
+import math
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from node_support import NAME, Node, processes_with
+from ros_support import RosCore, start, stop, wait_until
+
+StartNode = Callable[..., Node]
+
+
+@pytest.fixture
+def node(roscore: RosCore, tmp_path: Path) -> Iterator[StartNode]:
+    """Starts the node with a scene; when it ends, nothing of it is left."""
+    nodes: list[Node] = []
+
+    def start_node(scene: str, *options: object) -> Node:
+        nodes.append(Node(roscore.env, tmp_path / f"log{len(nodes)}", scene, *options))
+        nodes[-1].wait_until_listed(roscore)
+        return nodes[-1]
+
+    yield start_node
+    for running in nodes:
+        if running.process.poll() is None:
+            assert running.end() == 0
+    wait_until(lambda: NAME not in roscore.nodes(), "the node to leave the master")
+    assert processes_with(f"localhost:{roscore.port} ") == []
+
+
+def echo(core: RosCore, topic: str) -> str:
+    """The next message on a topic."""
+    wait_until(lambda: topic in core.state()["publishers"], f"{topic} to be advertised")
+    return core.run("rostopic", "echo", "-n", "1", topic)
+
+
+def number(text: str, name: str = "data") -> float:
+    found = re.search(rf"\b{name}: (\S+)", text)
+    assert found is not None, text
+    return float(found[1])
+
+
+def pose(core: RosCore) -> tuple[float, float, float]:
+    """x, y and heading of the last transform on /tf."""
+    text = echo(core, "/tf")
+    translation, rotation = text.split("rotation:")
+    x, y = (number(translation.split("translation:")[1], axis) for axis in "xy")
+    return x, y, 2 * math.atan2(number(rotation, "z"), number(rotation, "w"))
+
+
+def test_standard_tools_see_the_node(roscore: RosCore, node: StartNode) -> None:
+    node("tricycle")
+    assert NAME in roscore.run("rosnode", "list").split()
+    wait_until(lambda: "/front_sonar" in roscore.state()["publishers"], "the sonar's topic")
+    assert {"/clock", "/front_sonar", "/tf", "/speed", "/steering"} <= set(roscore.run("rostopic", "list").split())
+    assert roscore.run("rostopic", "type", "/front_sonar") == "std_msgs/Float32\n"
+    assert roscore.run("rosmsg", "show", "test_msgs/Notification") == "string messages\n\n"
+
+
+def test_tricycle_turns_as_it_is_steered(roscore: RosCore, node: StartNode) -> None:
+    node("tricycle", "--speed", "2")
+    wait_until(lambda: "/steering" in roscore.state()["subscribers"], "the steering's topic")
+    roscore.run("rostopic", "pub", "-1", "/steering", "std_msgs/Float32", "--", "-1.0")
+    roscore.run("rostopic", "pub", "-1", "/speed", "std_msgs/Float32", "0.5")
+    x, y, heading = pose(roscore)
+    wait_until(lambda: math.dist(pose(roscore)[:2], (x, y)) > 0.02, "the tricycle to move")
+    turned = math.remainder(pose(roscore)[2] - heading, math.tau)
+    assert turned < 0  # clockwise, to the right
+    assert math.isinf(number(echo(roscore, "/front_sonar"))) or number(echo(roscore, "/front_sonar")) > 0
+
+
+def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node: StartNode) -> None:
+    running = node("bubblerob")
+    wait_until(lambda: any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client")
+    topic = next(name for name in roscore.state()["subscribers"] if name.startswith("/leftMotorSpeed"))
+    assert "messages: " in echo(roscore, "/notifications")
+    human = start(["rostopic", "pub", topic, "std_msgs/Float32", "data: 1.0"], roscore.env)
+    try:
+        wait_until(lambda: "drives now" in running.output, "the client to yield")
+        # Circling about the right wheel: that wheel's place, 0.05 ahead and 0.1 to the right, stands still.
+        wait_until(lambda: speed_of_right_wheel(roscore) < 1e-3, "the right wheel to stand still")
+        wheel, (_, _, heading) = right_wheel(roscore), pose(roscore)
+        wait_until(lambda: abs(math.remainder(pose(roscore)[2] - heading, math.tau)) > 0.3, "the robot to turn")
+        assert math.dist(right_wheel(roscore), wheel) < 0.01
+    finally:
+        stop(human)
+    assert running.end() == 0
+    assert processes_with(f"rosBubbleRob {topic[1:]}") == []
+    wait_until(lambda: not any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client to leave")
+
+
+def right_wheel(core: RosCore) -> tuple[float, float]:
+    x, y, heading = pose(core)
+    cos, sin = math.cos(heading), math.sin(heading)
+    return x + 0.05 * cos + 0.1 * sin, y + 0.05 * sin - 0.1 * cos
+
+
+def speed_of_right_wheel(core: RosCore) -> float:
+    """How far the right wheel's place moves from one look to the next, metres."""
+    return math.dist(right_wheel(core), right_wheel(core))
+
+
+def test_bubblerob_notifies(roscore: RosCore, node: StartNode) -> None:
+    node("bubblerob")
+    assert echo(roscore, "/notifications") == 'messages: "ok"\n---\n'
+
+
+def test_ball_tells_time_and_place(roscore: RosCore, node: StartNode) -> None:
+    node("ball")
+    first = number(echo(roscore, "/simulationTime"))
+    assert number(echo(roscore, "/simulationTime")) > first
+    transform = echo(roscore, "/tf")
+    assert 'frame_id: "world"' in transform
+    assert 'child_frame_id: "Ball"' in transform
+
+
+def test_stamps_are_simulation_time_under_use_sim_time(roscore: RosCore, node: StartNode) -> None:
+    roscore.set_param("/use_sim_time", True)
+    node("ball")
+    stamp = number(echo(roscore, "/tf"), "secs")
+    assert stamp < 1000
+    assert number(echo(roscore, "/clock"), "secs") >= stamp
+
+
+def test_stamps_are_wall_time_otherwise(roscore: RosCore, node: StartNode) -> None:
+    node("ball")
+    assert number(echo(roscore, "/tf"), "secs") > 1e9

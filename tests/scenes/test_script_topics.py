@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""simROS and simROS2 in child scripts, against a real master and rostopic."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from node_support import NAME, Node, write
+from ros_support import RosCore, wait_until
+
+Script = Callable[[str], Node]
+
+
+@pytest.fixture
+def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
+    """Runs a script on the ball."""
+    nodes: list[Node] = []
+
+    def run(code: str) -> Node:
+        file = write(tmp_path / "script.py", code)
+        nodes.append(Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={file}"))
+        nodes[-1].wait_until_listed(roscore)
+        return nodes[-1]
+
+    yield run
+    for node in nodes:
+        if node.process.poll() is None:
+            assert node.end() == 0
+
+
+@pytest.mark.parametrize(
+    ("message", "told"),
+    [
+        ("{'dta': 1.0}", "dta"),
+        ("{'data': 'much'}", "std_msgs/Float32: data: expected"),
+        ("5", "std_msgs/Float32: expected dict"),
+    ],
+)
+def test_a_wrong_first_message_is_told_at_once_with_type_field_and_line(
+    script: Script, message: str, told: str
+) -> None:
+    node = script(f"""\
+        def sysCall_init():
+            self.topic = simROS.advertise('/t', 'std_msgs/Float32')
+        def sysCall_actuation():
+            simROS.publish(self.topic, {message})
+        """)
+    node.wait_for_output("MessageError")
+    assert "failed in sysCall_actuation" in node.output
+    assert "script.py:4) and is disabled" in node.output
+    assert "std_msgs/Float32" in node.output
+    assert told in node.output.splitlines()[-1]
+    assert "bubblesim/scripting" not in node.output
+
+
+def test_an_unlisted_type_is_told_with_the_list_to_add_it_to(script: Script) -> None:
+    node = script("def sysCall_init(): simROS.advertise('/t', 'std_msgs/Flaot32')\n")
+    node.wait_for_output("and is disabled")
+    node.wait_for_output("std_msgs/Flaot32")
+    assert "std_msgs/Float32" in node.output.splitlines()[-1]
+
+
+def test_an_unusable_topic_name_is_told(script: Script) -> None:
+    node = script("def sysCall_init(): simROS.advertise('/a b', 'std_msgs/Float32')\n")
+    node.wait_for_output("ValueError: unusable topic name '/a b'")
+
+
+def test_callbacks_are_callables_or_names(script: Script, roscore: RosCore) -> None:
+    node = script("""\
+        class Listener:
+            def hear(self, message): print('method', message['data'])
+        def hear(message): print('function', message['data'])
+        def sysCall_init():
+            simROS.subscribe('/in', 'std_msgs/String', hear)
+            simROS.subscribe('/in', 'std_msgs/msg/String', 'hear')
+            simROS.subscribe('/in', 'std_msgs/String', Listener().hear)
+        """)
+    wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscribers")
+    roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/String", "data: 'grüezi'")
+    node.wait_for_output("method grüezi")
+    assert node.output.count("function grüezi") == 2
+
+
+def test_an_unknown_callback_is_told(script: Script) -> None:
+    script("def sysCall_init(): simROS.subscribe('/in', 'std_msgs/Empty', 'nobody')\n").wait_for_output(
+        "ValueError: the script has no function 'nobody' to call back"
+    )
+
+
+def test_a_failing_callback_ends_its_script_and_its_topics(script: Script, roscore: RosCore) -> None:
+    node = script("""\
+        def sysCall_init():
+            simROS.subscribe('/in', 'std_msgs/Empty', fail)
+            self.topic = simROS.advertise('/out', 'std_msgs/Empty')
+        def fail(message):
+            1 / 0
+        """)
+    wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscriber")
+    roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/Empty")
+    node.wait_for_output("child script of /Ball failed in the callback fail")
+    wait_until(lambda: "/in" not in roscore.state()["subscribers"], "the subscriber to go")
+    wait_until(lambda: "/out" not in roscore.state()["publishers"], "the publisher to go")
+    assert NAME in roscore.nodes()
+
+
+def test_handles_cannot_be_used_after_shutdown(script: Script) -> None:
+    node = script("""\
+        def sysCall_init():
+            topic = simROS.advertise('/out', 'std_msgs/Empty')
+            simROS.shutdownPublisher(topic)
+            simROS.publish(topic, {})
+        """)
+    node.wait_for_output("ValueError: invalid object handle")
+
+
+def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
+    node = script("""\
+        def sysCall_init():
+            self.out = simROS2.createPublisher('/out', 'std_msgs/msg/Header', 1, True)
+            self.listener = simROS2.createSubscription('/in', 'std_msgs/msg/Time', 'on_time')
+            simROS2.publish(self.out, {'frame_id': 'x', 'stamp': {'sec': 5, 'nanosec': 6}})
+            assert simROS2.getSimulationTime() == {'sec': 0, 'nanosec': 0}
+            assert simROS2.getTime()['sec'] > 1e9 and simROS2.getSystemTime()['sec'] > 1e9
+            assert simROS.getTime() > 1e9
+        def on_time(message):
+            print('heard', message)
+            simROS2.shutdownSubscription(self.listener)
+        """)
+    wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscriber")
+    text = roscore.run("rostopic", "echo", "-n", "1", "/out")
+    assert "secs: 5" in text
+    assert text.split()[text.split().index("nsecs:") + 1] == "6"
+    roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/Time", "{data: {secs: 7, nsecs: 8}}")
+    node.wait_for_output("heard {'data': {'sec': 7, 'nanosec': 8}}")
+    wait_until(lambda: "/in" not in roscore.state()["subscribers"], "the subscriber to go")
+
+
+VALUES = [
+    ("Bool", "True", "True"),
+    ("Int8", "-128", "-128"),
+    ("UInt8", "255", "255"),
+    ("Int16", "-32768", "-32768"),
+    ("UInt16", "65535", "65535"),
+    ("Int32", "-2**31", str(-(2**31))),
+    ("UInt32", "2**32 - 1", str(2**32 - 1)),
+    ("Int64", "-2**63", str(-(2**63))),
+    ("UInt64", "2**64 - 1", str(2**64 - 1)),
+    ("Float32", "0.5", "0.5"),
+    ("Float64", "0.1", "0.1"),
+    ("String", "''", "''"),
+    ("String", "'text'", '"text"'),
+]
+
+
+def test_every_kind_of_value_arrives(script: Script, roscore: RosCore) -> None:
+    calls = "".join(
+        f"    simROS.publish(simROS.advertise('/v{i}', 'std_msgs/{kind}', 1, True), {{'data': {value}}})\n"
+        for i, (kind, value, _) in enumerate(VALUES)
+    )
+    calls += "    simROS.publish(simROS.advertise('/vt', 'std_msgs/Time', 1, True), {'data': 2.5})\n"
+    calls += "    simROS.publish(simROS.advertise('/vd', 'std_msgs/Duration', 1, True), {'data': -2.5})\n"
+    calls += "    simROS.publish(simROS.advertise('/va', 'std_msgs/Float64MultiArray', 1, True), {'data': [1, 2.5]})\n"
+    calls += "    print('published')\n"
+    node = script("def sysCall_init():\n" + calls)
+    node.wait_for_output("published")
+    for i, (_, _, shown) in enumerate(VALUES):
+        assert roscore.run("rostopic", "echo", "-n", "1", f"/v{i}") == f"data: {shown}\n---\n"
+    moment = roscore.run("rostopic", "echo", "-n", "1", "/vt").split()
+    assert (moment[2], moment[4]) == ("2", "500000000")
+    span = roscore.run("rostopic", "echo", "-n", "1", "/vd").split()
+    assert int(span[2]) + int(span[4]) * 1e-9 == -2.5
+    assert "data: [1.0, 2.5]" in roscore.run("rostopic", "echo", "-n", "1", "/va")
