@@ -56,7 +56,8 @@ class World {
   /// Of a model (all its links move as one rigid body) or a single link.
   void set_velocity(ObjectId object, const Twist& velocity);
 
-  /// `axis` is 0, or 1 for the second axis of a revolute2 joint. Radians or metres.
+  /// `axis` is 0, or 1 for the second axis of a revolute2 joint. Radians or metres. Positions of turning joints lie
+  /// between -pi and pi, unless their limits reach beyond: then whole turns count.
   double joint_position(ObjectId joint, int axis = 0) const;
   double joint_velocity(ObjectId joint, int axis = 0) const;
   double target_position(ObjectId joint, int axis = 0) const;
@@ -73,8 +74,8 @@ class World {
                                  ObjectId ignored_model = kNoObject) const;
   std::vector<PlacedShape> shapes() const;
 
-  /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the physics' random state:
-  /// equal for equal histories.
+  /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the seed: equal for equal
+  /// histories.
   std::uint64_t state_hash() const;
 
   struct State;  // see src/sim/world_state.hpp

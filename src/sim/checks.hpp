@@ -9,8 +9,10 @@
 namespace bubblesim {
 
 /// Bounds of the finite world: ODE's broad phase breaks down a few orders of magnitude beyond.
-constexpr double kMaxDistance = 1e6;  ///< m from the origin
-constexpr double kMaxSpeed = 1e6;     ///< m/s and rad/s
+constexpr double kMaxDistance = 1e6;      ///< m from the origin
+constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
+constexpr double kMinPhysicsStep = 1e-5;  ///< s
+constexpr double kMaxPhysicsStep = 1;     ///< s
 
 /// False for NaN too.
 inline bool within(double value, double bound) { return std::abs(value) <= bound; }

@@ -2,6 +2,7 @@
 #include "scene_check.hpp"
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,7 +15,8 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kMaxSize = 1e5;  // m, kg, kg m^2
+constexpr double kMaxSize = 1e5;  // m
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Collects problems; knows which object it looks at.
 class SceneChecker {
@@ -23,8 +25,8 @@ class SceneChecker {
 
   std::vector<Problem> check() {
     at({scene_.file.string(), 0}, "");
-    require(scene_.physics_step >= 1e-5 && scene_.physics_step <= 1, "the physics step", text(scene_.physics_step),
-            "1e-5 to 1 s");
+    require(scene_.physics_step >= kMinPhysicsStep && scene_.physics_step <= kMaxPhysicsStep, "the physics step",
+            text(scene_.physics_step), "1e-5 to 1 s");
     require(scene_.time_step >= 1e-4 && scene_.time_step <= 10, "the time step of a pass", text(scene_.time_step),
             "1e-4 to 10 s");
     const double substeps = scene_.time_step / scene_.physics_step;
@@ -171,6 +173,9 @@ class SceneChecker {
     if (joint.type == "revolute2" && joint.axes.size() == 2) {
       if (joint.parent == "world") report("a revolute2 joint needs a link as its parent, not the world");
       const double parallel = joint.axes[0].direction.Cross(joint.axes[1].direction).Length();
+      if (std::isfinite(joint.axes[1].lower) || std::isfinite(joint.axes[1].upper)) {
+        report("the second axis of a revolute2 joint turns freely: it cannot have limits");
+      }
       require(parallel > 1e-3, "the second axis", text(joint.axes[1].direction), "not parallel to the first");
     }
   }
@@ -179,6 +184,12 @@ class SceneChecker {
     require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction), "a direction other than zero");
     require(axis.lower <= axis.upper, "the lower limit", text(axis.lower),
             "at most the upper limit " + text(axis.upper));
+    for (const double limit : {axis.lower, axis.upper}) {
+      require(!std::isfinite(limit) || within(limit, kMaxDistance), "the limit", text(limit),
+              "infinite or at most 1e6");
+    }
+    require(axis.lower < kInfinity && axis.upper > -kInfinity, "the range of limits",
+            text(axis.lower) + " to " + text(axis.upper), "one that can be reached");
     require(axis.max_force >= 0, "the effort limit", text(axis.max_force), "0 or more");
     require(axis.max_velocity > 0, "the velocity limit", text(axis.max_velocity), "above 0");
     require(axis.friction >= 0 && within(axis.friction, 1e9), "the friction", text(axis.friction), "0 or more");

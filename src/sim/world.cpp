@@ -16,6 +16,8 @@
 namespace bubblesim {
 namespace {
 
+constexpr double kMaxDuration = 1000;  // s, of one call
+
 void check_bodies(World::State& state) {
   for (const Link& link : state.links) {
     if (link.body == nullptr) continue;
@@ -30,29 +32,13 @@ void check_bodies(World::State& state) {
   }
 }
 
-/// ODE keeps one random state for the whole process; this puts a world's own in its place for a while.
-class OwnRandomState {
- public:
-  explicit OwnRandomState(unsigned long& own) : own_(own), others_(dRandGetSeed()) { dRandSetSeed(own_); }
-  ~OwnRandomState() {
-    own_ = dRandGetSeed();
-    dRandSetSeed(others_);
-  }
-  OwnRandomState(const OwnRandomState&) = delete;
-  OwnRandomState& operator=(const OwnRandomState&) = delete;
-
- private:
-  unsigned long& own_;
-  unsigned long others_;
-};
-
 }  // namespace
 
 World::State::State() { ode::prepare_this_thread(); }
 
 World::State::~State() {
-  if (!diverged) return;
-  // ODE may have been left in the middle of a step with its spaces locked; taking them down would trip its assertions.
+  if (!interrupted) return;
+  // ODE was left in the middle of a step, perhaps with its spaces locked; taking them down would trip its assertions.
   static_cast<void>(contacts.release());
   static_cast<void>(movers.release());
   static_cast<void>(statics.release());
@@ -64,7 +50,7 @@ World::State::~State() {
 World::World(const SceneDescription& scene, std::uint64_t seed) : state_(std::make_unique<State>()) {
   std::vector<Problem> problems = check_scene(scene);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  state_->random_state = static_cast<unsigned long>(seed);
+  state_->seed = seed;
   build_world(*state_, scene);
 }
 
@@ -73,22 +59,27 @@ World::~World() = default;
 const SceneTree& World::tree() const { return state_->tree; }
 
 void World::advance(double duration, double step) {
-  if (!(step > 0) || !within(duration, 1e3)) throw InvalidInput("a physics step of " + text(step) + " s is not usable");
+  if (!(step >= kMinPhysicsStep && step <= kMaxPhysicsStep)) {
+    throw InvalidInput("a physics step of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
+  }
+  if (!(duration >= 0 && duration <= kMaxDuration)) {
+    throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
+  }
   if (state_->diverged) throw Diverged("the physics diverged earlier; load the scene again");
   ode::prepare_this_thread();
-  const OwnRandomState random(state_->random_state);
-  try {
-    for (long left = std::lround(duration / step); left > 0; --left) {
+  for (long left = std::lround(duration / step); left > 0; --left) {
+    try {
       find_contacts(*state_);
       for (const PlacedJoint& placed : state_->joints) {
         if (placed.joint) placed.joint->drive(step);
       }
+      // Draws no random numbers, unlike dWorldQuickStep: ODE keeps one random state for all worlds and threads.
       dWorldStep(state_->world.get(), step);
-      check_bodies(*state_);
+    } catch (const Diverged&) {
+      state_->diverged = state_->interrupted = true;
+      throw;
     }
-  } catch (const Diverged&) {
-    state_->diverged = true;
-    throw;
+    check_bodies(*state_);
   }
 }
 
@@ -117,7 +108,7 @@ std::uint64_t World::state_hash() const {
       hash.add(targets, 3);
     }
   }
-  hash.add(static_cast<std::uint64_t>(state_->random_state));
+  hash.add(state_->seed);
   return hash.value();
 }
 

@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
@@ -70,8 +71,9 @@ struct World::State {
   ode::SpaceHandle statics;  // geoms without a body, of finite size
   ode::SpaceHandle planes;   // infinite ones would spoil the tree of the statics
   ode::JointGroupHandle contacts;
-  unsigned long random_state = 0;  // of ODE, which keeps one for the whole process
+  std::uint64_t seed = 0;
   bool diverged = false;
+  bool interrupted = false;  // ODE threw in the middle of a step
 
   const Link& link(ObjectId id) const { return links[tree.at(id).index]; }
   Pose link_pose(ObjectId id) const;
