@@ -20,7 +20,9 @@ def source_space(build_folder: Path) -> Path | None:
                 ["catkin", "locate", "--workspace", folder, "--src"], capture_output=True, text=True, check=False
             )
             return Path(located.stdout.strip()) if located.returncode == 0 else folder / "src"
-        if (folder / ".catkin_workspace").is_file():  # catkin_make and catkin_make_isolated
+        # catkin_make marks a workspace only when all is configured; a link to its own CMake file is there before.
+        is_linked = (folder / "src" / "CMakeLists.txt").resolve().name == "toplevel.cmake"
+        if is_linked or (folder / ".catkin_workspace").is_file():  # the latter by catkin_make_isolated, too
             return folder / "src"
     return None
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from bubblesim.messages.names import type_name
+from bubblesim.messages.names import split_name, type_name
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,26 @@ def read_list(path: Path, shown_as: str, problems: list[str]) -> list[Entry]:
         else:
             entries[name] = Entry(place, name)
     return list(entries.values())
+
+
+def add_to_list(path: Path, name: str) -> str:
+    """Writes a type into messages.txt or services.txt, sorted among those of its package; says what was done."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    package = split_name(name)[0]
+    place = None  # index that the new line will have
+    for index, line in enumerate(lines):
+        listed = type_name(_content(line)) or ""
+        if listed == name:
+            return f"{name}: already listed at {path}:{index + 1}"
+        if split_name(listed)[0] == package and (place is None or listed < name):
+            place = index + 1 if listed < name else index
+    if place is None:
+        if lines and lines[-1].strip():
+            lines.append("")
+        place = len(lines)
+    lines.insert(place, name)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return f"{name}: listed at {path}:{place + 1}"
 
 
 def _content(line: str) -> str:

@@ -17,19 +17,19 @@ def type_name(text: str) -> str | None:
 
 
 def split_name(name: str) -> tuple[str, str]:
-    """`geometry_msgs/Twist` -> ("geometry_msgs", "Twist")."""
-    package, _, short = name.partition("/")
+    """`geometry_msgs/Twist` -> ("geometry_msgs", "Twist"); `Twist` -> ("", "Twist")."""
+    package, _, short = name.rpartition("/")
     return package, short
 
 
 def nearest_names(name: str, known: list[str]) -> list[str]:
-    """At most two known names that a typo may have turned into `name`, best first."""
+    """At most two known names that a typo may have turned into `name`, best first; its package may be missing."""
     package, short = split_name(name)
 
     def likeness(candidate: str) -> float:
         other_package, other_short = split_name(candidate)
-        parts = ((package, other_package), (short, other_short))
-        alike = sum(difflib.SequenceMatcher(None, a.lower(), b.lower()).ratio() for a, b in parts) / 2
+        parts = [(short, other_short)] + ([(package, other_package)] if package else [])
+        alike = sum(difflib.SequenceMatcher(None, a.lower(), b.lower()).ratio() for a, b in parts) / len(parts)
         return max(alike, _LIKELY) if other_short == short else alike  # the right type of another package
 
     # Package and type are compared apart: a long package name alone must not make two types alike.

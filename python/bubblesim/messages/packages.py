@@ -128,12 +128,15 @@ def build_index(
     return index
 
 
-def machine_index() -> PackageIndex:
-    """What a program finds that runs in the present environment."""
+def machine_index(project: Path | None = None) -> PackageIndex:
+    """What a program finds that runs in the present environment; project: root of other sources than its own."""
     prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
     package_path = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
     return build_index(
-        project_root(), None, [Path(path) for path in prefixes if path], [Path(path) for path in package_path if path]
+        project or project_root(),
+        None,
+        [Path(path) for path in prefixes if path],
+        [Path(path) for path in package_path if path],
     )
 
 
@@ -146,9 +149,15 @@ def project_root() -> Path | None:
 def find_workspace(start: Path) -> Path | None:
     """The catkin workspace that a folder lies in."""
     for folder in [start, *start.parents]:
-        if (folder / ".catkin_tools").exists() or (folder / ".catkin_workspace").exists():
+        if (folder / ".catkin_tools").exists() or _is_of_catkin_make(folder):
             return folder
     return None
+
+
+def _is_of_catkin_make(folder: Path) -> bool:
+    """It marks a workspace only when all is configured; a link to its own CMake file is there before."""
+    is_marked = (folder / ".catkin_workspace").exists()
+    return is_marked or (folder / "src" / "CMakeLists.txt").resolve().name == "toplevel.cmake"
 
 
 def _package_name(manifest: Path) -> str | None:

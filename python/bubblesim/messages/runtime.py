@@ -35,7 +35,7 @@ def _add(given_name: str, kind: str) -> None:
     specs = Specs(machine_index())
     name = type_name(given_name)
     if name is None:
-        hint = did_you_mean(_similar(specs, "/" + given_name, kind))
+        hint = did_you_mean(_similar(specs, given_name, kind))
         expected = f"expected package/Type such as geometry_msgs/Twist{hint}"
         raise _core.MessageError(f"'{given_name}' is no type name, {expected}")
     if kind == "msg" and not specs.index.find(name, "msg") and (service := _service_of_half(specs, name)):
