@@ -16,10 +16,14 @@ struct RosBridgeOptions {
   /// Called from drain() with true when the service ~pause is called, with false for ~unpause (both std_srvs/Empty).
   /// Without it the services are not offered.
   std::function<void(bool paused)> on_pause;
+  /// Asked while a service call waits; when it says true (the process was told to end), the call is given up.
+  std::function<bool()> is_ending;
 };
 
 /// One per process, for roscpp is global. All calls come from the simulation's thread; what may wait for the master
-/// runs on a thread of the bridge's own, so the simulation never stands still for ROS.
+/// runs on a thread of the bridge's own, so the simulation never stands still for ROS. When the master is replaced by
+/// another, or forgets the node, everything is registered again within half a second of its first answer (a second,
+/// when it only forgot); messages to and from connected nodes flow all the time.
 class RosBridge final : public messages::Bridge {
  public:
   /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. When a
@@ -43,6 +47,14 @@ class RosBridge final : public messages::Bridge {
   void publish(messages::EndpointId publisher, messages::WireBuffer message) override;
   void shutdown_publisher(messages::EndpointId publisher) override;
   void shutdown_subscriber(messages::EndpointId subscriber) override;
+  messages::EndpointId advertise_service(const std::string& name, const messages::ServiceType& type,
+                                         messages::ServiceCallback callback) override;
+  messages::EndpointId service_client(const std::string& name, const messages::ServiceType& type) override;
+  const messages::ServiceType& service_type(messages::EndpointId server_or_client) const override;
+  messages::WireBuffer call(messages::EndpointId client, messages::WireBuffer request, double timeout) override;
+  bool wait_for_service(const std::string& name, double timeout) override;
+  void shutdown_service_server(messages::EndpointId server) override;
+  void shutdown_service_client(messages::EndpointId client) override;
   void drain() override;
   messages::BridgeTime now() const override;
 
@@ -50,7 +62,7 @@ class RosBridge final : public messages::Bridge {
   /// /use_sim_time. While a script advertises /clock itself, only the latter.
   void publish_clock(double sim_time);
 
-  /// Whether the node is registered at a master.
+  /// Whether the node is registered at a master that was there when last asked, four times a second.
   bool connected() const;
   std::string master_uri() const;
   /// Full name, such as `/sim_ros_interface`.

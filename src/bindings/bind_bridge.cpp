@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim._core.Bridge: topics as child scripts use them, with messages as dicts.
+// bubblesim._core.Bridge: topics and services as child scripts use them, with messages as dicts.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -71,11 +72,68 @@ EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string
   return bridge.subscribe(topic, listed, queue_size, std::move(deliver));
 }
 
+messages::WireBuffer default_bytes(const messages::MessageType& type) {
+  messages::WireBuffer bytes;
+  const std::size_t size = default_size(type);
+  if (size != 0) std::memset(bytes.extend(size), 0, size);
+  return bytes;
+}
+
+py::object decode_request(const messages::ServiceType& type, messages::WireView bytes, TimeForm time) {
+  try {
+    return decode(*type.request, bytes, {time});
+  } catch (const py::error_already_set& error) {
+    throw messages::ServiceError(error.what());  // the fault of whoever sent it
+  }
+}
+
+EndpointId advertise_service(Bridge& bridge, const std::string& name, const std::string& type, py::function callback,
+                             TimeForm time) {
+  const messages::ServiceType& listed = listed_service(type);
+  auto answer = [&listed, time, function = share(std::move(callback))](messages::WireView bytes) {
+    const py::gil_scoped_acquire gil;
+    const py::object request = decode_request(listed, bytes, time);
+    py::object response;
+    try {
+      response = (*function)(request);
+    } catch (const py::error_already_set& error) {
+      if (!error.matches(py::module_::import("bubblesim._core").attr("ServiceError"))) throw;
+      throw messages::ServiceError(py::str(error.value()));
+    }
+    if (response.is_none()) return default_bytes(*listed.response);
+    messages::WireBuffer out;
+    encode(*listed.response, response.ptr(), out);
+    return out;
+  };
+  const py::gil_scoped_release release;
+  return bridge.advertise_service(name, listed, std::move(answer));
+}
+
+EndpointId service_client(Bridge& bridge, const std::string& name, const std::string& type) {
+  const messages::ServiceType& listed = listed_service(type);
+  const py::gil_scoped_release release;
+  return bridge.service_client(name, listed);
+}
+
+py::object call(Bridge& bridge, EndpointId client, const py::object& request, double timeout, TimeForm time) {
+  const messages::ServiceType& type = bridge.service_type(client);
+  messages::WireBuffer bytes;
+  encode(*type.request, request.ptr(), bytes);
+  messages::WireBuffer response;
+  {
+    const py::gil_scoped_release release;
+    response = bridge.call(client, std::move(bytes), timeout);
+  }
+  return decode(*type.response, messages::WireView(response.data(), response.size()), {time});
+}
+
 }  // namespace
 
 void bind_bridge(py::module_& core) {
   const auto without_gil = py::call_guard<py::gil_scoped_release>();
-  py::class_<Bridge>(core, "Bridge", "Topics of a message bridge. Handles are integers; ValueError for stale ones.")
+  py::register_exception<messages::ServiceError>(core, "ServiceError", PyExc_RuntimeError);
+  py::class_<Bridge>(core, "Bridge",
+                     "Topics and services of a message bridge. Handles are integers; ValueError for stale ones.")
       .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("queue_size"), py::arg("latch"))
       .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"),
            py::arg("queue_size"), py::arg("time"), "`callback` gets each message as a dict.")
@@ -84,6 +142,18 @@ void bind_bridge(py::module_& core) {
       .def("check", &check, py::arg("publisher"), py::arg("message"), "Converts a dict without sending it.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)
       .def("shutdown_subscriber", &Bridge::shutdown_subscriber, without_gil)
+      .def("advertise_service", &advertise_service, py::arg("name"), py::arg("service_type"), py::arg("callback"),
+           py::arg("time"),
+           "`callback` gets each request as a dict and returns the response as one; None stands for a response of "
+           "defaults. When it raises, the caller gets the text, and drain() the exception unless it is a ServiceError.")
+      .def("service_client", &service_client, py::arg("name"), py::arg("service_type"))
+      .def("call", &call, py::arg("client"), py::arg("request"), py::arg("timeout"), py::arg("time"),
+           "The response to a dict as a dict, within `timeout` seconds; meanwhile services offered here are answered. "
+           "ServiceError when there is no such service, it is of another type, fails, or does not answer in time.")
+      .def("wait_for_service", &Bridge::wait_for_service, py::arg("name"), py::arg("timeout"), without_gil,
+           "Whether somebody offers the service; waits `timeout` seconds at most, looks once when that is 0.")
+      .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
+      .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
       .def(
           "now",
           [](const Bridge& bridge) {

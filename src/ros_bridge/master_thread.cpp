@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "master_thread.hpp"
 
-#include <pthread.h>
 #include <ros/init.h>
-#include <ros/master.h>
-#include <signal.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -16,6 +14,7 @@
 #include <utility>
 
 #include "interrupt.hpp"
+#include "quiet_thread.hpp"
 
 namespace bubblesim {
 namespace {
@@ -23,30 +22,30 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kRetryInterval = 250ms;
+constexpr auto kCheckInterval = 250ms;
 // How stop() spends its 2 s: what a healthy master needs, then breaking off calls one by one.
 constexpr auto kLetJobFinish = 200ms;
 constexpr auto kLetMasterAnswer = 1000ms;
 constexpr auto kGiveUp = 1900ms;
 constexpr auto kInterruptInterval = 2ms;
 
-/// A thread that takes no signals, so that SIGINT and SIGTERM reach the thread that waits for them.
+/// What `function` says; false when it throws, as roscpp does at answers that it does not understand.
 template <class Function>
-std::thread start_without_signals(Function&& function) {
-  sigset_t all;
-  sigset_t previous;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &previous);
-  std::thread thread(std::forward<Function>(function));
-  pthread_sigmask(SIG_SETMASK, &previous, nullptr);
-  return thread;
+bool run_safely(Function&& function) {
+  try {
+    return function();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "plugin 'ROSInterface': %s\n", error.what());
+  } catch (const XmlRpc::XmlRpcException& error) {
+    std::fprintf(stderr, "plugin 'ROSInterface': %s\n", error.getMessage().c_str());
+  }
+  return false;
 }
 
 }  // namespace
 
 struct MasterThread::Shared {
-  Job on_absent;
-  Job on_connected;
+  Hooks hooks;
 
   std::mutex mutex;
   std::condition_variable changed;
@@ -74,14 +73,14 @@ void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
   set_state(State::kAbsent);
   if (std::exchange(said_absent, true)) return;
   lock.unlock();
-  on_absent();
+  hooks.on_absent();
   lock.lock();
 }
 
 /// False when it is time to stop. NodeHandle and ros::start() would wait for ever, so they come after this.
 bool MasterThread::Shared::find_master() {
   for (;;) {
-    const bool found = ros::master::check();
+    const bool found = run_safely([this] { return hooks.check(); });
     std::unique_lock lock(mutex);
     if (stopping) return false;
     if (found) {
@@ -89,25 +88,31 @@ bool MasterThread::Shared::find_master() {
       return true;
     }
     set_absent(lock);
-    if (changed.wait_for(lock, kRetryInterval, [this] { return stopping; })) return false;
+    if (changed.wait_for(lock, kCheckInterval, [this] { return stopping; })) return false;
   }
 }
 
+/// A job begun while a master is absent would wait for it, in roscpp, with locks held that delivery needs.
 void MasterThread::Shared::work() {
+  bool found = true;
   for (;;) {
     Job job;
     {
       std::unique_lock lock(mutex);
-      changed.wait(lock, [this] { return stopping || !jobs.empty(); });
+      set_state(found ? State::kConnected : State::kAbsent);
+      const auto is_due = [&] { return stopping || (found && !jobs.empty()); };
+      changed.wait_for(lock, kCheckInterval, is_due);
       if (stopping) return;
+    }
+    found = run_safely([this] { return hooks.check(); });
+    {
+      const std::lock_guard lock(mutex);
+      if (stopping) return;
+      if (!found || jobs.empty()) continue;
       job = std::move(jobs.front());
       jobs.pop_front();
     }
-    try {
-      job();
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "plugin 'ROSInterface': %s\n", error.what());
-    }
+    run_safely([&job] { return job(), true; });
   }
 }
 
@@ -120,11 +125,7 @@ void MasterThread::Shared::run() {
       go_on = !stopping;
     }
     if (go_on) {
-      on_connected();
-      {
-        const std::lock_guard lock(mutex);
-        set_state(State::kConnected);
-      }
+      hooks.on_connected();
       work();
     }
     ros::shutdown();  // or wait for the one that stop() began
@@ -136,9 +137,9 @@ void MasterThread::Shared::run() {
   changed.notify_all();
 }
 
-MasterThread::MasterThread(Job on_absent, Job on_connected) : shared_(std::make_shared<Shared>()) {
-  shared_->on_absent = std::move(on_absent);
-  shared_->on_connected = std::move(on_connected);
+MasterThread::MasterThread(Hooks hooks) : shared_(std::make_shared<Shared>()) { shared_->hooks = std::move(hooks); }
+
+void MasterThread::start() {
   shared_->thread = start_without_signals([shared = shared_] { shared->run(); });
 }
 

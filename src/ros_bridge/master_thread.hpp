@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one thread that talks to the ROS master, which may be absent, slow or hanging: it waits for a master to appear,
-// starts roscpp, and then works through jobs (registrations) in order.
+// starts roscpp, and then works through jobs (registrations) in order; when the master goes away, it waits for the
+// next.
 #pragma once
 
 #include <chrono>
@@ -15,18 +16,27 @@ class MasterThread {
     kTrying,     ///< no answer yet to the first call
     kAbsent,     ///< the master does not answer; tried again four times a second
     kStarting,   ///< a master answers
-    kConnected,  ///< roscpp is started
+    kConnected,  ///< roscpp is started, and the master was there when it was last asked
   };
 
   using Job = std::function<void()>;
 
-  /// ros::init() must have been called. `on_absent` runs once if the first try fails or takes too long, `on_connected`
-  /// once roscpp is started, before any job; both on the new thread.
-  MasterThread(Job on_absent, Job on_connected);
+  struct Hooks {
+    /// Whether a master answers. Asked until it does; then four times a second and before every job.
+    std::function<bool()> check;
+    Job on_absent;     ///< once, if the first try fails or takes too long
+    Job on_connected;  ///< once roscpp is started, before any job
+  };
+
+  /// Hooks run on the new thread. Nothing happens before start().
+  explicit MasterThread(Hooks hooks);
   ~MasterThread();
 
   MasterThread(const MasterThread&) = delete;
   MasterThread& operator=(const MasterThread&) = delete;
+
+  /// ros::init() must have been called, and whatever the hooks refer to must be there.
+  void start();
 
   /// Blocks until the state is kAbsent or kConnected. A master that does not answer in `answer_timeout` counts as
   /// absent; one that does but then takes longer than `start_timeout` is not waited for.
@@ -34,7 +44,7 @@ class MasterThread {
 
   State state() const;
 
-  /// Runs `job` after those posted before, once connected. Jobs not begun when stop() is called are dropped.
+  /// Runs `job` after those posted before, while connected. Jobs not begun when stop() is called are dropped.
   void post(Job job);
 
   /// Ends the node and the thread, within 2 s. False if a call that cannot be interrupted (a name lookup) keeps the

@@ -4,25 +4,30 @@
 #include <ros/callback_queue.h>
 #include <ros/init.h>
 #include <ros/master.h>
-#include <ros/message_traits.h>
 #include <ros/names.h>
-#include <ros/service_manager.h>
+#include <ros/subscribe_options.h>
 #include <ros/this_node.h>
 #include <ros/time.h>
+#include <ros/topic_manager.h>
 #include <rosgraph_msgs/Clock.h>
-#include <std_srvs/Empty.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
+#include "endpoint_table.hpp"
 #include "endpoints.hpp"
+#include "master_call.hpp"
 #include "master_thread.hpp"
+#include "master_watch.hpp"
 #include "node_setup.hpp"
+#include "own_types.hpp"
+#include "services.hpp"
 
 namespace bubblesim {
 namespace {
@@ -30,43 +35,18 @@ namespace {
 using messages::BridgeTime;
 using messages::EndpointId;
 using messages::MessageType;
+using messages::ServiceType;
 using messages::WireBuffer;
 
 constexpr std::uint32_t kClockQueueSize = 10;
 constexpr std::chrono::milliseconds kAnswerTimeout{800};
 constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
+constexpr std::chrono::milliseconds kLastCalls{100};      // those given up, or held up by a master that is gone
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
-const MessageType& clock_type() {
-  static const MessageType type = [] {
-    namespace traits = ros::message_traits;
-    using rosgraph_msgs::Clock;
-    MessageType clock;
-    clock.name = traits::datatype<Clock>();
-    clock.md5 = traits::md5sum<Clock>();
-    clock.definition = traits::definition<Clock>();
-    return clock;
-  }();
-  return type;
-}
 
 BridgeTime to_bridge_time(std::int64_t nanoseconds) {
   return {static_cast<std::uint32_t>(nanoseconds / kNanosecondsPerSecond),
           static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
-}
-
-/// The full name of a script's topic, remappings applied.
-std::string resolve_topic(const std::string& topic) {
-  std::string error;
-  if (topic.empty()) {
-    error = "it is empty";
-  } else if (ros::names::validate(topic, error)) {
-    const bool below_node = topic[0] != '/' && topic[0] != '~';
-    std::string resolved = ros::names::resolve(below_node ? "~" + topic : topic);
-    if (resolved.size() > 1) return resolved;
-    error = "it names nothing";
-  }
-  throw std::invalid_argument("unusable topic name '" + topic + "': " + error);
 }
 
 /// A node has one type for what it publishes on a topic, and one for what it subscribes to there.
@@ -76,34 +56,24 @@ void check_same_type(const std::string& topic, const MessageType& type, const ch
                               ", so it cannot be " + type.name);
 }
 
-template <class Endpoint>
-using Table = std::unordered_map<EndpointId, std::shared_ptr<Endpoint>>;
-
-template <class Table>
-auto find_endpoint(Table& table, EndpointId id, const char* kind) {
-  const auto found = table.find(id);
-  if (found != table.end()) return found;
-  throw std::invalid_argument("invalid object handle " + std::to_string(id) + ": no such " + kind +
-                              ", or it was shut down");
-}
-
 void say(const std::string& text) { std::fputs(("plugin 'ROSInterface': " + text + "\n").c_str(), stderr); }
 
 }  // namespace
 
 struct RosBridge::Impl {
-  explicit Impl(RosBridgeOptions bridge_options) : options(std::move(bridge_options)) {}
+  explicit Impl(RosBridgeOptions bridge_options);
 
   void offer_pause_service(const std::string& name, bool paused);
   void on_connected();
+  void read_use_sim_time();
 
   const RosBridgeOptions options;
   ros::CallbackQueue queue;
   CallbackGuard guard;
   bool draining = false;
 
-  Table<PublisherEndpoint> publishers;
-  Table<SubscriberEndpoint> subscribers;
+  EndpointTable<PublisherEndpoint> publishers;
+  EndpointTable<SubscriberEndpoint> subscribers;
   EndpointId next_id = 1;
 
   const std::shared_ptr<PublisherEndpoint> clock =
@@ -111,33 +81,62 @@ struct RosBridge::Impl {
   int script_clocks = 0;  // publishers of scripts on the same topic
   bool said_script_clock = false;
   std::int64_t sim_time = 0;  // [ns]
+  std::atomic<bool> use_sim_time{false};
+  bool follows_clock = false;  // roscpp's own time does, from a subscription of ours; the master thread's
 
-  MasterThread master{[] {
-                        say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
-                            "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
-                            "as a master appears");
-                      },
-                      [this] { on_connected(); }};
+  MasterWatch watch{[this] {
+    read_use_sim_time();
+    say("registered again at ROS master " + ros::master::getURI());
+  }};
+  MasterThread master;
+  Services services{master, watch, guard, options.is_ending};
+  std::vector<std::shared_ptr<ServiceServer>> own_servers;
 };
 
-void RosBridge::Impl::on_connected() {
-  clock->register_at_master();
+RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
+    : options(std::move(bridge_options)),
+      master({[this] { return watch.check(); },
+              [] {
+                say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
+                    "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
+                    "as a master appears");
+              },
+              [this] { on_connected(); }}) {
   if (options.on_pause) {
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
   }
+  master.start();
+}
+
+void RosBridge::Impl::on_connected() {
+  use_sim_time = ros::Time::isSimTime();  // roscpp has just read the parameter
+  clock->register_at_master();
+  for (const auto& server : own_servers) services.register_server(*server);
   say("load succeeded: node " + ros::this_node::getName() + " at ROS master " + ros::master::getURI());
 }
 
+/// As roscpp does when it starts. Once its own time follows /clock it cannot be told to stop: that is left as it is,
+/// for it only stamps log messages.
+void RosBridge::Impl::read_use_sim_time() {
+  RpcAnswer answer = ask_master("getParam", {"/use_sim_time"});
+  use_sim_time =
+      answer.succeeded && answer.value.getType() == XmlRpc::XmlRpcValue::TypeBoolean && static_cast<bool>(answer.value);
+  if (!use_sim_time || ros::Time::isSimTime() || std::exchange(follows_clock, true)) return;
+  ros::Time::setNow(ros::Time());
+  ros::SubscribeOptions clock_options;
+  clock_options.init<rosgraph_msgs::Clock>(
+      ros::names::resolve("/clock"), 1,
+      [](const rosgraph_msgs::Clock::ConstPtr& message) { ros::Time::setNow(message->clock); });
+  clock_options.callback_queue = &queue;
+  ros::TopicManager::instance()->subscribe(clock_options);
+}
+
 void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
-  ros::AdvertiseServiceOptions service;
-  service.init<std_srvs::Empty>(ros::names::resolve(name),
-                                [this, paused](std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-                                  guard.run([&] { options.on_pause(paused); });
-                                  return true;
-                                });
-  service.callback_queue = &queue;
-  ros::ServiceManager::instance()->advertiseService(service);
+  own_servers.push_back(services.add_server(next_id++, name, empty_service(), [this, paused](messages::WireView) {
+    options.on_pause(paused);
+    return WireBuffer();
+  }));
 }
 
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
@@ -149,14 +148,15 @@ RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
 RosBridge::~RosBridge() {
   // Here and not where roscpp lets go of them: scripts' callbacks must die on the simulation's thread.
   for (const auto& [id, subscriber] : impl_->subscribers) subscriber->silence();
-  if (impl_->master.stop()) return;
+  impl_->services.silence();
+  if (impl_->master.stop() && impl_->services.finish_calls(kLastCalls)) return;
   say("the ROS master at " + master_uri() + " does not answer: leaving without taking this node off it");
   static_cast<void>(impl_.release());  // the thread that is left behind still uses it
 }
 
 EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 bool latch) {
-  const std::string resolved = resolve_topic(topic);
+  const std::string resolved = resolve_name(topic, "topic");
   for (const auto& [id, other] : impl_->publishers) {
     if (other->topic() == resolved) check_same_type(resolved, type, "advertised", other->type());
   }
@@ -176,7 +176,7 @@ EndpointId RosBridge::advertise(const std::string& topic, const MessageType& typ
 
 EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 messages::MessageCallback callback) {
-  const std::string resolved = resolve_topic(topic);
+  const std::string resolved = resolve_name(topic, "topic");
   for (const auto& [id, other] : impl_->subscribers) {
     if (other->topic() == resolved) check_same_type(resolved, type, "subscribed", other->type());
   }
@@ -216,17 +216,46 @@ void RosBridge::shutdown_subscriber(EndpointId subscriber) {
   impl_->subscribers.erase(found);
 }
 
+EndpointId RosBridge::advertise_service(const std::string& name, const ServiceType& type,
+                                        messages::ServiceCallback callback) {
+  const auto server = impl_->services.add_server(impl_->next_id, name, type, std::move(callback));
+  impl_->master.post([impl = impl_.get(), server] { impl->services.register_server(*server); });
+  return impl_->next_id++;
+}
+
+EndpointId RosBridge::service_client(const std::string& name, const ServiceType& type) {
+  impl_->services.add_client(impl_->next_id, name, type);
+  return impl_->next_id++;
+}
+
+const ServiceType& RosBridge::service_type(EndpointId server_or_client) const {
+  return impl_->services.type(server_or_client);
+}
+
+WireBuffer RosBridge::call(EndpointId client, WireBuffer request, double timeout) {
+  return impl_->services.call(client, std::move(request), timeout);
+}
+
+bool RosBridge::wait_for_service(const std::string& name, double timeout) {
+  return impl_->services.wait_for(name, timeout);
+}
+
+void RosBridge::shutdown_service_server(EndpointId server) { impl_->services.remove_server(server); }
+
+void RosBridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
+
 void RosBridge::drain() {
   if (impl_->draining) return;  // called by a callback: the outer call goes on with the rest
   impl_->draining = true;
   impl_->queue.callAvailable(ros::WallDuration(0));
+  impl_->services.serve();
   impl_->draining = false;
   impl_->guard.rethrow();
 }
 
 BridgeTime RosBridge::now() const {
-  // isSimTime() before roscpp is started says nothing; then the wall clock is what any other node would use too.
-  if (connected() && ros::Time::isSimTime()) return to_bridge_time(impl_->sim_time);
+  // Before the master was asked, the wall clock is what any other node would use too.
+  if (impl_->use_sim_time) return to_bridge_time(impl_->sim_time);
   const auto wall = std::chrono::system_clock::now().time_since_epoch();
   return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Holds a RosBridge and obeys lines on stdin: `command arguments...`. Each is answered by one line, `= result` or
-// `! error`; what subscribers get is printed as `message ID VALUE`, what drain() throws as `drain threw TEXT`.
-// Ends on SIGTERM, `quit` or end of input. test_bridge.py is its other half.
+// `! error`; what subscribers get is printed as `message ID VALUE`, what servers are asked as `request ID VALUE`, what
+// drain() throws as `drain threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py is its other half.
 #include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -14,6 +16,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "bubblesim/ros_bridge.hpp"
 
@@ -23,6 +27,8 @@ using bubblesim::RosBridge;
 using bubblesim::messages::EndpointId;
 using bubblesim::messages::MessageCallback;
 using bubblesim::messages::MessageType;
+using bubblesim::messages::ServiceError;
+using bubblesim::messages::ServiceType;
 using bubblesim::messages::WireBuffer;
 using bubblesim::messages::WireView;
 
@@ -82,6 +88,51 @@ std::string decode(const MessageType& type, WireView message) {
   return std::string(reinterpret_cast<const char*>(message.take(length)), length);
 }
 
+const std::map<std::string, ServiceType>& services() {
+  static const MessageType request =
+      make_type("std_srvs/SetBoolRequest", "8b94c1b53db61fb6aed406028ad6332a", "bool data\n");
+  static const MessageType empty = make_type("std_srvs/TriggerRequest", "d41d8cd98f00b204e9800998ecf8427e", "\n");
+  static const MessageType response =
+      make_type("std_srvs/SetBoolResponse", "937c9679a518e3a18d831e57125ea522", "bool success\nstring message\n");
+  static const std::map<std::string, ServiceType> all{
+      {"setbool", {"std_srvs/SetBool", "09fb03525b03e7ea1fd3992bafd87e16", &request, &response}},
+      {"trigger", {"std_srvs/Trigger", "937c9679a518e3a18d831e57125ea522", &empty, &response}},
+  };
+  return all;
+}
+
+WireBuffer encode_response(bool success, const std::string& text) {
+  WireBuffer response;
+  response.put(static_cast<std::uint8_t>(success));
+  response.put(static_cast<std::uint32_t>(text.size()));
+  response.put_bytes(text.data(), text.size());
+  return response;
+}
+
+std::string decode_response(const WireBuffer& response) {
+  WireView view(response.data(), response.size());
+  const bool success = view.get<std::uint8_t>() != 0;
+  const auto length = view.get<std::uint32_t>();
+  return (success ? "yes " : "no ") + std::string(reinterpret_cast<const char*>(view.take(length)), length);
+}
+
+/// Longest time [ms] that any of the functions has taken, in as many rounds.
+template <class... Functions>
+double longest_call(int rounds, Functions&&... functions) {
+  using Clock = std::chrono::steady_clock;
+  double longest = 0;
+  const auto measure = [&longest](auto& function) {
+    const auto begin = Clock::now();
+    function();
+    longest = std::max(longest, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+  };
+  for (int i = 0; i < rounds; ++i) {
+    (measure(functions), ...);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return longest;
+}
+
 class Probe {
  public:
   explicit Probe(RosBridge& bridge) : bridge_(bridge) {}
@@ -135,6 +186,62 @@ class Probe {
     return "";
   }
 
+  /// `how`: "" echoes the request's bool, "throw" throws, "fail" says that it cannot, "close" shuts itself down,
+  /// "call ID" calls that client first, for 5 s at most, "sleep" takes half a second.
+  std::string serve(Words& words) {
+    const auto name = read<std::string>(words);
+    const auto& type = services().at(read<std::string>(words));
+    const auto how = read<std::string>(words);
+    const auto inner = read<EndpointId>(words);
+    const auto id = std::make_shared<EndpointId>(0);
+    *id = bridge_.advertise_service(name, type, [this, id, how, inner](WireView request) {
+      const bool value = request.left() > 0 && request.get<std::uint8_t>() != 0;
+      std::cout << "request " << *id << " " << value << std::endl;
+      if (how == "throw") throw std::runtime_error("server " + std::to_string(*id));
+      if (how == "fail") throw ServiceError("out of paint");
+      if (how == "sleep") std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      if (how == "close") bridge_.shutdown_service_server(*id);
+      if (how == "call") return bridge_.call(inner, WireBuffer(), 5.0);
+      return encode_response(value, "of " + std::to_string(*id));
+    });
+    return std::to_string(*id);
+  }
+
+  std::string client(Words& words) {
+    const auto name = read<std::string>(words);
+    return std::to_string(bridge_.service_client(name, services().at(read<std::string>(words))));
+  }
+
+  /// call ID TIMEOUT [BOOL]: the request of a Trigger has no bytes.
+  std::string call(Words& words) {
+    const auto id = read<EndpointId>(words);
+    const auto timeout = read<double>(words);
+    WireBuffer request;
+    if (bridge_.service_type(id).name == "std_srvs/SetBool") request.put(static_cast<std::uint8_t>(read<int>(words)));
+    return decode_response(bridge_.call(id, std::move(request), timeout));
+  }
+
+  std::string wait_for_service(Words& words) {
+    const auto name = read<std::string>(words);
+    return bridge_.wait_for_service(name, read<double>(words)) ? "yes" : "no";
+  }
+
+  /// longest TOPIC: longest time [ms] of any call that a simulation makes in its passes.
+  std::string longest(Words& words) {
+    const auto topic = read<std::string>(words);
+    const auto& type = types().at("float");
+    EndpointId publisher = 0;
+    EndpointId subscriber = 0;
+    EndpointId server = 0;
+    return std::to_string(longest_call(
+        100, [&] { publisher = bridge_.advertise(topic, type, 1, false); },
+        [&] { subscriber = bridge_.subscribe(topic, type, 1, [](WireView) {}); },
+        [&] { server = bridge_.advertise_service(topic, services().at("setbool"), nullptr); },
+        [&] { bridge_.publish(publisher, encode(type, "1")); }, [&] { bridge_.publish_clock(1.0); },
+        [&] { bridge_.drain(); }, [&] { bridge_.now(); }, [&] { bridge_.shutdown_publisher(publisher); },
+        [&] { bridge_.shutdown_subscriber(subscriber); }, [&] { bridge_.shutdown_service_server(server); }));
+  }
+
   std::string now(Words&) {
     const auto time = bridge_.now();
     return std::to_string(time.sec) + " " + std::to_string(time.nanosec);
@@ -150,6 +257,15 @@ class Probe {
       {"advertise", [this](Words& words) { return advertise(words); }},
       {"subscribe", [this](Words& words) { return subscribe(words); }},
       {"publish", [this](Words& words) { return publish(words); }},
+      {"serve", [this](Words& words) { return serve(words); }},
+      {"client", [this](Words& words) { return client(words); }},
+      {"call", [this](Words& words) { return call(words); }},
+      {"wait_for_service", [this](Words& words) { return wait_for_service(words); }},
+      {"longest", [this](Words& words) { return longest(words); }},
+      {"shutdown_server",
+       [this](Words& words) { return bridge_.shutdown_service_server(read<EndpointId>(words)), std::string(); }},
+      {"shutdown_client",
+       [this](Words& words) { return bridge_.shutdown_service_client(read<EndpointId>(words)), std::string(); }},
       {"now", [this](Words& words) { return now(words); }},
       {"clock", [this](Words& words) { return clock(words); }},
       {"wants", [this](Words& words) { return bridge_.wants_messages(read<EndpointId>(words)) ? "yes" : "no"; }},
@@ -195,6 +311,7 @@ int main(int argc, char** argv) {
   try {
     bubblesim::RosBridgeOptions options;
     options.on_pause = [](bool paused) { std::cout << (paused ? "paused" : "unpaused") << std::endl; };
+    options.is_ending = [] { return ending.load(); };
     RosBridge bridge(argc, argv, options);
     if (argc > 1) throw std::invalid_argument(std::string("left over argument ") + argv[1]);
     run(bridge);

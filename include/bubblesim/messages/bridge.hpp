@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "bubblesim/messages/message_type.hpp"
@@ -12,20 +13,30 @@
 
 namespace bubblesim::messages {
 
-/// Names a publisher or subscriber. Never used again after shutdown, so a stale one is noticed.
+/// Names a publisher, subscriber, service server or client. Never used again after shutdown, so a stale one is noticed.
 using EndpointId = std::int32_t;
 
 /// Called on the simulation's thread while Bridge::drain() runs; the bytes are valid during the call.
 using MessageCallback = std::function<void(WireView message)>;
+
+/// Takes the bytes of a request (valid during the call) and returns those of the response. Called on the simulation's
+/// thread, while Bridge::drain(), call() or wait_for_service() runs. When it throws, the caller gets the text.
+using ServiceCallback = std::function<WireBuffer(WireView request)>;
+
+/// A service call that brought no response, and why; thrown by a ServiceCallback, that the request cannot be met.
+struct ServiceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 struct BridgeTime {
   std::uint32_t sec = 0;
   std::uint32_t nanosec = 0;
 };
 
-/// All calls come from the simulation's thread and return at once: a bridge talks to its master on a thread of its own,
-/// so an endpoint made while no master is reachable comes alive when one appears. Errors (unusable topic name, unknown
-/// or shut-down id) are std::invalid_argument with a text for the script's author.
+/// All calls come from the simulation's thread and, but for call() and wait_for_service(), return at once: a bridge
+/// talks to its master on a thread of its own, so an endpoint made while no master is reachable comes alive when one
+/// appears. Errors (unusable name, unknown or shut-down id) are std::invalid_argument with a text for the script's
+/// author.
 class Bridge {
  public:
   virtual ~Bridge() = default;
@@ -43,9 +54,23 @@ class Bridge {
   virtual void shutdown_publisher(EndpointId publisher) = 0;
   virtual void shutdown_subscriber(EndpointId subscriber) = 0;
 
-  /// Delivers what has arrived since the last call to the callbacks. A callback may call the bridge, shut its own
-  /// subscriber down included; what it throws is passed on after the others have been served. A call from within a
-  /// callback does nothing.
+  /// Offers a service. `name` is resolved as topics are; `type` must live as long as the bridge.
+  virtual EndpointId advertise_service(const std::string& name, const ServiceType& type, ServiceCallback callback) = 0;
+  virtual EndpointId service_client(const std::string& name, const ServiceType& type) = 0;
+  virtual const ServiceType& service_type(EndpointId server_or_client) const = 0;
+  /// The service's response to `request`. Waits for it `timeout` seconds at most, and meanwhile answers requests to
+  /// services that this bridge offers (but delivers no messages), so a service may be called by the node that offers
+  /// it. Throws ServiceError: no such service, of another type, its own error text, connection lost, no answer in time;
+  /// std::invalid_argument for a timeout that is not a positive number.
+  virtual WireBuffer call(EndpointId client, WireBuffer request, double timeout) = 0;
+  /// Whether somebody offers the service; waits `timeout` seconds at most (0: looks once), as call() does.
+  virtual bool wait_for_service(const std::string& name, double timeout) = 0;
+  virtual void shutdown_service_server(EndpointId server) = 0;
+  virtual void shutdown_service_client(EndpointId client) = 0;
+
+  /// Delivers what has arrived since the last call to the callbacks: messages, then service requests. A callback may
+  /// call the bridge, shut its own endpoint down included; what it throws (but ServiceError) is passed on after the
+  /// others have been served. A call from within a callback does nothing.
   virtual void drain() = 0;
 
   /// Time that messages should be stamped with: the simulation's when /use_sim_time is set, else the wall clock's.

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A service /paint of rospy, std_srvs/SetBool: echoes true, refuses false by raising."""
+
+import rospy
+from std_srvs.srv import SetBool, SetBoolRequest, SetBoolResponse
+
+
+def paint(request: SetBoolRequest) -> SetBoolResponse:
+    if not request.data:
+        raise rospy.ServiceException("no brush")
+    return SetBoolResponse(True, "painted")
+
+
+rospy.init_node("painter")
+server = rospy.Service("/paint", SetBool, paint)
+rospy.spin()
