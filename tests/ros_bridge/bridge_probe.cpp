@@ -160,20 +160,24 @@ class Probe {
     return value;
   }
 
+  /// advertise TOPIC TYPE [latch|- [QUEUE_SIZE]]
   std::string advertise(Words& words) {
     const auto topic = read<std::string>(words);
     const auto& type = types().at(read<std::string>(words));
-    return std::to_string(bridge_.advertise(topic, type, 100, read<std::string>(words) == "latch"));
+    const bool latch = read<std::string>(words) == "latch";
+    const auto queue_size = read<std::uint32_t>(words);
+    return std::to_string(bridge_.advertise(topic, type, queue_size == 0 ? 100 : queue_size, latch));
   }
 
-  /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down.
+  /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down, "size" prints how many bytes.
   std::string subscribe(Words& words) {
     const auto topic = read<std::string>(words);
     const auto& type = types().at(read<std::string>(words));
     const auto how = read<std::string>(words);
     const auto id = std::make_shared<EndpointId>(0);
     *id = bridge_.subscribe(topic, type, 100, [this, id, how, &type](WireView message) {
-      std::cout << "message " << *id << " " << decode(type, message) << std::endl;
+      const std::string text = how == "size" ? std::to_string(message.left()) : decode(type, message);
+      std::cout << "message " << *id << " " << text << std::endl;
       if (how == "throw") throw std::runtime_error("subscriber " + std::to_string(*id));
       if (how == "once") bridge_.shutdown_subscriber(*id);
     });
@@ -242,6 +246,20 @@ class Probe {
         [&] { bridge_.shutdown_subscriber(subscriber); }, [&] { bridge_.shutdown_service_server(server); }));
   }
 
+  /// flood ID BYTES COUNT: so many strings of so many bytes, 50 a second.
+  std::string flood(Words& words) {
+    const auto id = read<EndpointId>(words);
+    const std::string text(read<std::size_t>(words), 'x');
+    const auto count = read<int>(words);
+    auto next = std::chrono::steady_clock::now();
+    for (int i = 0; i < count; ++i) {
+      std::this_thread::sleep_until(next += std::chrono::milliseconds(20));
+      bridge_.publish(id, encode(bridge_.message_type(id), text));
+      bridge_.drain();
+    }
+    return "";
+  }
+
   std::string now(Words&) {
     const auto time = bridge_.now();
     return std::to_string(time.sec) + " " + std::to_string(time.nanosec);
@@ -261,6 +279,7 @@ class Probe {
       {"client", [this](Words& words) { return client(words); }},
       {"call", [this](Words& words) { return call(words); }},
       {"wait_for_service", [this](Words& words) { return wait_for_service(words); }},
+      {"flood", [this](Words& words) { return flood(words); }},
       {"longest", [this](Words& words) { return longest(words); }},
       {"shutdown_server",
        [this](Words& words) { return bridge_.shutdown_service_server(read<EndpointId>(words)), std::string(); }},
