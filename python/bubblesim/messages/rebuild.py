@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shlex
 import subprocess
+import sys
 from pathlib import Path
 
 from bubblesim.messages.packages import find_workspace
@@ -34,4 +35,5 @@ def build_command(workspace: Path) -> list[str]:
     built_by = marker.read_text(encoding="utf-8").strip() if marker.is_file() else ""
     if built_by == "catkin_make" or not (workspace / ".catkin_tools").is_dir():
         return ["catkin_make", "--directory", str(workspace), "--pkg", "bubblesim"]
-    return ["catkin", "build", "bubblesim", "--no-deps", "--no-notify", "--workspace", str(workspace)]
+    look = [] if sys.stdout.isatty() else ["--no-status", "--no-color"]
+    return ["catkin", "build", "bubblesim", "--no-deps", "--no-notify", *look, "--workspace", str(workspace)]
