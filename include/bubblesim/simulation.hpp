@@ -35,7 +35,7 @@ class Simulation {
   /// Participants are not owned and act in the order in which they were added.
   void add(Participant& participant);
 
-  /// One pass of time_step() seconds. Throws Diverged.
+  /// One pass of time_step() seconds. Throws Diverged, and std::logic_error when another thread is in here already.
   void step();
   /// The part of a pass that goes on while paused.
   void drain();
@@ -76,6 +76,7 @@ class Simulation {
   std::vector<SensorSlot> sensors_;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;
+  std::atomic<bool> stepping_{false};
   std::atomic<bool> paused_{false};
   std::atomic<bool> stopping_{false};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/simulation.hpp"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -48,7 +49,26 @@ void Simulation::drain() {
   for (Participant* participant : participants_) participant->drain();
 }
 
+namespace {
+
+/// Holds a flag as long as it lives; throws when somebody else holds it.
+class Exclusive {
+ public:
+  explicit Exclusive(std::atomic<bool>& flag) : flag_(flag) {
+    if (flag_.exchange(true)) throw std::logic_error("another thread is stepping this simulation already");
+  }
+  ~Exclusive() { flag_ = false; }
+  Exclusive(const Exclusive&) = delete;
+  Exclusive& operator=(const Exclusive&) = delete;
+
+ private:
+  std::atomic<bool>& flag_;
+};
+
+}  // namespace
+
 void Simulation::step() {
+  const Exclusive exclusive(stepping_);
   const double now = time();
   drain();
   for (Participant* participant : participants_) participant->actuate(world_, now);
