@@ -122,6 +122,7 @@ struct SceneDescription {
   double time_step = 0.05;       ///< s, of one simulation pass
   double physics_step = 0.005;   ///< s, of one physics substep; divides time_step
   std::vector<ModelDescription> models;
+  Source source;
 };
 
 }  // namespace bubblesim

@@ -42,6 +42,13 @@ std::string object_path(sdf::ElementPtr element) {
   return path;
 }
 
+sdf::ElementPtr own_child(const sdf::ElementPtr& parent, const std::string& name) {
+  for (sdf::ElementPtr child = parent->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
+    if (child->GetName() == name) return child;
+  }
+  return nullptr;
+}
+
 void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problems) {
   const std::string name = element->GetName();
   const auto report = [&](const std::string& message) {
@@ -54,24 +61,21 @@ void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problem
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
     if (std::find(own.parents.begin(), own.parents.end(), parent) == own.parents.end()) {
       report("<" + name + "> stands in <" + parent + ">, it belongs in <" + own.parents.front() + ">");
+    } else if (own_child(element->GetParent(), name) != element) {
+      report("<" + name + "> stands here twice");
     }
     return;
   }
   report("unknown element <" + name + ">" + did_you_mean(name, known));
 }
 
-sdf::ElementPtr own_child(const sdf::ElementPtr& parent, const std::string& name) {
-  for (sdf::ElementPtr child = parent->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
-    if (child->GetName() == name) return child;
-  }
-  return nullptr;
-}
-
 }  // namespace
+
+bool is_own_element(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 
 void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& problems) {
   for (sdf::ElementPtr child = root->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
-    if (child->GetName().rfind(kPrefix, 0) == 0) check_element(child, problems);
+    if (is_own_element(child->GetName())) check_element(child, problems);
     check_own_elements(child, problems);
   }
 }

@@ -11,7 +11,9 @@
 
 namespace bubblesim {
 
-/// Reports elements of our namespace that do not exist or stand in the wrong place, anywhere below `root`.
+bool is_own_element(const std::string& name);
+
+/// Reports elements of our namespace that do not exist, stand in the wrong place or there twice, anywhere below `root`.
 void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& problems);
 
 /// The text of one of our elements, if it is there.

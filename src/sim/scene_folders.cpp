@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where scenes are looked for.
+#include "scene_folders.hpp"
+
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -7,6 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "bubblesim/error.hpp"
+#include "bubblesim/nearest_names.hpp"
 #include "bubblesim/scene_loader.hpp"
 
 namespace bubblesim {
@@ -52,6 +56,22 @@ std::vector<std::string> scene_names() {
     }
   }
   return {names.begin(), names.end()};
+}
+
+fs::path find_scene(const std::string& name_or_path) {
+  const fs::path path(name_or_path);
+  if (path.has_parent_path() || path.extension() == ".sdf") {
+    if (fs::is_regular_file(path)) return fs::absolute(path);
+    throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "no such file"}});
+  }
+  std::string searched;
+  for (const fs::path& folder : scene_folders()) {
+    if (fs::path file = folder / (name_or_path + ".sdf"); fs::is_regular_file(file)) return file;
+    searched += " " + folder.string();
+  }
+  throw SceneError({{"", 0, "",
+                     "no scene is named '" + name_or_path + "'" + did_you_mean(name_or_path, scene_names()) +
+                         " (searched in" + searched + "; a path to an .sdf file works too)"}});
 }
 
 }  // namespace bubblesim

@@ -10,6 +10,8 @@
 #include "bubblesim/nearest_names.hpp"
 #include "own_elements.hpp"
 #include "scene_check.hpp"
+#include "scene_folders.hpp"
+#include "scene_xml.hpp"
 
 namespace bubblesim {
 namespace {
@@ -23,7 +25,8 @@ Source source_of(const sdf::ElementPtr& element) { return {element->FilePath(), 
 
 /// The child `name` of an element where it is written, or the element itself.
 Source source_of(const sdf::ElementPtr& element, const std::string& name) {
-  return source_of(element->HasElement(name) ? element->GetElement(name) : element);
+  const Source own = element->HasElement(name) ? source_of(element->GetElement(name)) : Source{};
+  return own.line > 0 ? own : source_of(element);
 }
 
 const char* sdf_type(sdf::JointType type) {
@@ -54,7 +57,7 @@ const char* sdf_type(sdf::JointType type) {
 
 class SceneLoader {
  public:
-  explicit SceneLoader(fs::path file) : file_(std::move(file)) {}
+  explicit SceneLoader(fs::path file) : file_(std::move(file)), xml_(file_) {}
 
   SceneDescription load() {
     sdf::ParserConfig config;
@@ -65,9 +68,15 @@ class SceneLoader {
     SceneDescription scene;
     scene.name = file_.stem().string();
     scene.file = file_;
-    if (root.Element() != nullptr) check_own_elements(root.Element(), problems_);
+    if (root.Element() != nullptr) {
+      xml_.number_own_elements(root.Element());
+      check_own_elements(root.Element(), problems_);
+    }
     if (root.WorldCount() > 0) {
       read_world(*root.WorldByIndex(0), scene);
+      if (root.WorldCount() > 1) {
+        report(source_of(root.WorldByIndex(1)->Element()), "", "a scene is one <world>: take the others out");
+      }
     } else if (root.Model() != nullptr) {
       scene.models.push_back(ground_plane());
       scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose()));
@@ -84,10 +93,11 @@ class SceneLoader {
 
  private:
   void take(const sdf::Errors& errors, const std::string& object) {
-    for (const sdf::Error& error : errors) {
-      problems_.push_back(
-          {error.FilePath().value_or(file_.string()), error.LineNumber().value_or(0), object, error.Message()});
-    }
+    // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is
+    // enough.
+    if (!object.empty() && frames_broken_) return;
+    if (object.empty() && !errors.empty()) frames_broken_ = true;
+    for (Problem& problem : xml_.located(errors, object)) problems_.push_back(std::move(problem));
   }
 
   void report(const Source& source, const std::string& object, std::string message) {
@@ -116,6 +126,7 @@ class SceneLoader {
   }
 
   void read_world(const sdf::World& world, SceneDescription& scene) {
+    scene.source = source_of(world.Element());
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
@@ -136,7 +147,9 @@ class SceneLoader {
     description.source = source_of(model.Element());
     if (const auto script = own_text(model.Element(), "bubblesim:child_script")) {
       description.child_script = file_.parent_path() / *script;
-      if (!fs::is_regular_file(description.child_script)) {
+      if (script->empty()) {
+        report(source_of(model.Element(), "bubblesim:child_script"), path, "<bubblesim:child_script> names no file");
+      } else if (!fs::is_regular_file(description.child_script)) {
         report(source_of(model.Element(), "bubblesim:child_script"), path,
                "the child script " + description.child_script.string() + " does not exist");
       }
@@ -194,19 +207,24 @@ class SceneLoader {
              "this geometry is not supported; supported are box, sphere, cylinder, plane");
       return std::nullopt;
     }
-    read_surface(collision.Element(), description.surface);
+    read_surface(collision.Element(), path, description.surface);
     return description;
   }
 
-  static void read_surface(const sdf::ElementPtr& collision, Surface& surface) {
+  void read_surface(const sdf::ElementPtr& collision, const std::string& path, Surface& surface) {
     if (!collision->HasElement("surface")) return;
     const sdf::ElementPtr element = collision->GetElement("surface");
     if (element->HasElement("friction") && element->GetElement("friction")->HasElement("ode")) {
       surface.mu = element->GetElement("friction")->GetElement("ode")->Get<double>("mu", surface.mu).first;
     }
     if (element->HasElement("contact")) {
-      const auto mask = element->GetElement("contact")->Get<unsigned int>("collide_bitmask", surface.collide_bitmask);
-      surface.collide_bitmask = static_cast<std::uint16_t>(mask.first);
+      const sdf::ElementPtr contact = element->GetElement("contact");
+      const auto mask = contact->Get<unsigned int>("collide_bitmask", surface.collide_bitmask).first;
+      if (mask > 0xffff) {
+        report(source_of(contact, "collide_bitmask"), path,
+               "<collide_bitmask> is " + std::to_string(mask) + ", it must be 0 to 65535: there are 16 bits");
+      }
+      surface.collide_bitmask = static_cast<std::uint16_t>(mask);
     }
   }
 
@@ -281,27 +299,13 @@ class SceneLoader {
   }
 
   fs::path file_;
+  SceneXml xml_;
+  bool frames_broken_ = false;  // SDFormat found errors that are no fault of a single object
   std::vector<Problem> problems_;
 };
 
-fs::path scene_file(const std::string& name_or_path) {
-  const fs::path path(name_or_path);
-  if (path.has_parent_path() || path.extension() == ".sdf") {
-    if (fs::is_regular_file(path)) return fs::absolute(path);
-    throw SceneError({{name_or_path, 0, "", "no such file"}});
-  }
-  std::string searched;
-  for (const fs::path& folder : scene_folders()) {
-    if (fs::path file = folder / (name_or_path + ".sdf"); fs::is_regular_file(file)) return file;
-    searched += " " + folder.string();
-  }
-  throw SceneError({{"", 0, "",
-                     "no scene is named '" + name_or_path + "'" + did_you_mean(name_or_path, scene_names()) +
-                         " (searched in" + searched + "; a path to an .sdf file works too)"}});
-}
-
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path) { return SceneLoader(scene_file(name_or_path)).load(); }
+SceneDescription load_scene(const std::string& name_or_path) { return SceneLoader(find_scene(name_or_path)).load(); }
 
 }  // namespace bubblesim

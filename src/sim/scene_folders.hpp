@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which file a scene's name means.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace bubblesim {
+
+/// The file of a scene by name, looked for in scene_folders(), or by path. Throws SceneError when there is none.
+std::filesystem::path find_scene(const std::string& name_or_path);
+
+}  // namespace bubblesim

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_xml.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <map>
+#include <regex>
+#include <string_view>
+
+#include "own_elements.hpp"
+
+namespace bubblesim {
+namespace {
+
+using Visitor = std::function<void(const tinyxml2::XMLElement&)>;
+
+void visit(const tinyxml2::XMLElement& element, const Visitor& visitor) {
+  visitor(element);
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    visit(*child, visitor);
+  }
+}
+
+/// The way from the root to an element, by tags and names: the same in the XML and in SDFormat's tree.
+std::string place(const tinyxml2::XMLElement& element) {
+  const auto* parent = element.Parent() != nullptr ? element.Parent()->ToElement() : nullptr;
+  const char* name = element.Attribute("name");
+  return (parent != nullptr ? place(*parent) : "") + "/" + element.Name() + ":" + (name != nullptr ? name : "");
+}
+
+std::string place(const sdf::ElementPtr& element) {
+  const sdf::ElementPtr parent = element->GetParent();
+  const std::string name = element->HasAttribute("name") ? element->GetAttribute("name")->GetAsString() : "";
+  return (parent != nullptr ? place(parent) : "") + "/" + element->GetName() + ":" + name;
+}
+
+/// `/Model/joint` from the names of an element and its ancestors.
+std::string object_path(const tinyxml2::XMLElement& element) {
+  const std::string_view kind = element.Name();
+  if (kind == "world" || kind == "sdf") return "";
+  const auto* parent = element.Parent() != nullptr ? element.Parent()->ToElement() : nullptr;
+  const char* name = element.Attribute("name");
+  return (parent != nullptr ? object_path(*parent) : "") + (name != nullptr ? "/" + std::string(name) : "");
+}
+
+/// SDFormat repeats each error for every element around it and once more for the file.
+bool only_follows(const std::string& message) {
+  return message.rfind("Error reading element <", 0) == 0 || message.rfind("Unable to read file", 0) == 0 ||
+         message.rfind("Failed to load a world", 0) == 0 || message.find("Graph") != std::string::npos;
+}
+
+}  // namespace
+
+SceneXml::SceneXml(const std::filesystem::path& file) : file_(file.string()) {
+  if (document_.LoadFile(file_.c_str()) != tinyxml2::XML_SUCCESS) {
+    if (document_.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) throw SceneError({{file_, 0, "", "is empty"}});
+    throw SceneError({{file_, document_.ErrorLineNum(), "",
+                       std::string("is not well-formed XML here (") + document_.ErrorName() + ")"}});
+  }
+  const tinyxml2::XMLElement* root = document_.RootElement();
+  if (root == nullptr) throw SceneError({{file_, 0, "", "holds no element"}});
+  const std::string name = root->Name();
+  if (name != "sdf" && name != "robot") {  // <robot> is URDF, which SDFormat converts
+    throw SceneError({{file_, root->GetLineNum(), "", "is no scene: it starts with <" + name + ">, not with <sdf>"}});
+  }
+}
+
+void SceneXml::number_own_elements(const sdf::ElementPtr& root) const {
+  std::multimap<std::string, int> lines;
+  visit(*document_.RootElement(), [&lines](const tinyxml2::XMLElement& element) {
+    if (is_own_element(element.Name())) lines.emplace(place(element), element.GetLineNum());
+  });
+  const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
+    if (is_own_element(element->GetName())) {
+      const auto found = lines.find(place(element));
+      if (found != lines.end()) {
+        element->SetLineNumber(found->second);
+        lines.erase(found);
+      }
+    }
+    for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) number(child);
+  };
+  number(root);
+}
+
+/// `<mu> is 'slippery', ...` for an element that SDFormat could not read and says no more about.
+std::string SceneXml::unusable_text(const std::string& element, int line) const {
+  std::string text;
+  visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& found) {
+    if (found.GetLineNum() == line && element == found.Name() && found.GetText() != nullptr) text = found.GetText();
+  });
+  return "<" + element + "> is '" + text + "', which its type or range does not allow";
+}
+
+/// The line of what a message calls `joint with name[j]` or `link named l`.
+int SceneXml::line_of_named(const std::string& message) const {
+  static const std::regex pattern(
+      R"((model|link|joint|frame|sensor|collision) (?:with name ?\[([^\]]*)\]|named (\S+)))", std::regex::icase);
+  for (std::sregex_iterator match(message.begin(), message.end(), pattern); match != std::sregex_iterator(); ++match) {
+    std::string kind = match->str(1);
+    kind[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(kind[0])));
+    const std::string name = match->str(2) + match->str(3);
+    int line = 0;
+    visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& element) {
+      if (kind == element.Name() && element.Attribute("name", name.c_str()) != nullptr) line = element.GetLineNum();
+    });
+    if (line > 0) return line;
+  }
+  return 0;
+}
+
+/// The line of the element that the path /Model/joint names.
+int SceneXml::line_of_object(const std::string& path) const {
+  int line = 0;
+  visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& element) {
+    if (object_path(element) == path && line == 0) line = element.GetLineNum();
+  });
+  return line;
+}
+
+std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::string& object) const {
+  static const std::regex unread("Error reading element <(.*)>");
+  std::vector<Problem> problems;
+  for (const sdf::Error& error : errors) {
+    if (only_follows(error.Message())) continue;
+    int line = error.LineNumber().value_or(line_of_named(error.Message()));
+    if (line == 0 && !object.empty()) line = line_of_object(object);
+    // It says the same thing in several ways: the first will do.
+    const bool known = std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
+      return (line > 0 && problem.line == line) || problem.message == error.Message();
+    });
+    if (!known) problems.push_back({error.FilePath().value_or(file_), line, object, error.Message()});
+  }
+  if (!problems.empty() || errors.empty()) return problems;
+  const sdf::Error& first = errors.front();
+  const std::string file = first.FilePath().value_or(file_);
+  const int line = first.LineNumber().value_or(object.empty() ? 0 : line_of_object(object));
+  std::smatch match;
+  const std::string message = first.Message();
+  const bool is_unread = file == file_ && std::regex_match(message, match, unread);
+  return {{file, line, object, is_unread ? unusable_text(match.str(1), line) : message}};
+}
+
+}  // namespace bubblesim

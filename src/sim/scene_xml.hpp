@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene file as plain XML: where things are written that SDFormat does not know the place of.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <filesystem>
+#include <sdf/Element.hh>
+#include <sdf/Error.hh>
+#include <string>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+
+namespace bubblesim {
+
+class SceneXml {
+ public:
+  /// Throws SceneError when the file is no XML or no scene.
+  explicit SceneXml(const std::filesystem::path& file);
+
+  /// Gives our own elements below `root` their lines: SDFormat copies elements that it does not know without.
+  void number_own_elements(const sdf::ElementPtr& root) const;
+
+  /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
+  /// `object` is the path of the object that was being read, or empty.
+  std::vector<Problem> located(const sdf::Errors& errors, const std::string& object) const;
+
+ private:
+  int line_of_named(const std::string& message) const;
+  int line_of_object(const std::string& path) const;
+  std::string unusable_text(const std::string& element, int line) const;
+
+  std::string file_;
+  tinyxml2::XMLDocument document_;
+};
+
+}  // namespace bubblesim
