@@ -68,6 +68,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
   if (options.ros) {
     RosBridgeOptions ros_options;
     ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.resume(); };
+    ros_options.is_ending = stop_requested;
     bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
     ros = std::make_unique<RosParticipant>(*bridge, simulation);
     simulation.add(*ros);
