@@ -1,32 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """simROS and simROS2 in child scripts, against a real master and rostopic."""
 
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
 
-from node_support import NAME, Node, write
+from node_support import NAME, Node
 from ros_support import RosCore, wait_until
 
 Script = Callable[[str], Node]
-
-
-@pytest.fixture
-def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
-    """Runs a script on the ball."""
-    nodes: list[Node] = []
-
-    def run(code: str) -> Node:
-        file = write(tmp_path / "script.py", code)
-        nodes.append(Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={file}"))
-        nodes[-1].wait_until_listed(roscore)
-        return nodes[-1]
-
-    yield run
-    for node in nodes:
-        if node.process.poll() is None:
-            assert node.end() == 0
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from bubblesim import _core
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.source import ScriptSourceError, load_source
 
@@ -107,19 +108,42 @@ class ChildScript:
 
     def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
         """Make a callback that ends the script when it fails. ``function`` may be the name of a script global."""
-        target = self._globals.get(function) if isinstance(function, str) else function
-        if not callable(target):
-            if isinstance(function, str):
-                raise ValueError(f"the script has no function '{function}' to call back")
-            raise TypeError(f"a callback must be a function or the name of one, found {type(function).__name__}")
-        what = f"the callback {getattr(target, '__name__', function)}"
-        called = target
+        target, what = self._target(function)
 
         def guarded(*arguments: Any) -> None:
             if self.alive:
-                self.run(what, lambda: called(*arguments))
+                self.run(what, lambda: target(*arguments))
 
         return guarded
+
+    def answering_callback(
+        self, function: Callable[..., Any] | str, check: Callable[[object], None]
+    ) -> Callable[..., Any]:
+        """Make a callback whose result matters; when it fails or ``check`` refuses it, the caller is told, too."""
+        target, what = self._target(function)
+
+        def guarded(*arguments: Any) -> Any:
+            results: list[Any] = []
+
+            def answer() -> None:
+                result = target(*arguments)
+                check(result)
+                results.append(result)
+
+            if not self.alive or not self.run(what, answer):
+                raise _core.ServiceError(f"the child script of {self.object_path} failed or ended")
+            return results[0]
+
+        return guarded
+
+    def _target(self, function: Callable[..., Any] | str) -> tuple[Callable[..., Any], str]:
+        """The function that is meant, and what to call it in reports."""
+        target = self._globals.get(function) if isinstance(function, str) else function
+        if callable(target):
+            return target, f"the callback {getattr(target, '__name__', function)}"
+        if isinstance(function, str):
+            raise ValueError(f"the script has no function '{function}' to call back")
+        raise TypeError(f"a callback must be a function or the name of one, found {type(function).__name__}")
 
     def _fail(self, text: str) -> None:
         write_line(sys.stderr, text)

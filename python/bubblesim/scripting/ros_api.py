@@ -3,75 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from bubblesim import _core
-
-if TYPE_CHECKING:
-    from bubblesim.scripting.child_script import ChildScript
-
-Message = Mapping[str, Any]
-Callback = Callable[[dict[str, Any]], object] | str
-
-_TF_QUEUE_SIZE = 100
+from bubblesim.scripting.ros_services import RosServices, ServiceCallback
+from bubblesim.scripting.ros_topics import Callback, RosTopics
 
 
-class RosTopics:
-    """Publishers and subscribers of one script; they are shut down when the script ends."""
-
-    _time_form = _core.messages.TimeForm.FLOAT
-
-    def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
-        """Bind the functions to one script."""
-        self._bridge = bridge
-        self._simulation = simulation
-        self._script = script
-        self._tf_publisher: int | None = None
-        self._unchecked: set[int] = set()  # publishers that have published nothing yet
-
-    def publish(self, publisher: int, message: Message) -> None:
-        """Publish a message given as a dict; fields left out have their defaults."""
-        if publisher in self._unchecked:
-            # Messages are converted only while somebody listens. A first message that is wrong should be told at
-            # once, not when somebody listens at last.
-            self._bridge.check(publisher, message)
-            self._unchecked.discard(publisher)
-        self._bridge.publish(publisher, message)
-
-    def sendTransform(self, transform: Message) -> None:
-        """Send a geometry_msgs/TransformStamped on /tf."""
-        self.sendTransforms([transform])
-
-    def sendTransforms(self, transforms: Iterable[Message]) -> None:
-        """Send several transforms in one message."""
-        if self._tf_publisher is None:
-            self._tf_publisher = self._advertise("/tf", "tf2_msgs/TFMessage", _TF_QUEUE_SIZE, latch=False)
-        self.publish(self._tf_publisher, {"transforms": list(transforms)})
-
-    def shutdownPublisher(self, publisher: int) -> None:
-        """Stop publishing; the handle cannot be used any more."""
-        self._bridge.shutdown_publisher(publisher)
-        self._script.at_end.pop(("publisher", publisher), None)
-
-    def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
-        publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
-        self._script.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
-        self._unchecked.add(publisher)
-        return publisher
-
-    def _subscribe(self, topic: str, message_type: str, callback: Callback, queue_size: int) -> int:
-        guarded = self._script.callback(callback)
-        subscriber = int(self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form))
-        self._script.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
-        return subscriber
-
-    def _shutdown_subscriber(self, subscriber: int) -> None:
-        self._bridge.shutdown_subscriber(subscriber)
-        self._script.at_end.pop(("subscriber", subscriber), None)
-
-
-class SimRos(RosTopics):
+class SimRos(RosTopics, RosServices):
     """`simROS`: times in messages are float seconds."""
 
     def advertise(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:
@@ -93,13 +33,35 @@ class SimRos(RosTopics):
         """Stop listening; the handle cannot be used any more."""
         self._shutdown_subscriber(subscriber)
 
+    def serviceClient(self, name: str, service_type: str) -> int:
+        """Make a client of a service and return its handle."""
+        return self._client(name, service_type)
+
+    def advertiseService(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+        """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
+        return self._server(name, service_type, callback)
+
+    def shutdownServiceClient(self, client: int) -> None:
+        """Drop a client; the handle cannot be used any more."""
+        self._shutdown_client(client)
+
+    def shutdownServiceServer(self, server: int) -> None:
+        """Stop offering a service; the handle cannot be used any more."""
+        self._shutdown_server(server)
+
+    def serviceClientTreatUInt8ArrayAsString(self, client: int) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def serviceServerTreatUInt8ArrayAsString(self, server: int) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
     def getTime(self, flag: int = 0) -> float:
         """ROS time in seconds: the simulation's under /use_sim_time, else the wall clock's."""
         sec, nanosec = self._bridge.now()
         return float(sec + nanosec * 1e-9)
 
 
-class SimRos2(RosTopics):
+class SimRos2(RosTopics, RosServices):
     """`simROS2`: the names of the ROS 2 tutorials; times in messages are {sec, nanosec}."""
 
     _time_form = _core.messages.TimeForm.SEC_NANOSEC
@@ -116,6 +78,47 @@ class SimRos2(RosTopics):
         """Stop listening; the handle cannot be used any more."""
         self._shutdown_subscriber(subscriber)
 
+    def createClient(self, name: str, service_type: str) -> int:
+        """Make a client of a service and return its handle."""
+        return self._client(name, service_type)
+
+    def createService(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+        """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
+        return self._server(name, service_type, callback)
+
+    def shutdownClient(self, client: int) -> None:
+        """Drop a client; the handle cannot be used any more."""
+        self._shutdown_client(client)
+
+    def shutdownService(self, server: int) -> None:
+        """Stop offering a service; the handle cannot be used any more."""
+        self._shutdown_server(server)
+
+    def createInterface(self, message_type: str) -> dict[str, Any]:
+        """A message with all fields at their defaults."""
+        message: dict[str, Any] = _core.messages.default(message_type, self._time_form)
+        return message
+
+    def getInterfaceConstants(self, message_type: str) -> dict[str, Any]:
+        """The constants that a type defines, by name."""
+        constants: dict[str, Any] = _core.messages.constants(message_type)
+        return constants
+
+    def supportedInterfaces(self) -> list[str]:
+        """Names of all message and service types of this build."""
+        return [*_core.messages.message_names(), *_core.messages.service_names()]
+
+    def timeFromFloat(self, seconds: float) -> dict[str, int]:
+        """Seconds as {sec, nanosec}."""
+        return _sec_nanosec(round(seconds * 1e9))
+
+    def timeToFloat(self, time: Mapping[str, int]) -> float:
+        """{sec, nanosec} as seconds."""
+        return time["sec"] + time["nanosec"] * 1e-9
+
+    def spinSome(self) -> None:
+        """Accepted for older scripts: messages are delivered at the start of each pass in any case."""
+
     def getTime(self) -> dict[str, int]:
         """ROS time as {sec, nanosec}."""
         sec, nanosec = self._bridge.now()
@@ -127,5 +130,8 @@ class SimRos2(RosTopics):
 
     def getSimulationTime(self) -> dict[str, int]:
         """Simulation time as {sec, nanosec}."""
-        nanoseconds = round(self._simulation.time * 1e9)
-        return {"sec": nanoseconds // 1_000_000_000, "nanosec": nanoseconds % 1_000_000_000}
+        return _sec_nanosec(round(self._simulation.time * 1e9))
+
+
+def _sec_nanosec(nanoseconds: int) -> dict[str, int]:
+    return {"sec": nanoseconds // 1_000_000_000, "nanosec": nanoseconds % 1_000_000_000}

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`simROS` functions about services."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.scripting.ros_context import RosContext
+
+Request = Mapping[str, Any]
+ServiceCallback = Callable[[dict[str, Any]], Request | None] | str
+
+_CALL_TIMEOUT = 10.0  # s
+
+
+class RosServices(RosContext):
+    """Clients and servers of one script; they are shut down when the script ends."""
+
+    def call(self, client: int, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
+        """Call a service, one's own included, and return its response as a dict.
+
+        Raises a RuntimeError when nobody offers the service, it fails, or does not answer within ``timeout`` seconds.
+        """
+        response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
+        return response
+
+    def waitForService(self, name: str, timeout: float = _CALL_TIMEOUT) -> bool:
+        """Whether somebody offers the service; waits ``timeout`` seconds at most."""
+        return bool(self._bridge.wait_for_service(name, timeout))
+
+    def _client(self, name: str, service_type: str) -> int:
+        client = int(self._bridge.service_client(name, service_type))
+        self._script.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
+        return client
+
+    def _server(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+        _, response_type = _core.messages.service_halves(service_type)
+        answer = self._script.answering_callback(callback, lambda response: _check(response_type, response))
+        server = int(self._bridge.advertise_service(name, service_type, answer, self._time_form))
+        self._script.at_end["server", server] = lambda: self._bridge.shutdown_service_server(server)
+        return server
+
+    def _shutdown_client(self, client: int) -> None:
+        self._bridge.shutdown_service_client(client)
+        self._script.at_end.pop(("client", client), None)
+
+    def _shutdown_server(self, server: int) -> None:
+        self._bridge.shutdown_service_server(server)
+        self._script.at_end.pop(("server", server), None)
+
+
+def _check(response_type: str, response: object) -> None:
+    """Let a response that does not fit its type be the callback's error, not the bridge's."""
+    if response is not None:
+        _core.messages.encode(response_type, response)

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A child script of a test's own in a running node."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from node_support import Node, write
+from ros_support import RosCore
+
+Script = Callable[[str], Node]
+
+
+@pytest.fixture
+def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
+    """Runs a script on the ball."""
+    nodes: list[Node] = []
+
+    def run(code: str) -> Node:
+        file = write(tmp_path / "script.py", code)
+        nodes.append(Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={file}"))
+        nodes[-1].wait_until_listed(roscore)
+        return nodes[-1]
+
+    yield run
+    for node in nodes:
+        if node.process.poll() is None:
+            assert node.end() == 0
