@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all tests share: the --long option and the roscore fixture."""
 
+import signal
+
 import pytest
+
+# Background jobs of a shell start with SIGINT ignored, and their children would inherit that: Ctrl-C would go unheard.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 pytest_plugins = ["ros_support"]
 
