@@ -106,7 +106,7 @@ RawTricycle::RawTricycle() : state_(std::make_unique<State>()) {
   s.obstacle(dCreateBox(s.statics, 0.2, 10, 1), -5.1, 0, 0.5);
   s.obstacle(dCreateBox(s.statics, 1, 1, 1), 3.4, -1.2, 0.5, 0.4);
   s.obstacle(dCreateCylinder(s.statics, 0.4, 1), -0.8, 3.2, 0.5);
-  s.obstacle(dCreateBox(s.statics, 0.6, 2, 1), -3.9, -3.2, 0.5);
+  s.obstacle(dCreateBox(s.statics, 2, 0.6, 1), -4, -4.7, 0.5);
   s.obstacle(dCreateSphere(s.statics, 0.6), 1.6, -4, 0.3);
 
   const double x = -2.5;

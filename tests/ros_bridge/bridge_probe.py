@@ -53,8 +53,8 @@ class Probe:
         prefix = f"message {endpoint} "
         return [event[len(prefix) :] for event in self.events if event.startswith(prefix)]
 
-    def wait_for(self, condition: Callable[[], bool], what: str) -> None:
-        end = time.monotonic() + DEADLINE
+    def wait_for(self, condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:
+        end = time.monotonic() + timeout
         while not condition():
             seen = "\n".join(self.events + self.errors)
             assert time.monotonic() < end, f"waited in vain for {what}; seen so far:\n{seen}"

@@ -96,5 +96,6 @@ def test_subscribers_that_come_and_die_leave_no_descriptors(roscore: RosCore) ->
             # As the kernel does for a process that was killed with unread data: a reset.
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
             connection.close()
-        probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the last to be gone")
-        wait_until(lambda: open_descriptors(probe) <= baseline, "the descriptors to be closed")
+        # roscpp works through 200 ends one after the other, which takes a while on a busy machine.
+        probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the last to be gone", timeout=60.0)
+        wait_until(lambda: open_descriptors(probe) <= baseline, "the descriptors to be closed", timeout=60.0)
