@@ -63,7 +63,6 @@ class World {
   double target_position(ObjectId joint, int axis = 0) const;
   double target_velocity(ObjectId joint, int axis = 0) const;
   double max_force(ObjectId joint, int axis = 0) const;
-  MotorMode motor_mode(ObjectId joint, int axis = 0) const;
   /// A target takes effect in the motor's mode: a position in a position-controlled joint, a velocity in the others.
   void set_target_position(ObjectId joint, double position, int axis = 0);
   void set_target_velocity(ObjectId joint, double velocity, int axis = 0);

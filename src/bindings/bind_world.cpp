@@ -54,7 +54,6 @@ void bind_world(py::module_& module) {
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
-      .def("object_count", [](const World& w) { return w.tree().objects().size(); })
       .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
       .def(
           "pose_in", [](const World& w, ObjectId id, ObjectId frame) { return pose_in(w, id, frame_of(w, frame)); },

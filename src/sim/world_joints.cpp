@@ -76,11 +76,6 @@ double World::max_force(ObjectId joint, int axis) const {
   return found.joint.axis(found.index).max_force;
 }
 
-MotorMode World::motor_mode(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
-  return found.joint.axis(found.index).motor;
-}
-
 void World::set_target_position(ObjectId joint, double position, int axis) {
   const JointAxis found = joint_axis(*state_, joint, axis);
   check_target(*state_, joint, "target position", position);
