@@ -49,6 +49,10 @@ class Echo:
         lines = self._file.read_text().splitlines()
         return [float(line.split(",")[1]) for line in lines if "," in line and not line.startswith("%")]
 
+    def last(self) -> float | None:
+        """The newest value, None while nothing has arrived."""
+        return (self.values() or [None])[-1]
+
 
 @pytest.fixture
 def wheels(run: Run, roscore: RosCore, tmp_path: Path) -> tuple[Echo, Echo]:
@@ -83,14 +87,14 @@ def test_bubblerob_yields_to_a_human_and_drives_on_afterwards(run: Run, wheels: 
     wait_until(lambda: pytest.approx(FORWARD) in right.values(), "the robot to drive")
 
     human = run("rostopic", "pub", "/leftMotorSpeed", "std_msgs/Float32", f"data: {HUMAN}")
-    wait_until(lambda: right.values()[-1] == 0.0, "the wheel that the human leaves alone to stop")
-    wait_until(lambda: left.values()[-1] == HUMAN, "the human's wheel to get the human's speed")
+    wait_until(lambda: right.last() == 0.0, "the wheel that the human leaves alone to stop")
+    wait_until(lambda: left.last() == HUMAN, "the human's wheel to get the human's speed")
     count = len(right.values())
     time.sleep(0.5)
     assert len(right.values()) == count, "published although a human drives"
 
     stop(human)
-    wait_until(lambda: right.values()[-1] == pytest.approx(FORWARD), "the robot to drive on")
+    wait_until(lambda: right.last() == pytest.approx(FORWARD), "the robot to drive on")
 
 
 def test_bubblerob_ends_when_the_simulation_is_silent(run: Run, wheels: tuple[Echo, Echo]) -> None:
@@ -116,11 +120,11 @@ def test_bubblerob_ends_quietly_when_it_is_terminated(run: Run, wheels: tuple[Ec
 def test_bubblerob_stops_its_wheels_when_it_ends(run: Run, wheels: tuple[Echo, Echo]) -> None:
     simulate(run)
     client = run("/usr/bin/python3", SCRIPTS / "rosBubbleRob", *TOPICS)
-    wait_until(lambda: bool(wheels[0].values()), "the robot to drive")
+    wait_until(lambda: all(wheel.values() for wheel in wheels), "both wheels to drive")
     client.send_signal(signal.SIGINT)
     client.wait(timeout=20)
     for wheel in wheels:
-        wait_until(lambda wheel=wheel: wheel.values()[-1] == 0.0, "a wheel to stop")
+        wait_until(lambda wheel=wheel: wheel.last() == 0.0, "a wheel to stop")
 
 
 def test_tricycle_avoid_stops_the_tricycle_when_it_ends(run: Run, tmp_path: Path) -> None:
@@ -130,7 +134,7 @@ def test_tricycle_avoid_stops_the_tricycle_when_it_ends(run: Run, tmp_path: Path
     wait_until(lambda: bool(speed.values()), "the tricycle to drive")
     client.send_signal(signal.SIGTERM)
     assert client.wait(timeout=20) == 0
-    wait_until(lambda: speed.values()[-1] == 0.0, "the tricycle to stop")
+    wait_until(lambda: speed.last() == 0.0, "the tricycle to stop")
 
 
 @pytest.mark.parametrize("script", ["rosBubbleRob", "tricycle_avoid.py"])
