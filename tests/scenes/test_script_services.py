@@ -45,6 +45,7 @@ def test_a_script_calls_the_services_of_other_nodes(script: Script) -> None:
         def sysCall_init():
             assert simROS2.waitForService('/rosout/get_loggers', 5)
             client = simROS2.createClient('/rosout/get_loggers', 'roscpp/GetLoggers')
+            assert simROS2.waitForService(client, 5)
             print('loggers:', len(simROS2.call(client, {})['loggers']) > 0)
         """)
     node.wait_for_output("loggers: True")

@@ -99,7 +99,8 @@ def test_handles_cannot_be_used_after_shutdown(script: Script) -> None:
 def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
     node = script("""\
         def sysCall_init():
-            self.out = simROS2.createPublisher('/out', 'std_msgs/msg/Header', 1, True)
+            latch = {'depth': 1, 'durability': 'transient_local'}
+            self.out = simROS2.createPublisher('/out', 'std_msgs/msg/Header', latch)
             self.listener = simROS2.createSubscription('/in', 'std_msgs/msg/Time', 'on_time')
             simROS2.publish(self.out, {'frame_id': 'x', 'stamp': {'sec': 5, 'nanosec': 6}})
             assert simROS2.getSimulationTime() == {'sec': 0, 'nanosec': 0}

@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.ros_qos import read_qos
 from bubblesim.scripting.ros_services import RosServices, ServiceCallback
-from bubblesim.scripting.ros_topics import Callback, RosTopics
+from bubblesim.scripting.ros_topics import Callback
+from bubblesim.scripting.ros_transforms import RosTransforms
 
 
-class SimRos(RosTopics, RosServices):
+class SimRos(RosTransforms, RosServices):
     """`simROS`: times in messages are float seconds."""
 
     def advertise(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:
@@ -26,7 +28,10 @@ class SimRos(RosTopics, RosServices):
         queue_size: int = 1,
         transport_hints: object = None,
     ) -> int:
-        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle."""
+        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
+
+        ``transport_hints`` change nothing: messages come over TCP without delay in any case.
+        """
         return self._subscribe(topic, message_type, callback, queue_size)
 
     def shutdownSubscriber(self, subscriber: int) -> None:
@@ -61,18 +66,28 @@ class SimRos(RosTopics, RosServices):
         return float(sec + nanosec * 1e-9)
 
 
-class SimRos2(RosTopics, RosServices):
+class SimRos2(RosTransforms, RosServices):
     """`simROS2`: the names of the ROS 2 tutorials; times in messages are {sec, nanosec}."""
 
+    _module = "simROS2"
     _time_form = _core.messages.TimeForm.SEC_NANOSEC
 
-    def createPublisher(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:
-        """Make a publisher and return its handle."""
-        return self._advertise(topic, message_type, queue_size, latch=latch)
+    def createPublisher(
+        self, topic: str, message_type: str, qos: int | Mapping[str, Any] = 1, latch: bool = False
+    ) -> int:
+        """Make a publisher and return its handle; ``qos`` is a queue size, or a dict with ``depth``, ``durability``."""
+        wanted = read_qos(qos)
+        return self._advertise(topic, message_type, wanted.depth, latch=latch or wanted.latch)
 
-    def createSubscription(self, topic: str, message_type: str, callback: Callback, queue_size: int = 1) -> int:
-        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle."""
-        return self._subscribe(topic, message_type, callback, queue_size)
+    def createSubscription(
+        self, topic: str, message_type: str, callback: Callback, qos: int | Mapping[str, Any] = 1
+    ) -> int:
+        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
+
+        ``qos`` is a queue size, or a dict with ``depth``. Whether the last message comes at once is up to the
+        publisher.
+        """
+        return self._subscribe(topic, message_type, callback, read_qos(qos).depth)
 
     def shutdownSubscription(self, subscriber: int) -> None:
         """Stop listening; the handle cannot be used any more."""
@@ -93,6 +108,15 @@ class SimRos2(RosTopics, RosServices):
     def shutdownService(self, server: int) -> None:
         """Stop offering a service; the handle cannot be used any more."""
         self._shutdown_server(server)
+
+    def subscriptionTreatUInt8ArrayAsString(self, subscriber: int) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def clientTreatUInt8ArrayAsString(self, client: int) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def serviceTreatUInt8ArrayAsString(self, server: int) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
         """A message with all fields at their defaults."""

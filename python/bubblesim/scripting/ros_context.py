@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 class RosContext:
     """The bridge, and the script that calls."""
 
+    _module = "simROS"  # its name in scripts
     _time_form = _core.messages.TimeForm.FLOAT  # of times in the messages that a script gets
 
     def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:

@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
 from bubblesim.scripting.ros_context import RosContext
+
+if TYPE_CHECKING:
+    from bubblesim.scripting.child_script import ChildScript
 
 Request = Mapping[str, Any]
 ServiceCallback = Callable[[dict[str, Any]], Request | None] | str
@@ -18,6 +21,11 @@ _CALL_TIMEOUT = 10.0  # s
 class RosServices(RosContext):
     """Clients and servers of one script; they are shut down when the script ends."""
 
+    def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
+        """Bind the functions to one script."""
+        super().__init__(bridge, simulation, script)
+        self._clients: dict[int, str] = {}  # the services that they call
+
     def call(self, client: int, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
         """Call a service, one's own included, and return its response as a dict.
 
@@ -26,12 +34,17 @@ class RosServices(RosContext):
         response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
         return response
 
-    def waitForService(self, name: str, timeout: float = _CALL_TIMEOUT) -> bool:
-        """Whether somebody offers the service; waits ``timeout`` seconds at most."""
-        return bool(self._bridge.wait_for_service(name, timeout))
+    def waitForService(self, service: str | int, timeout: float = _CALL_TIMEOUT) -> bool:
+        """Whether somebody offers a service (its name, or a client of it); waits ``timeout`` seconds at most."""
+        if isinstance(service, str):
+            return bool(self._bridge.wait_for_service(service, timeout))
+        if service not in self._clients:
+            raise ValueError(f"invalid object handle {service}: no such service client, or it was shut down")
+        return bool(self._bridge.wait_for_service(self._clients[service], timeout))
 
     def _client(self, name: str, service_type: str) -> int:
         client = int(self._bridge.service_client(name, service_type))
+        self._clients[client] = name
         self._script.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
         return client
 
@@ -44,6 +57,7 @@ class RosServices(RosContext):
 
     def _shutdown_client(self, client: int) -> None:
         self._bridge.shutdown_service_client(client)
+        self._clients.pop(client, None)
         self._script.at_end.pop(("client", client), None)
 
     def _shutdown_server(self, server: int) -> None:

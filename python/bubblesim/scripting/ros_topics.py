@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about topics and transforms."""
+"""`simROS` functions about topics."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from bubblesim.scripting.output import write_line
 from bubblesim.scripting.ros_context import RosContext
+from bubblesim.scripting.ros_stamps import Message, stamps
 
 if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
 
-Message = Mapping[str, Any]
-Callback = Callable[[dict[str, Any]], object] | str
+_CLOCK_TOLERANCE = 1.0  # s
 
-_TF_QUEUE_SIZE = 100
+Callback = Callable[[dict[str, Any]], object] | str
 
 
 class RosTopics(RosContext):
@@ -23,8 +25,7 @@ class RosTopics(RosContext):
     def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, script)
-        self._tf_publisher: int | None = None
-        self._unchecked: set[int] = set()  # publishers that have published nothing yet
+        self._unchecked: dict[int, str] = {}  # topics of publishers that have published nothing yet
 
     def publish(self, publisher: int, message: Message) -> None:
         """Publish a message given as a dict; fields left out have their defaults."""
@@ -32,22 +33,13 @@ class RosTopics(RosContext):
             # Messages are converted only while somebody listens. A first message that is wrong should be told at
             # once, not when somebody listens at last.
             self._bridge.check(publisher, message)
-            self._unchecked.discard(publisher)
+            self._warn_of_another_clock(self._unchecked.pop(publisher), message)
         self._bridge.publish(publisher, message)
-
-    def sendTransform(self, transform: Message) -> None:
-        """Send a geometry_msgs/TransformStamped on /tf."""
-        self.sendTransforms([transform])
-
-    def sendTransforms(self, transforms: Iterable[Message]) -> None:
-        """Send several transforms in one message."""
-        if self._tf_publisher is None:
-            self._tf_publisher = self._advertise("/tf", "tf2_msgs/TFMessage", _TF_QUEUE_SIZE, latch=False)
-        self.publish(self._tf_publisher, {"transforms": list(transforms)})
 
     def shutdownPublisher(self, publisher: int) -> None:
         """Stop publishing; the handle cannot be used any more."""
         self._bridge.shutdown_publisher(publisher)
+        self._unchecked.pop(publisher, None)
         self._script.at_end.pop(("publisher", publisher), None)
 
     def publisherTreatUInt8ArrayAsString(self, publisher: int) -> None:
@@ -59,7 +51,7 @@ class RosTopics(RosContext):
     def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
         self._script.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
-        self._unchecked.add(publisher)
+        self._unchecked[publisher] = topic
         return publisher
 
     def _subscribe(self, topic: str, message_type: str, callback: Callback, queue_size: int) -> int:
@@ -71,3 +63,19 @@ class RosTopics(RosContext):
     def _shutdown_subscriber(self, subscriber: int) -> None:
         self._bridge.shutdown_subscriber(subscriber)
         self._script.at_end.pop(("subscriber", subscriber), None)
+
+    def _warn_of_another_clock(self, topic: str, message: Message) -> None:
+        """Scripts like to stamp with a clock that starts at 0, and then tf and RViz drop all of it in silence."""
+        sec, nanosec = self._bridge.now()
+        for stamp in stamps(message):
+            ahead = stamp - (sec + nanosec * 1e-9)
+            # Time 0 is that of a message without a stamp; a static transform holds at any time.
+            if stamp == 0.0 or abs(ahead) <= _CLOCK_TOLERANCE or topic == "/tf_static":
+                continue
+            write_line(
+                sys.stderr,
+                f"warning: child script of {self._script.object_path}: the first message on '{topic}' is stamped "
+                f"{abs(ahead):.3g} s {'after' if ahead > 0 else 'before'} ROS time and sent as it is; "
+                f"stamp with {self._module}.getTime()",
+            )
+            return

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The times that messages carry in their headers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+Message = Mapping[str, Any]
+
+
+def stamps(message: Message) -> Iterator[float]:
+    """Seconds that the headers of a message and of its transforms say; the message must fit its type."""
+    transforms = message.get("transforms", ())
+    for stamped in (message, *(transforms if isinstance(transforms, list) else ())):
+        header = stamped.get("header")
+        if isinstance(header, Mapping) and "stamp" in header:
+            yield _seconds(header["stamp"])
+
+
+def _seconds(stamp: Any) -> float:
+    if not isinstance(stamp, Mapping):
+        return float(stamp)
+    whole = stamp.get("secs", stamp.get("sec", 0))
+    return float(whole) + float(stamp.get("nsecs", stamp.get("nanosec", 0))) * 1e-9
