@@ -3,44 +3,45 @@
 
 from __future__ import annotations
 
-from bubblesim.scripting.context import ApiContext, as_number
+from bubblesim.scripting.context import ApiContext
+from bubblesim.scripting.kinds import Handle
 
 
 class JointFunctions(ApiContext):
     """Radians and N m for joints that turn, metres and N for joints that slide."""
 
-    def getJointPosition(self, handle: int) -> float:
+    def getJointPosition(self, joint: Handle) -> float:
         """Angle or distance from the joint's zero."""
-        return float(self._world.joint_position(self._resolve(handle)))
+        return float(self._world.joint_position(self._resolve(joint)))
 
-    def getJointVelocity(self, handle: int) -> float:
+    def getJointVelocity(self, joint: Handle) -> float:
         """Velocity of the joint."""
-        return float(self._world.joint_velocity(self._resolve(handle)))
+        return float(self._world.joint_velocity(self._resolve(joint)))
 
-    def getJointTargetPosition(self, handle: int) -> float:
+    def getJointTargetPosition(self, joint: Handle) -> float:
         """Where a position-controlled joint goes."""
-        return float(self._world.target_position(self._resolve(handle)))
+        return float(self._world.target_position(self._resolve(joint)))
 
-    def setJointTargetPosition(self, handle: int, position: float) -> None:
+    def setJointTargetPosition(self, joint: Handle, position: float) -> None:
         """Let a position-controlled joint go to ``position``."""
-        self._world.set_target_position(self._resolve(handle), as_number(position, "setJointTargetPosition"))
+        self._world.set_target_position(self._resolve(joint), position)
 
-    def getJointTargetVelocity(self, handle: int) -> float:
+    def getJointTargetVelocity(self, joint: Handle) -> float:
         """What a velocity-controlled joint holds."""
-        return float(self._world.target_velocity(self._resolve(handle)))
+        return float(self._world.target_velocity(self._resolve(joint)))
 
-    def setJointTargetVelocity(self, handle: int, velocity: float) -> None:
+    def setJointTargetVelocity(self, joint: Handle, velocity: float) -> None:
         """Let a velocity-controlled joint turn or slide at ``velocity``."""
-        self._world.set_target_velocity(self._resolve(handle), as_number(velocity, "setJointTargetVelocity"))
+        self._world.set_target_velocity(self._resolve(joint), velocity)
 
-    def getJointTargetForce(self, handle: int) -> float:
+    def getJointTargetForce(self, joint: Handle) -> float:
         """The most that the joint's motor may apply."""
-        return float(self._world.max_force(self._resolve(handle)))
+        return float(self._world.max_force(self._resolve(joint)))
 
-    def setJointTargetForce(self, handle: int, force: float) -> None:
+    def setJointTargetForce(self, joint: Handle, force: float) -> None:
         """Limit what the joint's motor may apply."""
-        self._world.set_max_force(self._resolve(handle), abs(as_number(force, "setJointTargetForce")))
+        self._world.set_max_force(self._resolve(joint), abs(force))
 
-    def setJointMaxForce(self, handle: int, force: float) -> None:
+    def setJointMaxForce(self, joint: Handle, force: float) -> None:
         """Limit what the joint's motor may apply (old name)."""
-        self.setJointTargetForce(handle, force)
+        self.setJointTargetForce(joint, force)

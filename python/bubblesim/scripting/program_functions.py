@@ -28,7 +28,7 @@ class ProgramFunctions(ApiContext):
         self._script.at_end[process] = lambda: _end(process)
         return process.pid
 
-    def addLog(self, level: int, text: object) -> None:
+    def addLog(self, level: object, text: object) -> None:
         """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""
         if isinstance(level, int) and level > self.verbosity_infos:
             return

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from bubblesim._core import measure_proximity, read_proximity
 from bubblesim.scripting.context import ApiContext
+from bubblesim.scripting.kinds import Handle
 
 Reading = tuple[int, float, list[float], int, list[float]]
 
@@ -12,12 +13,12 @@ Reading = tuple[int, float, list[float], int, list[float]]
 class SensorFunctions(ApiContext):
     """Proximity sensors give (result, distance, point, object, normal) in the sensor's frame, metres."""
 
-    def readProximitySensor(self, handle: int) -> Reading:
+    def readProximitySensor(self, sensor: Handle) -> Reading:
         """What the sensor measured last; result 0 and distance 0.0 for nothing."""
-        reading: Reading = read_proximity(self._simulation, self._resolve(handle))
+        reading: Reading = read_proximity(self._simulation, self._resolve(sensor))
         return reading
 
-    def handleProximitySensor(self, handle: int) -> Reading:
+    def handleProximitySensor(self, sensor: Handle) -> Reading:
         """Measure now."""
-        reading: Reading = measure_proximity(self._simulation, self._resolve(handle))
+        reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
         return reading

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bubblesim.scripting.api import script_module
 from bubblesim.scripting.joint_functions import JointFunctions
 from bubblesim.scripting.object_functions import ObjectFunctions
 from bubblesim.scripting.program_functions import ProgramFunctions
@@ -10,5 +11,6 @@ from bubblesim.scripting.sensor_functions import SensorFunctions
 from bubblesim.scripting.time_functions import TimeFunctions
 
 
+@script_module("sim")
 class SimApi(ObjectFunctions, JointFunctions, SensorFunctions, TimeFunctions, ProgramFunctions):
     """All functions and constants, grouped by what they are about."""

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions that scripts may call: found in the classes of the modules, checked by their annotations.
+
+A module (`sim`, `simROS`) is a class; each public method is a function of it, its annotations tell what arguments it
+takes and its docstring what it does. Lua, the reference pages and `help` all read them from here.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import operator
+import typing
+from collections.abc import Callable, Sized
+from dataclasses import dataclass
+from typing import Any, SupportsIndex, TypeVar
+
+from bubblesim.scripting.kinds import PLAIN, Kind, MismatchError, shown
+
+Module = TypeVar("Module", bound=type)
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+MODULES: dict[str, type] = {}  # by the names that scripts know them by
+
+
+@dataclass(frozen=True)
+class ScriptFunction:
+    """A function of a module, as it is documented."""
+
+    name: str
+    signature: inspect.Signature  # without self
+    doc: str
+    group: type  # the class that holds the functions about one thing
+
+
+class ArgumentError(TypeError):
+    """A call that does not fit the function; the text names function, argument, what it takes and what was given."""
+
+
+def script_module(name: str) -> Callable[[Module], Module]:
+    """Make a class the module ``name`` of scripts: its public methods check what they are called with."""
+
+    def register(module: Module) -> Module:
+        for function_name, function in _public_methods(module):
+            setattr(module, function_name, _checked(f"{name}.{function_name}", function))
+        MODULES[name] = module
+        return module
+
+    return register
+
+
+def value_first(function: Function) -> Function:
+    """Let a function (handle, value, reference) also take (handle, reference, value), as older scripts call it."""
+
+    def reorder(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        if len(arguments) == 3 and isinstance(arguments[1], SupportsIndex) and not isinstance(arguments[1], Sized):
+            return arguments[0], arguments[2], arguments[1]
+        return arguments
+
+    function.reorder = reorder  # type: ignore[attr-defined]
+    return function
+
+
+def functions(module: type) -> list[ScriptFunction]:
+    """All functions of a module, by name."""
+    found = []
+    for name, function in _public_methods(module):
+        group = next(base for base in reversed(module.__mro__) if name in vars(base))
+        found.append(ScriptFunction(name, _signature(function), inspect.getdoc(function) or "", group))
+    return found
+
+
+def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:
+    members = inspect.getmembers(module, inspect.isfunction)
+    return [(name, function) for name, function in members if not name.startswith("_")]
+
+
+def _signature(function: Callable[..., Any]) -> inspect.Signature:
+    signature = inspect.signature(function)
+    return signature.replace(parameters=list(signature.parameters.values())[1:])
+
+
+def _kind(hint: Any) -> Kind | None:
+    """What a parameter takes; None for anything."""
+    for extra in getattr(hint, "__metadata__", ()):
+        if isinstance(extra, Kind):
+            return extra
+    return PLAIN.get(hint)
+
+
+def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    signature = _signature(function)
+    hints = typing.get_type_hints(function, include_extras=True)
+    kinds = [_kind(hints.get(parameter)) for parameter in signature.parameters]
+    converters = [kind.convert if kind else _as_it_is for kind in kinds]
+    reorder = getattr(function, "reorder", None)
+    most = len(converters)
+    least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
+
+    @functools.wraps(function)
+    def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
+        if reorder is not None:
+            arguments = reorder(arguments)
+        if named or not least <= len(arguments) <= most:
+            arguments = _bound(full_name, signature, arguments, named)
+        try:
+            taken = tuple(map(operator.call, converters, arguments))  # stops where defaults begin
+        except (TypeError, ValueError, OverflowError):
+            raise _argument_error(full_name, signature, kinds, arguments) from None
+        return function(self, *taken)
+
+    return call
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _bound(
+    full_name: str, signature: inspect.Signature, arguments: tuple[Any, ...], named: dict[str, Any]
+) -> tuple[Any, ...]:
+    """The arguments by position."""
+    try:
+        bound = signature.bind(*arguments, **named)
+    except TypeError as error:
+        names = ", ".join(str(p).partition(":")[0].partition("=")[0].strip() for p in signature.parameters.values())
+        raise ArgumentError(f"{full_name}({names}): {error}") from None
+    if bound.kwargs or named:
+        bound.apply_defaults()
+    return bound.args
+
+
+def _argument_error(
+    full_name: str, signature: inspect.Signature, kinds: list[Kind | None], arguments: tuple[Any, ...]
+) -> ArgumentError:
+    for number, (name, kind, value) in enumerate(zip(signature.parameters, kinds, arguments), start=1):  # noqa: B905
+        if kind is None:
+            continue
+        try:
+            kind.convert(value)
+        except (TypeError, ValueError, OverflowError) as error:
+            found = str(error) if isinstance(error, MismatchError) else f"found {shown(value)}"
+            return ArgumentError(f"{full_name}: argument {number}, {name}: expected {kind.words}, {found}")
+    raise AssertionError("no argument is wrong")

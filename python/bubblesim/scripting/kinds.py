@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an argument of a script function may be: the kinds that stand in the functions' annotations."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Annotated, Any
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of argument: how to say it, and how a value is taken for it."""
+
+    words: str
+    convert: Callable[[Any], Any]  # raises TypeError or ValueError for what it does not take
+
+
+class MismatchError(ValueError):
+    """Says itself what was found, where the value as a whole would not show it."""
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, str):  # float('1') would take it
+        raise TypeError
+    return float(value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bytes):  # Lua's strings hold bytes
+        return value.decode()
+    if not isinstance(value, str):
+        raise TypeError
+    return value
+
+
+def _bytes(value: Any) -> bytes:
+    return value.encode() if isinstance(value, str) else bytes(memoryview(value))
+
+
+def _flag(value: Any) -> bool:
+    return value if isinstance(value, bool) else operator.index(value) != 0
+
+
+def _options(value: Any) -> Mapping[str, Any]:
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TypeError
+    return value
+
+
+def numbers(count: int) -> Kind:
+    """Exactly ``count`` numbers, in a list, a tuple, an array."""
+
+    def convert(values: Any) -> list[float]:
+        taken = _numbers(values)
+        if len(taken) != count:
+            raise MismatchError(f"found {len(taken)}")
+        return taken
+
+    return Kind(f"{count} numbers", convert)
+
+
+def _numbers(values: Any) -> list[float]:
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError
+    return [_number(value) for value in values]
+
+
+def _integers(values: Any) -> list[int]:
+    return [value if isinstance(value, int) else _whole(value) for value in _numbers(values)]
+
+
+def _whole(value: float) -> int:
+    if value != int(value):
+        raise MismatchError(f"found {value:g} among them")
+    return int(value)
+
+
+NUMBER = Kind("a number", _number)
+INTEGER = Kind("an integer", operator.index)
+TEXT = Kind("a text", _text)
+FLAG = Kind("true or false", _flag)
+
+Handle = Annotated[int, Kind("the handle of an object, an integer", operator.index)]
+Vector3 = Annotated[list[float], numbers(3)]
+Vector4 = Annotated[list[float], numbers(4)]
+Vector7 = Annotated[list[float], numbers(7)]
+Numbers = Annotated[list[float], Kind("a list of numbers", _numbers)]
+Integers = Annotated[list[int], Kind("a list of integers", _integers)]
+Bytes = Annotated[bytes, Kind("bytes", _bytes)]
+Options = Annotated[Mapping[str, Any], Kind("a table of options by name", _options)]
+
+NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})
+PLAIN: dict[Any, Kind] = {float: NUMBER, int: INTEGER, str: TEXT, bool: FLAG}
+
+
+def shown(value: Any) -> str:
+    """A value as an error names it: its type and the beginning of what it holds."""
+    if value is None:
+        return "nothing (None)"
+    text = repr(value)
+    return f"{type(value).__name__} {text if len(text) <= 40 else text[:37] + '...'}"

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the reference page of a module of child scripts: ``python -m bubblesim.scripting.reference sim``."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Mapping
+
+from bubblesim.scripting import sim_api  # noqa: F401  # registers its module
+from bubblesim.scripting.api import MODULES, ScriptFunction, functions
+
+_INTRODUCTION = """\
+# {name}
+
+<!-- Generated from the functions themselves by `python -m bubblesim.scripting.reference {name}`. -->
+
+What child scripts find in `{name}`. A call that does not fit raises a TypeError that names the function, the argument,
+what it takes and what was given; SI units and radians throughout.
+"""
+
+
+def page(name: str) -> str:
+    """The page as Markdown, its functions grouped by what they are about."""
+    module = MODULES[name]
+    found = functions(module)
+    parts = [_INTRODUCTION.format(name=name)]
+    for group in dict.fromkeys(base for base in module.__mro__ if any(f.group is base for f in found)):
+        parts.append(f"## {_title(group)}\n\n{inspect.getdoc(group)}\n")
+        parts.append("\n".join(_entry(name, function) for function in found if function.group is group) + "\n")
+    return "\n".join(parts)
+
+
+def _title(group: type) -> str:
+    return group.__name__.removesuffix("Functions")
+
+
+def _entry(module: str, function: ScriptFunction) -> str:
+    arguments = ", ".join(
+        name if parameter.default is inspect.Parameter.empty else f"{name}={_shown(parameter.default)}"
+        for name, parameter in function.signature.parameters.items()
+    )
+    text = " ".join(function.doc.split()).replace("``", "`")
+    return f"- `{module}.{function.name}({arguments})`: {text}"
+
+
+def _shown(default: object) -> str:
+    return "{}" if isinstance(default, Mapping) else repr(default)
+
+
+def main() -> int:
+    """Print the page of the module that is named."""
+    if len(sys.argv) != 2 or sys.argv[1] not in MODULES:
+        print(f"usage: python -m bubblesim.scripting.reference {'|'.join(MODULES)}", file=sys.stderr)
+        return 2
+    print(page(sys.argv[1]), end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

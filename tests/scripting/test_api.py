@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions of scripts as a whole: each is documented, and none takes what it does not say it takes."""
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bubblesim.scripting import kinds
+from bubblesim.scripting.api import ArgumentError, functions, script_module, value_first
+from bubblesim.scripting.reference import page
+from bubblesim.scripting.sim_api import SimApi
+from node_support import run_script
+from ros_support import REPOSITORY
+
+ANYTHING = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary(),
+    lambda inner: st.lists(inner, max_size=8) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
+    max_leaves=8,
+)
+
+
+@script_module("sample")
+class Sample:
+    """Functions that give back what they were given."""
+
+    def number(self, value: float) -> float:
+        """Any number."""
+        return value
+
+    def text(self, value: str, count: int = 1) -> str:
+        """A text, several times."""
+        return value * count
+
+    def vector(self, value: kinds.Vector3) -> list[float]:
+        """Three numbers."""
+        return value
+
+    @value_first
+    def moved(self, handle: kinds.Handle, value: kinds.Vector3, reference: kinds.Handle = -1) -> tuple[object, ...]:
+        """Both orders."""
+        return handle, value, reference
+
+
+def refusal(function: Callable[[Any], object], value: object) -> str | None:
+    """What the function says to a value that it does not take, None when it takes it."""
+    try:
+        function(value)
+    except ArgumentError as error:
+        return str(error)
+    return None
+
+
+@given(ANYTHING)
+def test_numbers_and_only_they_are_taken_for_numbers(value: object) -> None:
+    told = refusal(Sample().number, value)
+    if isinstance(value, int | float) and abs(value) < 1e308:
+        assert told is None
+    elif isinstance(value, str | bytes | list | dict | None):
+        assert told is not None
+        assert told.startswith("sample.number: argument 1, value: expected a number, found ")
+
+
+@given(st.lists(st.floats() | st.text() | st.none(), max_size=5))
+def test_lists_of_three_numbers_are_taken_for_vectors(values: list[object]) -> None:
+    told = refusal(Sample().vector, values)
+    if [type(value) for value in values] == [float] * 3:
+        assert told is None
+    else:
+        assert told is not None
+        assert told.startswith("sample.vector: argument 1, value: expected 3 numbers, found ")
+
+
+def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
+    expected = (5, [1.0, 2.0, 3.0], 7)
+    assert Sample().moved(5, [1, 2, 3], 7) == expected
+    assert Sample().moved(5, 7, [1, 2, 3]) == expected  # type: ignore[arg-type]
+    assert Sample().moved(5, [1, 2, 3]) == (5, [1.0, 2.0, 3.0], -1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ((), "sample.text(value, count): missing a required argument: 'value'"),
+        (("a", 1, 2), "sample.text(value, count): too many positional arguments"),
+        (("a", 1.5), "sample.text: argument 2, count: expected an integer, found float 1.5"),
+        ((None,), "sample.text: argument 1, value: expected a text, found nothing (None)"),
+    ],
+)
+def test_a_call_that_does_not_fit_is_told(arguments: tuple[object, ...], told: str) -> None:
+    with pytest.raises(ArgumentError) as error:
+        Sample().text(*arguments)  # type: ignore[arg-type]
+    assert str(error.value) == told
+
+
+def test_arguments_may_be_named() -> None:
+    assert Sample().text(count=3, value="ab") == "ababab"
+
+
+@pytest.mark.parametrize("function", functions(SimApi), ids=lambda function: function.name)
+def test_every_function_says_what_it_does(function: object) -> None:
+    assert function.doc.strip()  # type: ignore[attr-defined]
+    assert all(p.annotation is not inspect.Parameter.empty for p in function.signature.parameters.values())  # type: ignore[attr-defined]
+
+
+def test_the_reference_page_is_that_of_the_functions() -> None:
+    file = REPOSITORY / "docs" / "scripts" / "sim.md"
+    assert file.read_text() == page("sim"), f"write it anew: python -m bubblesim.scripting.reference sim > {file}"
+
+
+def test_no_function_of_sim_falls_over_odd_arguments(tmp_path: Path) -> None:
+    code = """
+        ODD = [None, True, -5, 10**30, float('nan'), 'text', b'bytes', [], [None], [1, 2, 3], {}, {'a': 1}, print]
+        EXCEPT = ('stopSimulation', 'pauseSimulation', 'launchExecutable')
+        def sysCall_init():
+            names = [n for n in dir(sim) if callable(getattr(sim, n)) and not n.startswith('_') and n not in EXCEPT]
+            for name in names:
+                for arguments in [(), *((a,) for a in ODD), *((a, b) for a in ODD for b in ODD)]:
+                    try:
+                        getattr(sim, name)(*arguments)
+                    except (TypeError, ValueError, LookupError, RuntimeError) as error:
+                        assert str(error) and 'incompatible function arguments' not in str(error), (name, arguments)
+            print(len(names) > 30)
+    """
+    run = run_script(tmp_path, code, "--strict", until=0.05)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.endswith("True\n")
