@@ -55,6 +55,10 @@ class RosBridge final : public messages::Bridge {
   bool wait_for_service(const std::string& name, double timeout) override;
   void shutdown_service_server(messages::EndpointId server) override;
   void shutdown_service_client(messages::EndpointId client) override;
+  std::optional<messages::ParameterValue> get_parameter(const std::string& name) override;
+  void set_parameter(const std::string& name, const messages::ParameterValue& value) override;
+  void delete_parameter(const std::string& name) override;
+  std::optional<std::string> search_parameter(const std::string& name) override;
   void drain() override;
   messages::BridgeTime now() const override;
 

@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "bindings.hpp"
 #include "bubblesim/messages/bridge.hpp"
@@ -109,6 +111,11 @@ EndpointId advertise_service(Bridge& bridge, const std::string& name, const std:
   return bridge.advertise_service(name, listed, std::move(answer));
 }
 
+std::pair<bool, messages::ParameterValue> get_parameter(Bridge& bridge, const std::string& name) {
+  const std::optional<messages::ParameterValue> value = bridge.get_parameter(name);
+  return {value.has_value(), value.value_or(std::monostate())};
+}
+
 EndpointId service_client(Bridge& bridge, const std::string& name, const std::string& type) {
   const messages::ServiceType& listed = listed_service(type);
   const py::gil_scoped_release release;
@@ -132,6 +139,7 @@ py::object call(Bridge& bridge, EndpointId client, const py::object& request, do
 void bind_bridge(py::module_& core) {
   const auto without_gil = py::call_guard<py::gil_scoped_release>();
   py::register_exception<messages::ServiceError>(core, "ServiceError", PyExc_RuntimeError);
+  py::register_exception<messages::NoMaster>(core, "NoMaster", PyExc_RuntimeError);
   py::class_<Bridge>(core, "Bridge",
                      "Topics and services of a message bridge. Handles are integers; ValueError for stale ones.")
       .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("queue_size"), py::arg("latch"))
@@ -154,6 +162,12 @@ void bind_bridge(py::module_& core) {
            "Whether somebody offers the service; waits `timeout` seconds at most, looks once when that is 0.")
       .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
       .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
+      .def("get_parameter", &get_parameter, py::arg("name"), without_gil,
+           "(exists, value) of the master's parameter; None for lists and dictionaries. NoMaster when none answers.")
+      .def("set_parameter", &Bridge::set_parameter, py::arg("name"), py::arg("value"), without_gil)
+      .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)
+      .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,
+           "The parameter's full name in the nearest namespace that has it, or None.")
       .def(
           "now",
           [](const Bridge& bridge) {

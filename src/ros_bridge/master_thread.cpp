@@ -6,10 +6,12 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <cstdio>
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -50,7 +52,9 @@ struct MasterThread::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<Job> jobs;
-  std::atomic<State> state{State::kTrying};  // written under the mutex, so that waiting for it works
+  std::atomic<State> state{State::kTrying};   // written under the mutex, so that waiting for it works
+  std::uint64_t answers = 0;                  // of the master, as far as check() knows
+  std::optional<std::uint64_t> silent_after;  // that many, run() lost its patience
   bool said_absent = false;
   bool stopping = false;
   bool finished = false;
@@ -108,6 +112,7 @@ void MasterThread::Shared::work() {
     {
       const std::lock_guard lock(mutex);
       if (stopping) return;
+      if (found) ++answers;
       if (!found || jobs.empty()) continue;
       job = std::move(jobs.front());
       jobs.pop_front();
@@ -164,6 +169,30 @@ void MasterThread::post(Job job) {
     shared_->jobs.push_back(std::move(job));
   }
   shared_->changed.notify_all();
+}
+
+bool MasterThread::run(Job job, std::chrono::milliseconds patience) {
+  const auto done = std::make_shared<bool>(false);
+  std::unique_lock lock(shared_->mutex);
+  const auto is_absent = [this] { return shared_->state == State::kTrying || shared_->state == State::kAbsent; };
+  if (is_absent() || shared_->silent_after == shared_->answers) return false;
+  shared_->jobs.push_back([job = std::move(job), done, shared = shared_.get()] {
+    job();
+    {
+      const std::lock_guard finished(shared->mutex);
+      *done = true;
+    }
+    shared->changed.notify_all();
+  });
+  shared_->changed.notify_all();
+  for (;;) {
+    const std::uint64_t before = shared_->answers;  // a slow machine is no silent master
+    const auto is_over = [&] { return *done || shared_->stopping || is_absent() || shared_->answers != before; };
+    const bool heard = shared_->changed.wait_for(lock, patience, is_over);
+    if (*done) return true;
+    if (!heard) shared_->silent_after = before;
+    if (!heard || shared_->stopping || is_absent()) return false;
+  }
 }
 
 bool MasterThread::stop() {

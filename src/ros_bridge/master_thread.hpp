@@ -47,6 +47,10 @@ class MasterThread {
   /// Runs `job` after those posted before, while connected. Jobs not begun when stop() is called are dropped.
   void post(Job job);
 
+  /// Posts `job` and waits until it has run. False when there is no master, or when it has not answered anything for
+  /// `patience`; the job runs later then, and calls before the master's next answer are not even posted.
+  bool run(Job job, std::chrono::milliseconds patience);
+
   /// Ends the node and the thread, within 2 s. False if a call that cannot be interrupted (a name lookup) keeps the
   /// thread alive: then nothing that jobs and roscpp refer to may be destroyed.
   bool stop();

@@ -27,6 +27,7 @@
 #include "master_watch.hpp"
 #include "node_setup.hpp"
 #include "own_types.hpp"
+#include "parameters.hpp"
 #include "services.hpp"
 
 namespace bubblesim {
@@ -91,6 +92,7 @@ struct RosBridge::Impl {
   MasterThread master;
   Services services{master, watch, guard, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
+  Parameters parameters{master};
 };
 
 RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
@@ -243,6 +245,20 @@ bool RosBridge::wait_for_service(const std::string& name, double timeout) {
 void RosBridge::shutdown_service_server(EndpointId server) { impl_->services.remove_server(server); }
 
 void RosBridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
+
+std::optional<messages::ParameterValue> RosBridge::get_parameter(const std::string& name) {
+  return impl_->parameters.get(name);
+}
+
+void RosBridge::set_parameter(const std::string& name, const messages::ParameterValue& value) {
+  impl_->parameters.set(name, value);
+}
+
+void RosBridge::delete_parameter(const std::string& name) { impl_->parameters.remove(name); }
+
+std::optional<std::string> RosBridge::search_parameter(const std::string& name) {
+  return impl_->parameters.search(name);
+}
 
 void RosBridge::drain() {
   if (impl_->draining) return;  // called by a callback: the outer call goes on with the rest

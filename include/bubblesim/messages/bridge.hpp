@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "bubblesim/messages/message_type.hpp"
 #include "bubblesim/messages/wire.hpp"
@@ -28,12 +30,20 @@ struct ServiceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// That there is no master to ask, or that it does not answer.
+struct NoMaster : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// std::monostate stands for lists and dictionaries, which scripts do not read.
+using ParameterValue = std::variant<std::monostate, bool, std::int32_t, double, std::string>;
+
 struct BridgeTime {
   std::uint32_t sec = 0;
   std::uint32_t nanosec = 0;
 };
 
-/// All calls come from the simulation's thread and, but for call() and wait_for_service(), return at once: a bridge
+/// All calls come from the simulation's thread and, but for those that say so, return at once: a bridge
 /// talks to its master on a thread of its own, so an endpoint made while no master is reachable comes alive when one
 /// appears. Errors (unusable name, unknown or shut-down id) are std::invalid_argument with a text for the script's
 /// author.
@@ -67,6 +77,15 @@ class Bridge {
   virtual bool wait_for_service(const std::string& name, double timeout) = 0;
   virtual void shutdown_service_server(EndpointId server) = 0;
   virtual void shutdown_service_client(EndpointId client) = 0;
+
+  /// The master's parameters, of which nothing is set without a master; names are resolved as those of topics. Reading
+  /// waits for the answer, and throws NoMaster when none has come from the master for a second. Writing does not wait;
+  /// what is read afterwards is what was written.
+  virtual std::optional<ParameterValue> get_parameter(const std::string& name) = 0;
+  virtual void set_parameter(const std::string& name, const ParameterValue& value) = 0;
+  virtual void delete_parameter(const std::string& name) = 0;
+  /// Full name of the parameter in the nearest namespace that has it, from the node's own upwards.
+  virtual std::optional<std::string> search_parameter(const std::string& name) = 0;
 
   /// Delivers what has arrived since the last call to the callbacks: messages, then service requests. A callback may
   /// call the bridge, shut its own endpoint down included; what it throws (but ServiceError) is passed on after the

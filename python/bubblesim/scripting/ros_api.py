@@ -7,13 +7,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_qos import read_qos
 from bubblesim.scripting.ros_services import RosServices, ServiceCallback
 from bubblesim.scripting.ros_topics import Callback
 from bubblesim.scripting.ros_transforms import RosTransforms
 
 
-class SimRos(RosTransforms, RosServices):
+class SimRos(RosTransforms, RosServices, RosParameters):
     """`simROS`: times in messages are float seconds."""
 
     def advertise(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:
@@ -66,7 +67,7 @@ class SimRos(RosTransforms, RosServices):
         return float(sec + nanosec * 1e-9)
 
 
-class SimRos2(RosTransforms, RosServices):
+class SimRos2(RosTransforms, RosServices, RosParameters):
     """`simROS2`: the names of the ROS 2 tutorials; times in messages are {sec, nanosec}."""
 
     _module = "simROS2"
