@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Print the sources folder of the catkin workspace that a build folder belongs to, and the folder of a package there.
+"""Print the sources folder of the catkin workspace that a build folder belongs to, and the folders of packages there.
 
 `catkin build` configures each package alone, so CMake cannot see which others share its workspace. The output is a
-CMake list of two; its second part, or both, are empty when there is no such package, or no workspace.
+CMake list, of the sources folder and one item for each package asked for; an item is empty when there is no such
+package, or no workspace.
 """
 
 import subprocess
@@ -27,12 +28,12 @@ def source_space(build_folder: Path) -> Path | None:
     return None
 
 
-def find_package(name: str, sources: Path) -> Path | None:
-    """Folder of the package `name` below `sources`; None when there is none."""
-    return next((sources / path for path, package in find_packages(sources).items() if package.name == name), None)
+def package_folders(sources: Path) -> dict[str, Path]:
+    """The folder of each package below `sources`, by name."""
+    return {package.name: sources / path for path, package in find_packages(sources).items()}
 
 
 if __name__ == "__main__":
-    workspace = source_space(Path(sys.argv[2]))
-    package = find_package(sys.argv[1], workspace) if workspace and workspace.is_dir() else None
-    print(f"{workspace or ''};{package or ''}", end="")
+    workspace = source_space(Path(sys.argv[1]))
+    folders = package_folders(workspace) if workspace and workspace.is_dir() else {}
+    print(*[workspace or "", *(folders.get(name, "") for name in sys.argv[2:])], sep=";", end="")

@@ -67,6 +67,11 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
                                bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
                                scripts_to_run(simulation, options), options.search_paths);
+    if (bridge != nullptr) {
+      py::module_::import("bubblesim.control.object_services")
+          .attr("ObjectServices")(py::cast(&simulation, py::return_value_policy::reference),
+                                  py::cast(bridge, py::return_value_policy::reference));  // lives in its callbacks
+    }
     // Looked up once, called in every pass.
     python_->actuate = python_->host.attr("actuate");
     python_->sense = python_->host.attr("sense");

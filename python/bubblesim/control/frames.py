@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Poses and velocities relative to an object, and as messages. Poses are [x, y, z, qx, qy, qz, qw]; SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bubblesim.scripting.rotations import matrix
+
+Vector = list[float]
+
+
+def state_in(world: Any, handle: int, reference: int | None) -> tuple[list[float], Vector, Vector]:
+    """Pose, linear and angular velocity of an object's origin as seen from `reference`, None for the world.
+
+    A moving reference sees p' = R^T (v - v_ref - w_ref x (p - p_ref)), w' = R^T (w - w_ref).
+    """
+    pose: list[float] = world.pose(handle)
+    linear, angular = world.velocity(handle)
+    if reference is None:
+        return pose, linear, angular
+    frame = world.pose(reference)
+    frame_linear, frame_angular = world.velocity(reference)
+    carried = _cross(frame_angular, _difference(pose[:3], frame[:3]))
+    relative = _difference(_difference(linear, frame_linear), carried)
+    turning = _difference(angular, frame_angular)
+    return world.pose_in(handle, reference), _into(frame, relative), _into(frame, turning)
+
+
+def _difference(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return [x - y for x, y in zip(a, b, strict=True)]
+
+
+def _cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _into(frame: Sequence[float], vector: Sequence[float]) -> Vector:
+    """A vector in world axes as one in the axes of a frame."""
+    columns = zip(*matrix(frame[3:]), strict=True)
+    return [sum(x * y for x, y in zip(column, vector, strict=True)) for column in columns]
+
+
+def pose_values(message: dict[str, Any]) -> list[float]:
+    """A geometry_msgs/Pose as seven numbers."""
+    return [*(message["position"][axis] for axis in "xyz"), *(message["orientation"][axis] for axis in "xyzw")]
+
+
+def pose_message(pose: Sequence[float]) -> dict[str, Any]:
+    """Seven numbers as a geometry_msgs/Pose."""
+    return {
+        "position": vector_message(pose[:3]),
+        "orientation": dict(zip("xyzw", pose[3:], strict=True)),
+    }
+
+
+def vector_message(vector: Sequence[float]) -> dict[str, float]:
+    """Three numbers as a geometry_msgs/Vector3 or Point."""
+    return dict(zip("xyz", vector, strict=True))
