@@ -29,6 +29,7 @@ class ScriptHost:
         self.search_paths = search_paths
         self.failures = 0
         self.last_pass = False
+        self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
         placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         # Descendants before ancestors, siblings in the scene's order.
         placed.sort(key=lambda script: (-script[0].count("/"), script[1]))

@@ -40,6 +40,10 @@ def _bytes(value: Any) -> bytes:
     return value.encode() if isinstance(value, str) else bytes(memoryview(value))
 
 
+def _text_or_bytes(value: Any) -> str | bytes:
+    return value if isinstance(value, str) else bytes(memoryview(value))
+
+
 def _flag(value: Any) -> bool:
     return value if isinstance(value, bool) else operator.index(value) != 0
 
@@ -92,6 +96,7 @@ Vector7 = Annotated[list[float], numbers(7)]
 Numbers = Annotated[list[float], Kind("a list of numbers", _numbers)]
 Integers = Annotated[list[int], Kind("a list of integers", _integers)]
 Bytes = Annotated[bytes, Kind("bytes", _bytes)]
+TextOrBytes = Annotated[str | bytes, Kind("a text or bytes", _text_or_bytes)]
 Options = Annotated[Mapping[str, Any], Kind("a table of options by name", _options)]
 
 NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})

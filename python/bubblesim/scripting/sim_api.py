@@ -6,11 +6,21 @@ from __future__ import annotations
 from bubblesim.scripting.api import script_module
 from bubblesim.scripting.joint_functions import JointFunctions
 from bubblesim.scripting.object_functions import ObjectFunctions
+from bubblesim.scripting.pack_functions import PackFunctions
 from bubblesim.scripting.program_functions import ProgramFunctions
 from bubblesim.scripting.sensor_functions import SensorFunctions
+from bubblesim.scripting.signal_functions import SignalFunctions
 from bubblesim.scripting.time_functions import TimeFunctions
 
 
 @script_module("sim")
-class SimApi(ObjectFunctions, JointFunctions, SensorFunctions, TimeFunctions, ProgramFunctions):
+class SimApi(
+    ObjectFunctions,
+    JointFunctions,
+    SensorFunctions,
+    SignalFunctions,
+    PackFunctions,
+    TimeFunctions,
+    ProgramFunctions,
+):
     """All functions and constants, grouped by what they are about."""
