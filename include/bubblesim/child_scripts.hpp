@@ -42,4 +42,9 @@ class ChildScripts : public Participant {
   std::unique_ptr<Python> python_;
 };
 
+/// Makes the code of a script that is running raise KeyboardInterrupt, and all scripts be called no more but for
+/// sysCall_cleanup. Does nothing while no script runs. For a signal
+/// handler on the simulation's thread: Python would not notice it from another.
+void interrupt_scripts();
+
 }  // namespace bubblesim

@@ -35,6 +35,10 @@ class RosBridge final : public messages::Bridge {
   /// Takes everything off the master; ends within 2 s even if the master is gone or hangs.
   ~RosBridge() override;
 
+  /// Takes everything off the master, as the destructor does; any thread may call it, before the process is ended by
+  /// force.
+  bool leave();
+
   RosBridge(const RosBridge&) = delete;
   RosBridge& operator=(const RosBridge&) = delete;
 

@@ -73,11 +73,15 @@ int run_scene(const Options& options, int& argc, char** argv) {
     ros = std::make_unique<RosParticipant>(*bridge, simulation);
     simulation.add(*ros);
   }
+  auto guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge] {
+    if (bridge) bridge->leave();
+  });
   ChildScripts scripts(simulation, bridge.get(), {options.child_scripts, options.script_paths});
   simulation.add(scripts);
 
   int exit_code = run(options, simulation, scripts);
   scripts.finish();
+  guard.reset();
   if (options.strict && scripts.failures() > 0) exit_code = kScriptFailed;
   if (options.state_hash) std::printf("%016" PRIx64 "\n", simulation.state_hash());
   return exit_code;

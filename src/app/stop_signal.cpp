@@ -1,25 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stop_signal.hpp"
 
+#include <pthread.h>
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <initializer_list>
+#include <utility>
 
 namespace bubblesim::app {
 namespace {
 
+constexpr std::chrono::milliseconds kBetweenInterrupts{250};
+constexpr int kInterrupts = 4;  // before the process is ended by force
+
 volatile std::sig_atomic_t requested = 0;
+volatile std::sig_atomic_t last_signal = SIGTERM;
+std::atomic<void (*)()> interrupt_now{nullptr};
+static_assert(std::atomic<void (*)()>::is_always_lock_free);
+sem_t signalled;
 
 void request(int signal) {
-  if (requested != 0) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
   requested = 1;
+  if (const auto interrupt = interrupt_now.load()) {  // a wake-up of our own
+    interrupt();
+    return;
+  }
+  last_signal = signal;
+  sem_post(&signalled);
 }
 
 }  // namespace
 
 void watch_stop_signals() {
+  sem_init(&signalled, 0, 0);
   struct sigaction action {};
   action.sa_handler = request;
   sigemptyset(&action.sa_mask);
@@ -27,5 +45,53 @@ void watch_stop_signals() {
 }
 
 bool stop_requested() { return requested != 0; }
+
+StopGuard::StopGuard(void (*interrupt)(), std::function<void()> leave)
+    : interrupt_(interrupt), leave_(std::move(leave)), guarded_(pthread_self()) {
+  sigset_t all;
+  sigset_t previous;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &previous);  // signals are for the guarded thread, to wake it
+  thread_ = std::thread([this] { watch(); });
+  pthread_sigmask(SIG_SETMASK, &previous, nullptr);
+}
+
+StopGuard::~StopGuard() {
+  {
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+  }
+  changed_.notify_all();
+  sem_post(&signalled);
+  thread_.join();
+}
+
+bool StopGuard::done_within(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, time, [this] { return done_; });
+}
+
+void StopGuard::watch() {
+  while (!stop_requested()) {
+    sem_wait(&signalled);
+    if (done_within(std::chrono::milliseconds(0))) return;
+  }
+  for (int i = 0; i < kInterrupts; ++i) {
+    if (done_within(kBetweenInterrupts)) return;
+    interrupt_now = interrupt_;
+    pthread_kill(guarded_, SIGINT);  // wakes it from a system call, such as a sleep
+  }
+  if (done_within(kBetweenInterrupts)) return;
+  std::fputs("error: a script does not return: the simulator ends without it\n", stderr);
+  leave_();
+  const int signal = last_signal;
+  std::signal(signal, SIG_DFL);
+  kill(getpid(), signal);
+  // All other threads may block it: this one takes it.
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+}
 
 }  // namespace bubblesim::app

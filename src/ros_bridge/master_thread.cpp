@@ -58,6 +58,7 @@ struct MasterThread::Shared {
   bool said_absent = false;
   bool stopping = false;
   bool finished = false;
+  std::mutex stop_mutex;
   std::thread thread;
 
   void set_state(State next);
@@ -196,6 +197,7 @@ bool MasterThread::run(Job job, std::chrono::milliseconds patience) {
 }
 
 bool MasterThread::stop() {
+  const std::lock_guard alone(shared_->stop_mutex);
   if (!shared_->thread.joinable()) return true;
   const auto begin = Clock::now();
   std::unique_lock lock(shared_->mutex);

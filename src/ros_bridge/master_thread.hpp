@@ -51,8 +51,8 @@ class MasterThread {
   /// `patience`; the job runs later then, and calls before the master's next answer are not even posted.
   bool run(Job job, std::chrono::milliseconds patience);
 
-  /// Ends the node and the thread, within 2 s. False if a call that cannot be interrupted (a name lookup) keeps the
-  /// thread alive: then nothing that jobs and roscpp refer to may be destroyed.
+  /// Ends the node and the thread, within 2 s; any thread may call it. False if a call that cannot be interrupted (a
+  /// name lookup) keeps the thread alive: then nothing that jobs and roscpp refer to may be destroyed.
   bool stop();
 
  private:

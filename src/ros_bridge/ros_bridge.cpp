@@ -151,10 +151,12 @@ RosBridge::~RosBridge() {
   // Here and not where roscpp lets go of them: scripts' callbacks must die on the simulation's thread.
   for (const auto& [id, subscriber] : impl_->subscribers) subscriber->silence();
   impl_->services.silence();
-  if (impl_->master.stop() && impl_->services.finish_calls(kLastCalls)) return;
+  if (leave() && impl_->services.finish_calls(kLastCalls)) return;
   say("the ROS master at " + master_uri() + " does not answer: leaving without taking this node off it");
   static_cast<void>(impl_.release());  // the thread that is left behind still uses it
 }
+
+bool RosBridge::leave() { return impl_->master.stop(); }
 
 EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 bool latch) {

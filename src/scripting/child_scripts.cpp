@@ -102,6 +102,8 @@ void ChildScripts::finish() {
   with_python([&] { python_->finish(); });
 }
 
+void interrupt_scripts() { scripting::interrupt(); }
+
 int ChildScripts::failures() const {
   return with_python([&] { return python_->host.attr("failures").cast<int>(); });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpreter.hpp"
 
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -16,6 +18,17 @@ namespace py = pybind11;
 /// space alike.
 fs::path package_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "python3" / "dist-packages";
+}
+
+std::atomic<bool> can_interrupt{false};
+
+/// Python's own handler of SIGINT is only ever called by interrupt(): the signal itself stays the program's.
+void install_interruption() {
+  struct sigaction own {};
+  sigaction(SIGINT, nullptr, &own);
+  py::module_::import("bubblesim.scripting.interruption").attr("install")();
+  sigaction(SIGINT, &own, nullptr);
+  can_interrupt = true;
 }
 
 void check(const PyStatus& status, const char* what) {
@@ -44,6 +57,7 @@ Interpreter::Interpreter() {
   try {
     py::module_::import("sys").attr("path").attr("insert")(0, package_folder().string());
     py::module_::import("bubblesim.scripting.host");
+    install_interruption();
   } catch (const py::error_already_set& error) {
     throw std::runtime_error(std::string("the Python package bubblesim cannot be imported: ") + error.what() +
                              "\nDid you source the workspace's setup.bash?");
@@ -52,6 +66,7 @@ Interpreter::Interpreter() {
 }
 
 Interpreter::~Interpreter() {
+  can_interrupt = false;
   released_.reset();
   // Finalizing would wait for ever for a thread of a script that does not end.
   try {
@@ -63,6 +78,10 @@ Interpreter::~Interpreter() {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
   // The threads stay where they are, without the GIL, until the process is gone.
+}
+
+void interrupt() {
+  if (can_interrupt) PyErr_SetInterruptEx(SIGINT);
 }
 
 }  // namespace bubblesim::scripting

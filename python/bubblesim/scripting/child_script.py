@@ -11,6 +11,7 @@ from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
+from bubblesim.scripting import interruption
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.source import ScriptSourceError, load_source
 
@@ -88,16 +89,28 @@ class ChildScript:
 
     def _call(self, name: str) -> None:
         hook = self._hooks[name]
-        if hook is not None and self.alive:
+        if hook is not None and self.alive and (name == "sysCall_cleanup" or not interruption.requested):
             self.run(name, hook)
 
     def run(self, what: str, action: Hook) -> bool:
         """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
         try:
-            action()
+            outer = interruption.allowed
+            try:
+                interruption.allowed = True
+                action()
+            finally:
+                interruption.allowed = outer
         except SystemExit:
             self._end()
-        except BaseException as error:  # Ctrl-C never arrives as KeyboardInterrupt: the node handles it itself
+        except BaseException as error:
+            if isinstance(error, KeyboardInterrupt) and interruption.requested:
+                write_line(
+                    sys.stderr,
+                    f"warning: child script of {self.object_path} was broken off in {what}{_place(error)}: "
+                    "the simulator was told to end",
+                )
+                return False
             self._fail(
                 f"error: child script of {self.object_path} failed in {what}{_place(error)} and is disabled:\n"
                 + _script_traceback(error).rstrip()
