@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
@@ -40,6 +41,13 @@ class Simulation {
   /// The part of a pass that goes on while paused.
   void drain();
 
+  /// Puts the world and what the sensors remember back to the start; time goes on. As reset(): between passes, or in a
+  /// participant's drain(), where it takes effect at once. Throws std::logic_error in the other phases of a pass and
+  /// while another thread is stepping. Requests (pause, stop) stay as they are.
+  void reset_world();
+  /// The same, and time starts at 0 again: what follows equals a new simulation, bit by bit.
+  void reset();
+
   /// Seconds of simulation time; 0 in the first pass, constant through a pass.
   double time() const { return static_cast<double>(passes_) * scene_.time_step; }
   double time_step() const { return scene_.time_step; }
@@ -67,6 +75,8 @@ class Simulation {
  private:
   struct SensorSlot;
 
+  void check_may_reset() const;
+  void make_sensors();
   SensorSlot& proximity_slot(ObjectId sensor);
   void update_sensors();
 
@@ -76,7 +86,8 @@ class Simulation {
   std::vector<SensorSlot> sensors_;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;
-  std::atomic<bool> stepping_{false};
+  std::atomic<std::thread::id> stepping_thread_{};  // none: no pass is being run
+  bool draining_ = false;                           // the phase of the pass that is being run
   std::atomic<bool> paused_{false};
   std::atomic<bool> stopping_{false};
 };

@@ -39,10 +39,15 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// Refers to the world as it is now: a reset ends the reference, handles stay.
   const SceneTree& tree() const;
 
+  /// Puts everything back to where the scene has it: poses, velocities, joint targets and force limits. What follows
+  /// equals what follows in a new world, bit by bit. A world that diverged is of use again.
+  void reset();
+
   /// Lets `duration` seconds pass in steps of `step` seconds. Throws Diverged when a body leaves the finite world
-  /// (over 1e6 m away or faster than 1e6 m/s): the world is then of no more use.
+  /// (over 1e6 m away or faster than 1e6 m/s): the world is then of no use until it is reset.
   void advance(double duration, double step);
 
   /// Pose in the world. A model's is the one of its frame, carried by its canonical link; a joint's is attached to the
@@ -80,6 +85,10 @@ class World {
   struct State;  // see src/sim/world_state.hpp
 
  private:
+  void build();
+
+  SceneDescription scene_;
+  std::uint64_t seed_;
   std::unique_ptr<State> state_;
 };
 

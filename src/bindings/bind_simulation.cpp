@@ -125,7 +125,14 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
       .def("step", &step, py::arg("passes") = 1, py::call_guard<py::gil_scoped_release>(),
            "Simulates `passes` passes of `time_step` seconds, without holding the GIL.\n\n"
-           ":raises Diverged: when a body leaves the finite world; load the scene again then.")
+           ":raises Diverged: when a body leaves the finite world; reset it or load the scene again then.")
+      .def("reset_world", &Simulation::reset_world, py::call_guard<py::gil_scoped_release>(),
+           "Puts all objects and sensors back to the start of the scene; time goes on, handles stay.\n\n"
+           "Call it between passes, or in a callback that brings messages or service calls: there it takes effect at\n"
+           "once. A diverged simulation is of use again.\n\n"
+           ":raises RuntimeError: in sysCall_actuation and sysCall_sensing, and while another thread steps.")
+      .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
+           "As `reset_world`, and time starts at 0 again: what follows equals a new simulation, bit by bit.")
       .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
       .def_property_readonly("seed", &Simulation::seed)

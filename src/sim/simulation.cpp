@@ -25,6 +25,11 @@ struct Simulation::SensorSlot {
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
     : scene_(std::move(scene)), seed_(seed), world_(scene_, seed) {
+  make_sensors();
+}
+
+void Simulation::make_sensors() {
+  sensors_.clear();
   for (const Object& object : world_.tree().objects()) {
     if (object.kind != ObjectKind::kSensor) continue;
     sensors_.emplace_back().id = object.id;
@@ -51,32 +56,66 @@ void Simulation::drain() {
 
 namespace {
 
-/// Holds a flag as long as it lives; throws when somebody else holds it.
+/// Notes this thread as the one that steps, as long as it lives; throws when there is one.
 class Exclusive {
  public:
-  explicit Exclusive(std::atomic<bool>& flag) : flag_(flag) {
-    if (flag_.exchange(true)) throw std::logic_error("another thread is stepping this simulation already");
+  explicit Exclusive(std::atomic<std::thread::id>& stepping) : stepping_(stepping) {
+    std::thread::id none;
+    if (stepping_.compare_exchange_strong(none, std::this_thread::get_id())) return;
+    throw std::logic_error(none == std::this_thread::get_id()
+                               ? "a pass is being run: step() cannot be called by what takes part in it"
+                               : "another thread is stepping this simulation already");
   }
-  ~Exclusive() { flag_ = false; }
+  ~Exclusive() { stepping_ = std::thread::id(); }
   Exclusive(const Exclusive&) = delete;
   Exclusive& operator=(const Exclusive&) = delete;
 
  private:
-  std::atomic<bool>& flag_;
+  std::atomic<std::thread::id>& stepping_;
 };
 
 }  // namespace
 
 void Simulation::step() {
-  const Exclusive exclusive(stepping_);
-  const double now = time();
+  const Exclusive exclusive(stepping_thread_);
+  draining_ = true;
   drain();
+  draining_ = false;
+  const double now = time();  // a reset while draining sets it back
   for (Participant* participant : participants_) participant->actuate(world_, now);
   world_.advance(scene_.time_step, scene_.physics_step);
   update_sensors();
   for (Participant* participant : participants_) participant->sense(world_, now);
   for (Participant* participant : participants_) participant->publish(world_, now);
   ++passes_;
+}
+
+void Simulation::check_may_reset() const {
+  const std::thread::id stepping = stepping_thread_;
+  if (stepping == std::thread::id()) return;
+  if (stepping != std::this_thread::get_id()) {
+    throw std::logic_error("another thread is stepping this simulation: reset it from there, or when it has ended");
+  }
+  if (!draining_)
+    throw std::logic_error("a pass is being run: the world can be reset before its actuation or after it");
+}
+
+void Simulation::reset_world() {
+  check_may_reset();
+  world_.reset();
+  std::vector<SensorSlot> before = std::exchange(sensors_, {});
+  make_sensors();
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // they keep to their rates, for time goes on
+    sensors_[i].due = before[i].due;
+    sensors_[i].wanted = before[i].wanted;
+  }
+}
+
+void Simulation::reset() {
+  check_may_reset();
+  world_.reset();
+  make_sensors();
+  passes_ = 0;
 }
 
 void Simulation::update_sensors() {

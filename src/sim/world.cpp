@@ -47,14 +47,24 @@ World::State::~State() {
   static_cast<void>(threading.release());
 }
 
-World::World(const SceneDescription& scene, std::uint64_t seed) : state_(std::make_unique<State>()) {
-  std::vector<Problem> problems = check_scene(scene);
+World::World(const SceneDescription& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
+  std::vector<Problem> problems = check_scene(scene_);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  state_->seed = seed;
-  build_world(*state_, scene);
+  build();
 }
 
 World::~World() = default;
+
+void World::build() {
+  auto built = std::make_unique<State>();
+  built->seed = seed_;
+  build_world(*built, scene_);
+  state_ = std::move(built);
+}
+
+// Built anew, for ODE keeps more of the past than poses and velocities: forces of the last step, the order of its
+// lists.
+void World::reset() { build(); }
 
 const SceneTree& World::tree() const { return state_->tree; }
 
@@ -65,7 +75,7 @@ void World::advance(double duration, double step) {
   if (!(duration >= 0 && duration <= kMaxDuration)) {
     throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
   }
-  if (state_->diverged) throw Diverged("the physics diverged earlier; load the scene again");
+  if (state_->diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
   ode::prepare_this_thread();
   for (long left = std::lround(duration / step); left > 0; --left) {
     try {

@@ -215,6 +215,20 @@ def test_equal_seeds_give_equal_states_in_20_runs_and_2_processes() -> None:
     assert len(hashes) == 1
 
 
+def test_a_reset_starts_it_again() -> None:
+    simulation = bubblesim.Simulation("tricycle", seed=7)
+    motor = simulation.object("/FrontMotor")
+    start, force = simulation.state_hash(), motor.max_force
+    motor.target_velocity = 3.0
+    motor.max_force = 7.0
+    simulation.step(20)
+    simulation.reset_world()
+    assert (simulation.time, motor.target_velocity, motor.max_force) == (pytest.approx(1.0), 0.0, force)
+    assert simulation.state_hash() != start  # the time is a part of it
+    simulation.reset()
+    assert (simulation.time, simulation.state_hash()) == (0.0, start)
+
+
 def test_it_needs_no_ros() -> None:
     code = (
         "import sys, bubblesim; s = bubblesim.Simulation('tricycle'); s.step(5); "

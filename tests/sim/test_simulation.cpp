@@ -251,6 +251,107 @@ TEST(SameSeed, GivesTheSameStateInTwentyRuns) {
   for (int run = 1; run < 20; ++run) EXPECT_EQ(hash_of_a_run(7), first);
 }
 
+/// Boxes that fall on each other, and a sonar that somebody reads.
+SceneDescription tumble() {
+  SceneDescription described = approach(3);
+  described.gravity = {0, 0, -9.81};
+  described.models.push_back(floor());
+  for (int i = 0; i < 3; ++i) {
+    described.models.push_back(model("Box" + std::to_string(i), link_with(Box{{0.5, 0.4, 0.3}}),
+                                     Pose(8 + 0.1 * i, 0, 0.5 + 0.6 * i, 0.3 * i, 0.2, 0)));
+  }
+  return described;
+}
+
+/// Hash and sonar distance after each of some passes.
+std::vector<std::pair<std::uint64_t, double>> history(Simulation& simulation) {
+  const ObjectId sonar = simulation.world().tree().find("/Sonar");
+  std::vector<std::pair<std::uint64_t, double>> seen;
+  for (int i = 0; i < 30; ++i) {
+    simulation.step();
+    seen.emplace_back(simulation.state_hash(), simulation.read_proximity(sonar).distance);
+  }
+  return seen;
+}
+
+TEST(Reset, IsFollowedByWhatFollowsInANewSimulation) {
+  Simulation simulation(tumble(), 7);
+  const std::uint64_t start = simulation.state_hash();
+  const auto first = history(simulation);
+  EXPECT_NE(simulation.state_hash(), start);
+  simulation.reset();
+  EXPECT_EQ(simulation.time(), 0);
+  EXPECT_EQ(simulation.state_hash(), start);
+  EXPECT_EQ(history(simulation), first);
+}
+
+TEST(ResetWorld, KeepsTheTime) {
+  Simulation simulation(tumble());
+  const std::uint64_t start = simulation.world().state_hash();
+  history(simulation);
+  simulation.reset_world();
+  EXPECT_DOUBLE_EQ(simulation.time(), 1.5);
+  EXPECT_EQ(simulation.world().state_hash(), start);
+}
+
+TEST(ResetWorld, LetsSensorsForgetWhatTheySawAndKeepTheirRate) {
+  Approach approach(1);
+  approach.age_in_passes();
+  for (int i = 0; i < 30; ++i) approach.simulation.step();
+  approach.simulation.reset_world();
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, 1e-12);
+  const ObjectId ball = approach.simulation.world().tree().find("/Ball");
+  approach.simulation.world().set_velocity(ball, {{-1, 0, 0}, {}});
+  for (int i = 30; i < 40; ++i) approach.simulation.step();
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, 1e-12);
+  approach.simulation.step();  // the pass at 2 s
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5 - 11 * 0.05, 1e-6);
+}
+
+/// Calls a function in its drain().
+struct Drainer : Participant {
+  void drain() override {
+    if (on_drain) on_drain();
+  }
+  std::function<void()> on_drain;
+};
+
+TEST(Reset, TakesEffectAtOnceWhileDraining) {
+  Simulation simulation(tumble());
+  history(simulation);
+  Drainer drainer;
+  drainer.on_drain = [&] { simulation.reset(); };
+  Caller caller;
+  std::vector<double> times;
+  caller.on_actuate = [&](World&, double time) { times.push_back(time); };
+  simulation.add(drainer);
+  simulation.add(caller);
+  simulation.step();
+  EXPECT_EQ(times, std::vector<double>{0});
+  EXPECT_EQ(simulation.time(), 0.05);
+}
+
+TEST(Reset, IsRefusedInTheMiddleOfAPass) {
+  Simulation simulation(tumble());
+  Caller caller;
+  caller.on_actuate = [&](World&, double) {
+    EXPECT_THROW(simulation.reset(), std::logic_error);
+    EXPECT_THROW(simulation.reset_world(), std::logic_error);
+    EXPECT_THROW(simulation.step(), std::logic_error);
+  };
+  simulation.add(caller);
+  simulation.step();
+  EXPECT_EQ(simulation.time(), 0.05);
+}
+
+TEST(Reset, MakesADivergedSimulationUsableAgain) {
+  Simulation simulation(scene({model("Ball", link("link"), at(999999, 0, 0))}, {1e4, 0, 0}));
+  EXPECT_THROW(for (int i = 0; i < 100; ++i) simulation.step(), Diverged);
+  simulation.reset();
+  EXPECT_EQ(simulation.state_hash(),
+            Simulation(scene({model("Ball", link("link"), at(999999, 0, 0))}, {1e4, 0, 0})).state_hash());
+}
+
 TEST(OtherSeed, GivesAnotherHash) { EXPECT_NE(hash_of_a_run(7), hash_of_a_run(8)); }
 
 TEST(ReadingSensors, DoesNotChangeTheState) {
