@@ -71,6 +71,8 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
       py::module_::import("bubblesim.control.object_services")
           .attr("ObjectServices")(py::cast(&simulation, py::return_value_policy::reference),
                                   py::cast(bridge, py::return_value_policy::reference));  // lives in its callbacks
+      py::module_::import("bubblesim.control.reset_services")
+          .attr("offer_reset_services")(py::cast(bridge, py::return_value_policy::reference), python_->host);
     }
     // Looked up once, called in every pass.
     python_->actuate = python_->host.attr("actuate");

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from bubblesim.scripting import interruption
 from bubblesim.scripting.child_script import ChildScript
 from bubblesim.scripting.ros_api import SimRos, SimRos2
 from bubblesim.scripting.sim_api import SimApi
@@ -30,10 +31,13 @@ class ScriptHost:
         self.failures = 0
         self.last_pass = False
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
-        placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
+        self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         # Descendants before ancestors, siblings in the scene's order.
-        placed.sort(key=lambda script: (-script[0].count("/"), script[1]))
-        self.scripts = [ChildScript(self, path, handle, file) for path, handle, file in placed]
+        self._placed.sort(key=lambda script: (-script[0].count("/"), script[1]))
+        self.scripts = self._load()
+
+    def _load(self) -> list[ChildScript]:
+        return [ChildScript(self, path, handle, file) for path, handle, file in self._placed]
 
     def make_modules(self, script: ChildScript) -> dict[str, Any]:
         """The modules that a script finds among its globals."""
@@ -57,6 +61,18 @@ class ScriptHost:
             script.sense()
         # A request to stop takes effect between passes, so that the last pass is the last for every phase of it.
         self.last_pass = self.simulation.stopping
+
+    def restart(self) -> None:
+        """End all scripts, put the world back to its start at time 0, and load the scripts afresh.
+
+        Between passes or while messages are delivered, but not from within a script: RuntimeError.
+        """
+        if interruption.allowed:  # a script is running
+            raise RuntimeError("a child script cannot start the simulation anew that it is called from")
+        self.finish()
+        self.signals.clear()
+        self.simulation.reset()
+        self.scripts = self._load()
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and end what they started."""

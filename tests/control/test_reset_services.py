@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The services that put a simulation back to its start, called as other nodes call them."""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from node_support import NAME, Node, write
+from ros_support import RosCore, wait_until
+
+Start = Callable[[str], Node]
+
+
+@pytest.fixture
+def start(roscore: RosCore, tmp_path: Path) -> Iterator[Start]:
+    """The ball with a script of the test's own, running."""
+    nodes = []
+
+    def run(code: str) -> Node:
+        file = write(tmp_path / "script.py", code)
+        nodes.append(Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={file}"))
+        wait_until(lambda: f"{NAME}/reset_simulation" in roscore.state()["services"], "the services")
+        return nodes[-1]
+
+    yield run
+    for node in nodes:
+        assert node.end() == 0
+
+
+def times(output: str, what: str) -> list[float]:
+    return [float(time) for time in re.findall(rf"^{what} (\S+)", output, re.MULTILINE)]
+
+
+def test_reset_puts_the_world_back_and_lets_time_and_scripts_go_on(start: Start, roscore: RosCore) -> None:
+    node = start("""\
+        def sysCall_init():
+            print('init', sim.getSimulationTime())
+        def sysCall_actuation():
+            if sim.getSimulationTime() < 0.5:
+                sim.setObjectPosition(sim.getObject('.'), [5, 5, 5])
+                print('away')
+            elif abs(sim.getObjectPosition(sim.getObject('.'))[0]) < 2:
+                print('back', sim.getSimulationTime())
+        """)
+    node.wait_for_output("away")
+
+    def back_after_a_reset() -> bool:
+        roscore.run("rosservice", "call", f"{NAME}/reset")
+        return bool(times(node.output, "back"))
+
+    wait_until(back_after_a_reset, "the ball to be back")
+    assert min(times(node.output, "back")) >= 0.5
+    assert times(node.output, "init") == [0.0]
+
+
+def test_reset_simulation_starts_scripts_and_time_afresh(start: Start, roscore: RosCore) -> None:
+    node = start("""\
+        count = 0
+        def sysCall_init():
+            global count
+            count += 1
+            print('init', sim.getSimulationTime(), count, sim.getFloatSignal('left over'))
+            sim.setFloatSignal('left over', 1.0)
+            simROS.advertise('/of_the_script', 'std_msgs/Empty')
+        def sysCall_cleanup():
+            print('cleanup', sim.getSimulationTime())
+        """)
+    for starts in (1, 2, 3):
+        wait_until(lambda starts=starts: len(times(node.output, "init")) == starts, "the script to start")
+        wait_until(lambda: "/of_the_script" in roscore.state()["publishers"], "the script's topic")
+        if starts < 3:
+            roscore.run("rosservice", "call", f"{NAME}/reset_simulation")
+    assert re.findall(r"^init (.*)", node.output, re.MULTILINE) == ["0.0 1 None"] * 3
+    assert len(times(node.output, "cleanup")) == 2
+    assert "error" not in node.output
+
+
+def test_a_script_that_asks_in_the_middle_of_itself_is_told_so(start: Start) -> None:
+    node = start(f"""\
+        def sysCall_init():
+            client = simROS.serviceClient('{NAME}/reset_simulation', 'std_srvs/Empty')
+            simROS.call(client)
+        """)
+    node.wait_for_output("cannot start the simulation anew that it is called from")
