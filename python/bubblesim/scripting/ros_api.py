@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.ros_images import RosImages
 from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_qos import read_qos
 from bubblesim.scripting.ros_services import RosServices, ServiceCallback
@@ -14,7 +15,7 @@ from bubblesim.scripting.ros_topics import Callback
 from bubblesim.scripting.ros_transforms import RosTransforms
 
 
-class SimRos(RosTransforms, RosServices, RosParameters):
+class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
     """`simROS`: times in messages are float seconds."""
 
     def advertise(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
+from bubblesim.scripting.output import write_line
 
 if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
@@ -22,3 +24,10 @@ class RosContext:
         self._bridge = bridge
         self._simulation = simulation
         self._script = script
+        self._warned: set[str] = set()
+
+    def _warn(self, text: str) -> None:
+        """Warn in the script's name, once of the same."""
+        if text not in self._warned:
+            self._warned.add(text)
+            write_line(sys.stderr, f"warning: child script of {self._script.object_path}: {text}")

@@ -4,15 +4,10 @@
 from __future__ import annotations
 
 import math
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting.output import write_line
 from bubblesim.scripting.ros_context import RosContext
-
-if TYPE_CHECKING:
-    from bubblesim.scripting.child_script import ChildScript
 
 _INT32 = range(-(2**31), 2**31)
 _KIND = {bool: "a bool", int: "an int", float: "a double", str: "a string", type(None): "a list or a dictionary"}
@@ -24,11 +19,6 @@ class RosParameters(RosContext):
     Reading waits for the master, a second at most; writing does not. Without a master nothing exists, as one warning
     tells, and what was written is sent when one appears. A new master starts without parameters.
     """
-
-    def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
-        """Bind the functions to one script."""
-        super().__init__(bridge, simulation, script)
-        self._warned: set[str] = set()
 
     def getParamString(self, name: str, default: str = "") -> tuple[bool, str]:
         """Whether the parameter is a string, and its value or ``default``."""
@@ -109,8 +99,3 @@ class RosParameters(RosContext):
             self._warn(f"{error}: no parameter exists")
             return False, None
         return answer
-
-    def _warn(self, text: str) -> None:
-        if text not in self._warned:
-            self._warned.add(text)
-            write_line(sys.stderr, f"warning: child script of {self._script.object_path}: {text}")

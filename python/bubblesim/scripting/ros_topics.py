@@ -55,7 +55,9 @@ class RosTopics(RosContext):
         return publisher
 
     def _subscribe(self, topic: str, message_type: str, callback: Callback, queue_size: int) -> int:
-        guarded = self._script.callback(callback)
+        return self._listen(topic, message_type, self._script.callback(callback), queue_size)
+
+    def _listen(self, topic: str, message_type: str, guarded: Callable[[dict[str, Any]], None], queue_size: int) -> int:
         subscriber = int(self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form))
         self._script.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`simROS` functions about images."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bubblesim.scripting.image_codec import COMPRESSIONS, compress, decode, decompress, opencv
+from bubblesim.scripting.ros_parameters import RosParameters
+from bubblesim.scripting.ros_topics import RosTopics
+
+if TYPE_CHECKING:
+    from bubblesim.scripting.child_script import ChildScript
+
+_RAW, _COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
+
+ImageCallback = Callable[[bytes, int, int], object] | str
+
+
+class RosImages(RosTopics, RosParameters):
+    """Images in scripts are rgb8 bytes without padding whose rows go from the bottom up, as those of `sim` do."""
+
+    def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
+        """Bind the functions to one script."""
+        super().__init__(bridge, simulation, script)
+        self._compressed: dict[int, tuple[int, str, int]] = {}  # by raw publisher: publisher, format, level
+
+    def imageTransportAdvertise(self, topic: str, queue_size: int = 1) -> int:
+        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle.
+
+        The parameters ``topic``/compressed/format ('jpeg' or 'png'), .../jpeg_quality (1 to 100) and .../png_level
+        (1 to 9) are read now, and name what compressed_image_transport's do.
+        """
+        publisher = self._advertise(topic, _RAW, queue_size, latch=False)
+        beside = f"{topic.rstrip('/')}/compressed"
+        image_format, level = self._compression(beside)
+        self._compressed[publisher] = (
+            self._advertise(beside, _COMPRESSED, queue_size, latch=False),
+            image_format,
+            level,
+        )
+        return publisher
+
+    def imageTransportPublish(self, publisher: int, data: Any, width: int, height: int, frame_id: str) -> None:
+        """Publish an image given as bytes or a numpy array of uint8, stamped with ROS time.
+
+        Raises a ValueError when it does not hold width * height * 3 bytes.
+        """
+        compressed, image_format, level = self._compressed_beside(publisher)
+        rows = _rows(data, width, height)
+        if not isinstance(frame_id, str):
+            raise TypeError(f"frame_id takes a string, found {frame_id!r}")
+        raw_wanted = self._bridge.wants_messages(publisher)
+        compressed_wanted = self._bridge.wants_messages(compressed)
+        if not raw_wanted and not compressed_wanted:
+            return
+        top_down = np.ascontiguousarray(rows[::-1])
+        sec, nanosec = self._bridge.now()
+        header = {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frame_id}
+        if raw_wanted:
+            size = {"width": width, "height": height, "step": width * 3}
+            message = {"header": header, "encoding": "rgb8", "data": top_down.reshape(-1), **size}
+            self._bridge.publish(publisher, message)
+        if compressed_wanted:
+            # The format is written as compressed_image_transport does: whoever decodes learns the channels from it.
+            message = {"header": header, "format": f"rgb8; {image_format} compressed bgr8"}
+            self._bridge.publish(compressed, message | {"data": compress(top_down, image_format, level)})
+
+    def imageTransportSubscribe(
+        self, topic: str, callback: ImageCallback, queue_size: int = 1, transport: str = "raw"
+    ) -> int:
+        """Call ``callback`` with each image as (data, width, height); return a handle.
+
+        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
+        out with a warning.
+        """
+        guarded = self._script.callback(callback)
+        if transport == "raw":
+            return self._listen(topic, _RAW, self._deliver(topic, decode, guarded), queue_size)
+        if transport == "compressed":
+            opencv()  # so that it is missed here, in the script
+            topic = f"{topic.rstrip('/')}/compressed"
+            return self._listen(topic, _COMPRESSED, self._deliver(topic, decompress, guarded), queue_size)
+        raise ValueError(f"transport takes 'raw' or 'compressed', found {transport!r}")
+
+    def imageTransportShutdownPublisher(self, publisher: int) -> None:
+        """Stop publishing images; the handle cannot be used any more."""
+        compressed, _, _ = self._compressed_beside(publisher)
+        del self._compressed[publisher]
+        self.shutdownPublisher(compressed)
+        self.shutdownPublisher(publisher)
+
+    def imageTransportShutdownSubscriber(self, subscriber: int) -> None:
+        """Stop listening to images; the handle cannot be used any more."""
+        self._shutdown_subscriber(subscriber)
+
+    def _compression(self, beside: str) -> tuple[str, int]:
+        image_format = self.getParamString(f"{beside}/format", "jpeg")[1]
+        if image_format not in COMPRESSIONS:
+            takes = " or ".join(f"'{name}'" for name in COMPRESSIONS)
+            self._warn(f"parameter '{beside}/format' takes {takes}, found {image_format!r}: 'jpeg' is used")
+            image_format = "jpeg"
+        parameter, levels, default = COMPRESSIONS[image_format]
+        level = self.getParamInt(f"{beside}/{parameter}", default)[1]
+        if level not in levels:
+            takes = f"{levels.start} to {levels.stop - 1}"
+            self._warn(f"parameter '{beside}/{parameter}' takes {takes}, found {level}: {default} is used")
+            level = default
+        return image_format, level
+
+    def _compressed_beside(self, publisher: int) -> tuple[int, str, int]:
+        if publisher not in self._compressed:
+            raise ValueError(f"invalid object handle {publisher}: no such image publisher, or it was shut down")
+        return self._compressed[publisher]
+
+    def _deliver(
+        self, topic: str, read: Callable[[dict[str, Any]], np.ndarray[Any, Any]], guarded: Callable[..., None]
+    ) -> Callable[[dict[str, Any]], None]:
+        def deliver(message: dict[str, Any]) -> None:
+            try:
+                image = read(message)
+            except ValueError as error:  # the fault of whoever sent it: no reason to end the script
+                self._warn(f"an image on '{topic}' is left out: {error}")
+                return
+            height, width, _ = image.shape
+            guarded(image[::-1].tobytes(), width, height)
+
+        return deliver
+
+
+def _rows(data: Any, width: int, height: int) -> np.ndarray[Any, Any]:
+    """The image as an array of height x width x 3, without a copy."""
+    pixels = data if isinstance(data, np.ndarray) else np.frombuffer(data, np.uint8)
+    if pixels.dtype != np.uint8:
+        raise TypeError(f"an image takes bytes or a numpy array of uint8, found an array of {pixels.dtype}")
+    if width < 1 or height < 1 or pixels.size != width * height * 3:
+        raise ValueError(
+            f"an image of {width} x {height} pixels takes {width} * {height} * 3 = {width * height * 3} bytes of rgb8, "
+            f"and at least one pixel; found {pixels.size} bytes"
+        )
+    return pixels.reshape(height, width, 3)
