@@ -263,11 +263,11 @@ std::optional<std::string> RosBridge::search_parameter(const std::string& name) 
 }
 
 void RosBridge::drain() {
-  if (impl_->draining) return;  // called by a callback: the outer call goes on with the rest
+  if (impl_->draining) return;  // called by a message's callback: the outer call goes on with the rest
   impl_->draining = true;
   impl_->queue.callAvailable(ros::WallDuration(0));
-  impl_->services.serve();
   impl_->draining = false;
+  impl_->services.serve();
   impl_->guard.rethrow();
 }
 

@@ -73,6 +73,9 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                                   py::cast(bridge, py::return_value_policy::reference));  // lives in its callbacks
       py::module_::import("bubblesim.control.reset_services")
           .attr("offer_reset_services")(py::cast(bridge, py::return_value_policy::reference), python_->host);
+      py::module_::import("bubblesim.control.step_service")
+          .attr("offer_step_service")(py::cast(bridge, py::return_value_policy::reference),
+                                      py::cast(&simulation, py::return_value_policy::reference));
     }
     // Looked up once, called in every pass.
     python_->actuate = python_->host.attr("actuate");

@@ -89,7 +89,8 @@ class Bridge {
 
   /// Delivers what has arrived since the last call to the callbacks: messages, then service requests. A callback may
   /// call the bridge, shut its own endpoint down included; what it throws (but ServiceError) is passed on after the
-  /// others have been served. A call from within a callback does nothing.
+  /// others have been served. A call from within a message's callback does nothing; a service's callback may call it,
+  /// as one does that lets the simulation run on while it works.
   virtual void drain() = 0;
 
   /// Time that messages should be stamped with: the simulation's when /use_sim_time is set, else the wall clock's.
