@@ -36,6 +36,7 @@ class ChildScript:
         self.file = file
         self.alive = True
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
+        self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
         # A real module, for dataclasses and pickle look up the module of what a script defines.
         self._module = ModuleType(f"child_script_{object_path.strip('/').replace('/', '_')}")
@@ -75,6 +76,8 @@ class ChildScript:
         if not self._started:
             self._started = True
             self._call("sysCall_init")
+        for hook in list(self.in_each_pass.values()):
+            hook()
         self._call("sysCall_actuation")
 
     def sense(self) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.ros_actions import RosActions
 from bubblesim.scripting.ros_images import RosImages
 from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_qos import read_qos
@@ -68,7 +69,7 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         return float(sec + nanosec * 1e-9)
 
 
-class SimRos2(RosTransforms, RosServices, RosParameters):
+class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
     """`simROS2`: the names of the ROS 2 tutorials; times in messages are {sec, nanosec}."""
 
     _module = "simROS2"
