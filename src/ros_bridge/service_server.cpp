@@ -47,6 +47,7 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
     if (!callback) throw ServiceError("the service was shut down");
     WireBuffer response;
     std::optional<std::string> failure;
+    ++answering_;
     guard_.run([&] {
       try {
         response = (*callback)(request);
@@ -60,9 +61,12 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
         throw;
       }
     });
+    --answering_;
     if (failure) throw ServiceError(*failure);
     return response;
   }
+
+  bool is_answering() const { return answering_ > 0; }
 
   /// What this throws, roscpp logs and sends to the caller.
   bool call(ros::ServiceCallbackHelperCallParams& params) override {
@@ -73,6 +77,7 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
  private:
   std::shared_ptr<ServiceCallback> callback_;
   CallbackGuard& guard_;
+  int answering_ = 0;  // answers begun and not ended: more than one when a service calls itself
 };
 
 ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type, ServiceCallback callback,
@@ -83,6 +88,8 @@ ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type
       responder_(boost::make_shared<Responder>(std::move(callback), guard)) {}
 
 WireBuffer ServiceServer::answer(WireView request) { return responder_->answer(request); }
+
+bool ServiceServer::is_answering() const { return responder_->is_answering(); }
 
 void ServiceServer::silence() { responder_->silence(); }
 

@@ -24,6 +24,8 @@ class ServiceServer {
   const messages::ServiceType& type() const { return type_; }
   /// Calls the callback. Throws ServiceError with the text of whatever that throws.
   messages::WireBuffer answer(messages::WireView request);
+  /// Whether the callback is running.
+  bool is_answering() const;
   /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
   void silence();
 

@@ -58,6 +58,7 @@ std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::st
   if (find_own(resolved)) {
     throw std::invalid_argument("service '" + resolved + "' is already offered here");
   }
+  take_off_leaving();  // before one of the same name is registered
   const auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
   servers_.emplace(id, server);
   return server;
@@ -75,12 +76,30 @@ void Services::add_client(EndpointId id, const std::string& name, const ServiceT
 void Services::remove_server(EndpointId id) {
   const auto found = find_endpoint(servers_, id, "service server");
   found->second->silence();
-  master_.post([this, gone = std::move(found->second)] {
+  if (found->second->is_answering()) {
+    leaving_.push_back(std::move(found->second));
+  } else {
+    take_off(std::move(found->second));
+  }
+  servers_.erase(found);
+}
+
+/// Drops the connections, too.
+void Services::take_off(std::shared_ptr<ServiceServer> server) {
+  master_.post([this, gone = std::move(server)] {
     watch_.remove_service(gone->name());
     retired_.push_back(gone->unregister_from_master());
     if (retired_.size() > kRetiredKept) retired_.pop_front();
   });
-  servers_.erase(found);
+}
+
+void Services::take_off_leaving() {
+  for (std::shared_ptr<ServiceServer>& server : std::exchange(leaving_, {})) take_off(std::move(server));
+}
+
+void Services::serve() {
+  queue_->serve();
+  take_off_leaving();
 }
 
 void Services::remove_client(EndpointId id) { clients_.erase(find_endpoint(clients_, id, "service client")); }

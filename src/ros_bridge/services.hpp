@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "bubblesim/messages/bridge.hpp"
 #include "endpoint_table.hpp"
@@ -40,7 +41,7 @@ class Services {
 
   messages::WireBuffer call(messages::EndpointId client, messages::WireBuffer request, double timeout);
   bool wait_for(const std::string& name, double timeout);
-  void serve() { queue_->serve(); }
+  void serve();
 
   /// Silences all servers, for the end of the bridge.
   void silence();
@@ -54,6 +55,8 @@ class Services {
   };
 
   std::shared_ptr<ServiceServer> find_own(const std::string& name) const;
+  void take_off(std::shared_ptr<ServiceServer> server);
+  void take_off_leaving();
   bool run_beside(std::function<void()> work, Patience patience);
 
   MasterThread& master_;
@@ -65,6 +68,7 @@ class Services {
   int nested_ = 0;  // calls that wait, each but the first made while the one before it did
   EndpointTable<ServiceServer> servers_;
   EndpointTable<Client> clients_;
+  std::vector<std::shared_ptr<ServiceServer>> leaving_;  // removed in their own callbacks: they still owe an answer
   std::deque<ros::ServicePublicationPtr> retired_;  // the master thread's; see ServiceServer::unregister_from_master()
 };
 
