@@ -85,6 +85,9 @@ ACTIONLIB_SERVER = """\
     import rospy, actionlib
     from actionlib.msg import TestAction, TestFeedback, TestResult
     def on_goal(handle):
+        # What is sent before the client's subscribers are connected is lost, as on any topic of ROS.
+        while not all(t.get_num_connections() for t in (server.status_pub, server.feedback_pub, server.result_pub)):
+            rospy.sleep(0.01)
         number = handle.get_goal().goal
         if number == 2:
             handle.set_rejected()
@@ -211,7 +214,8 @@ def test_a_script_sends_goals_and_is_told_what_becomes_of_them(script: Script, r
             "1 accepted\n",
             "1 ended 6 {'result': 43}",
             "2 refused\n",
-            "3 accepted\n3 feedback 7\n",
+            "3 accepted\n",
+            "3 feedback 7\n",
             "3 ended 5 {'result': 44}",
         ):
             node.wait_for_output(line)
