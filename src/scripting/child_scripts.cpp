@@ -68,14 +68,7 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                                bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
                                scripts_to_run(simulation, options), options.search_paths);
     if (bridge != nullptr) {
-      py::module_::import("bubblesim.control.object_services")
-          .attr("ObjectServices")(py::cast(&simulation, py::return_value_policy::reference),
-                                  py::cast(bridge, py::return_value_policy::reference));  // lives in its callbacks
-      py::module_::import("bubblesim.control.reset_services")
-          .attr("offer_reset_services")(py::cast(bridge, py::return_value_policy::reference), python_->host);
-      py::module_::import("bubblesim.control.step_service")
-          .attr("offer_step_service")(py::cast(bridge, py::return_value_policy::reference),
-                                      py::cast(&simulation, py::return_value_policy::reference));
+      py::module_::import("bubblesim.control.offered").attr("offer_services")(python_->host);
     }
     // Looked up once, called in every pass.
     python_->actuate = python_->host.attr("actuate");

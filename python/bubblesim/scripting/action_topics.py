@@ -10,7 +10,7 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.messages.names import did_you_mean, nearest_names, type_name
-from bubblesim.scripting.ros_stamps import Message
+from bubblesim.scripting.ros_stamps import Message, now
 
 GOAL_ID = "actionlib_msgs/GoalID"
 STATUS_ARRAY = "actionlib_msgs/GoalStatusArray"
@@ -93,8 +93,7 @@ class ActionTopics:
 
     def now(self) -> dict[str, int]:
         """ROS time, to stamp with."""
-        sec, nanosec = self._bridge.now()
-        return {"sec": sec, "nanosec": nanosec}
+        return now(self._bridge)
 
 
 def _known_type(given: str) -> str:

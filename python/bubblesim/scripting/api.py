@@ -126,7 +126,7 @@ def _bound(
     except TypeError as error:
         names = ", ".join(str(p).partition(":")[0].partition("=")[0].strip() for p in signature.parameters.values())
         raise ArgumentError(f"{full_name}({names}): {error}") from None
-    if bound.kwargs or named:
+    if named:  # those left out in between
         bound.apply_defaults()
     return bound.args
 

@@ -12,6 +12,7 @@ from bubblesim.scripting.ros_images import RosImages
 from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_qos import read_qos
 from bubblesim.scripting.ros_services import RosServices, ServiceCallback
+from bubblesim.scripting.ros_stamps import now
 from bubblesim.scripting.ros_topics import Callback
 from bubblesim.scripting.ros_transforms import RosTransforms
 
@@ -148,8 +149,7 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
 
     def getTime(self) -> dict[str, int]:
         """ROS time as {sec, nanosec}."""
-        sec, nanosec = self._bridge.now()
-        return {"sec": sec, "nanosec": nanosec}
+        return now(self._bridge)
 
     def getSystemTime(self) -> dict[str, int]:
         """ROS time as {sec, nanosec}."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from bubblesim.scripting.image_codec import COMPRESSIONS, compress, decode, decompress, opencv
 from bubblesim.scripting.ros_parameters import RosParameters
+from bubblesim.scripting.ros_stamps import now
 from bubblesim.scripting.ros_topics import RosTopics
 
 if TYPE_CHECKING:
@@ -58,8 +59,7 @@ class RosImages(RosTopics, RosParameters):
         if not raw_wanted and not compressed_wanted:
             return
         top_down = np.ascontiguousarray(rows[::-1])
-        sec, nanosec = self._bridge.now()
-        header = {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frame_id}
+        header = {"stamp": now(self._bridge), "frame_id": frame_id}
         if raw_wanted:
             size = {"width": width, "height": height, "step": width * 3}
             message = {"header": header, "encoding": "rgb8", "data": top_down.reshape(-1), **size}

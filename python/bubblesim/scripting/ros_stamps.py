@@ -18,6 +18,12 @@ def stamps(message: Message) -> Iterator[float]:
             yield _seconds(header["stamp"])
 
 
+def now(bridge: Any) -> dict[str, int]:
+    """ROS time as {sec, nanosec}, to stamp with."""
+    sec, nanosec = bridge.now()
+    return {"sec": sec, "nanosec": nanosec}
+
+
 def _seconds(stamp: Any) -> float:
     if not isinstance(stamp, Mapping):
         return float(stamp)

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which services the node offers to control the simulation."""
+
+from __future__ import annotations
+
+from bubblesim.control.object_services import ObjectServices
+from bubblesim.control.reset_services import offer_reset_services
+from bubblesim.control.step_service import offer_step_service
+from bubblesim.scripting.host import ScriptHost
+
+
+def offer_services(host: ScriptHost) -> None:
+    """Offer all of them, through the host's bridge."""
+    ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
+    offer_reset_services(host.bridge, host)
+    offer_step_service(host.bridge, host.simulation)
