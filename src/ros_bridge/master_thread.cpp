@@ -113,12 +113,14 @@ void MasterThread::Shared::work() {
     {
       const std::lock_guard lock(mutex);
       if (stopping) return;
-      if (found) ++answers;
-      if (!found || jobs.empty()) continue;
-      job = std::move(jobs.front());
-      jobs.pop_front();
+      if (!found) continue;
+      ++answers;
+      if (!jobs.empty()) {
+        job = std::move(jobs.front());
+        jobs.pop_front();
+      }
     }
-    run_safely([&job] { return job(), true; });
+    run_safely([this, &job] { return (job ? job : hooks.in_passing)(), true; });
   }
 }
 

@@ -26,6 +26,7 @@ class MasterThread {
     std::function<bool()> check;
     Job on_absent;     ///< once, if the first try fails or takes too long
     Job on_connected;  ///< once roscpp is started, before any job
+    Job in_passing;    ///< while connected, whenever check found the master
   };
 
   /// Hooks run on the new thread. Nothing happens before start().

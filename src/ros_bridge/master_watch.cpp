@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "master_call.hpp"
+#include "own_links.hpp"
 
 namespace bubblesim {
 namespace {
@@ -33,18 +34,6 @@ std::vector<Topic> own_topics(const char* method) {
   if (!answer.succeeded || answer.value.getType() != XmlRpcValue::TypeArray) return topics;
   for (int i = 0; i < answer.value.size(); ++i) topics.push_back({answer.value[i][0], answer.value[i][1]});
   return topics;
-}
-
-/// Topic -> nodes that it comes from now, by their URIs.
-std::map<std::string, std::set<std::string>> connected_publishers() {
-  std::map<std::string, std::set<std::string>> publishers;
-  RpcAnswer answer = ask_own_node("getBusInfo");
-  if (!answer.succeeded || answer.value.getType() != XmlRpcValue::TypeArray) return publishers;
-  for (int i = 0; i < answer.value.size(); ++i) {
-    XmlRpcValue& link = answer.value[i];  // [id, node, direction, transport, topic, ...]
-    if (static_cast<std::string>(link[2]) == "i") publishers[link[4]].insert(static_cast<std::string>(link[1]));
-  }
-  return publishers;
 }
 
 /// Adds the publishers that the master named to those that are connected. Other nodes do not register again, so the

@@ -15,7 +15,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -28,6 +27,9 @@
 #include "node_setup.hpp"
 #include "own_types.hpp"
 #include "parameters.hpp"
+#include "publisher_check.hpp"
+#include "refused_peers.hpp"
+#include "say.hpp"
 #include "services.hpp"
 
 namespace bubblesim {
@@ -50,20 +52,19 @@ BridgeTime to_bridge_time(std::int64_t nanoseconds) {
           static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
 }
 
-/// A node has one type for what it publishes on a topic, and one for what it subscribes to there.
+/// A topic has one type in a node.
 void check_same_type(const std::string& topic, const MessageType& type, const char* done, const MessageType& other) {
   if (type.md5 == other.md5) return;
   throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name +
                               ", so it cannot be " + type.name);
 }
 
-void say(const std::string& text) { std::fputs(("plugin 'ROSInterface': " + text + "\n").c_str(), stderr); }
-
 }  // namespace
 
 struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
+  void check_type_on(const std::string& topic, const MessageType& type) const;
   void offer_pause_service(const std::string& name, bool paused);
   void on_connected();
   void read_use_sim_time();
@@ -89,6 +90,8 @@ struct RosBridge::Impl {
     read_use_sim_time();
     say("registered again at ROS master " + ros::master::getURI());
   }};
+  PublisherCheck publisher_check;
+  RefusedPeers refused_peers;
   MasterThread master;
   Services services{master, watch, guard, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
@@ -103,7 +106,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                     "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
                     "as a master appears");
               },
-              [this] { on_connected(); }}) {
+              [this] { on_connected(); }, [this] { publisher_check.look(); }}) {
   if (options.on_pause) {
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
@@ -134,6 +137,16 @@ void RosBridge::Impl::read_use_sim_time() {
   ros::TopicManager::instance()->subscribe(clock_options);
 }
 
+void RosBridge::Impl::check_type_on(const std::string& topic, const MessageType& type) const {
+  if (topic == clock->topic()) check_same_type(topic, type, "advertised", clock->type());
+  for (const auto& [id, other] : publishers) {
+    if (other->topic() == topic) check_same_type(topic, type, "advertised", other->type());
+  }
+  for (const auto& [id, other] : subscribers) {
+    if (other->topic() == topic) check_same_type(topic, type, "subscribed", other->type());
+  }
+}
+
 void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
   own_servers.push_back(services.add_server(next_id++, name, empty_service(), [this, paused](messages::WireView) {
     options.on_pause(paused);
@@ -161,11 +174,8 @@ bool RosBridge::leave() { return impl_->master.stop(); }
 EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 bool latch) {
   const std::string resolved = resolve_name(topic, "topic");
-  for (const auto& [id, other] : impl_->publishers) {
-    if (other->topic() == resolved) check_same_type(resolved, type, "advertised", other->type());
-  }
+  impl_->check_type_on(resolved, type);
   if (resolved == impl_->clock->topic()) {
-    check_same_type(resolved, type, "advertised", clock_type());
     ++impl_->script_clocks;
     if (!std::exchange(impl_->said_script_clock, true)) {
       say("a script advertises " + resolved + ": the simulator leaves publishing it to the script");
@@ -181,14 +191,15 @@ EndpointId RosBridge::advertise(const std::string& topic, const MessageType& typ
 EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 messages::MessageCallback callback) {
   const std::string resolved = resolve_name(topic, "topic");
-  for (const auto& [id, other] : impl_->subscribers) {
-    if (other->topic() == resolved) check_same_type(resolved, type, "subscribed", other->type());
-  }
+  impl_->check_type_on(resolved, type);
   const auto subscriber =
       std::make_shared<SubscriberEndpoint>(resolved, type, queue_size, std::move(callback), impl_->queue, impl_->guard);
   const EndpointId id = impl_->next_id++;
   impl_->subscribers.emplace(id, subscriber);
-  impl_->master.post([subscriber] { subscriber->register_at_master(); });
+  impl_->master.post([impl = impl_.get(), subscriber] {
+    subscriber->register_at_master();
+    impl->publisher_check.add(subscriber->topic(), subscriber->type());
+  });
   return id;
 }
 
@@ -216,7 +227,10 @@ void RosBridge::shutdown_publisher(EndpointId publisher) {
 void RosBridge::shutdown_subscriber(EndpointId subscriber) {
   const auto found = find_endpoint(impl_->subscribers, subscriber, "subscriber");
   found->second->silence();
-  impl_->master.post([gone = std::move(found->second)] { gone->unregister_from_master(); });
+  impl_->master.post([impl = impl_.get(), gone = std::move(found->second)] {
+    impl->publisher_check.remove(gone->topic());
+    gone->unregister_from_master();
+  });
   impl_->subscribers.erase(found);
 }
 

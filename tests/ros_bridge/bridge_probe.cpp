@@ -47,6 +47,8 @@ MessageType make_type(const char* name, const char* md5, const char* definition,
 const std::map<std::string, MessageType>& types() {
   static const std::map<std::string, MessageType> all{
       {"float", make_type("std_msgs/Float32", "73fcbf46b49191e672908e50842a83d4", "float32 data\n")},
+      {"other_float",
+       make_type("std_msgs/Float32", "00000000000000000000000000000000", "float32 data\nfloat32 more\n")},
       {"string", make_type("std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1", "string data\n")},
       {"empty", make_type("std_msgs/Empty", "d41d8cd98f00b204e9800998ecf8427e", "\n")},
       {"clock", make_type("rosgraph_msgs/Clock", "a9c97c1d230cfc112e270351a944ee47", "time clock\n")},

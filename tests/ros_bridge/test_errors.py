@@ -51,8 +51,10 @@ def test_second_type_on_a_topic_is_refused(probe: Probe) -> None:
     assert probe.ask("advertise", "/x", "string") == (
         "! topic '/x' is already advertised here as std_msgs/Float32, so it cannot be std_msgs/String"
     )
-    probe.ask("subscribe", "/x", "float")
-    assert "already subscribed" in probe.ask("subscribe", "/x", "string")
+    assert "already advertised here as std_msgs/Float32" in probe.ask("subscribe", "/x", "string")
+    probe.ask("subscribe", "/y", "float")
+    for again in ("subscribe", "advertise"):
+        assert "already subscribed here as std_msgs/Float32" in probe.ask(again, "/y", "string")
 
 
 @pytest.mark.parametrize("uri", ["", "nonsense", "http://localhost", "http://localhost:99999"])
