@@ -48,18 +48,104 @@ struct CollisionDescription {
   Source source;
 };
 
-/// A cone that reports the nearest thing in it.
+/// Red, green and blue, each from 0 to 1.
+struct Color {
+  float r = 0;
+  float g = 0;
+  float b = 0;
+};
+
+struct Material {
+  Color diffuse{0.7F, 0.7F, 0.7F};
+  Color emissive;
+  double checker_size = 0;  ///< m, side of a checkerboard's fields in the shape's frame; 0 for a single colour
+  Color checker_color;      ///< of every other field
+};
+
+/// What rays see: cameras, lidars and sonars alike. A model without any shows its collision shapes instead.
+struct VisualDescription {
+  std::string name;
+  Pose pose;  ///< in the link's frame
+  Geometry geometry;
+  Material material;
+  double laser_retro = 0;  ///< intensity of a lidar's return
+  Source source;
+};
+
+struct DirectionalLight {
+  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines, world axes
+  Color diffuse{0.8F, 0.8F, 0.8F};
+  bool cast_shadows = true;
+};
+
+/// Light and background of the scene, as cameras see it.
+struct Environment {
+  Color ambient{0.4F, 0.4F, 0.4F};
+  Color background{0.7F, 0.7F, 0.7F};
+  bool sky = false;  ///< a gradient from the horizon up in place of the background
+  bool shadows = true;
+  std::vector<DirectionalLight> lights{DirectionalLight{}};
+};
+
+/// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
+/// drawn once, from N(bias_mean, bias_stddev).
+struct NoiseDescription {
+  double mean = 0;
+  double stddev = 0;
+  double bias_mean = 0;
+  double bias_stddev = 0;
+  double precision = 0;  ///< 0: not rounded
+};
+
+enum class ProximityVolume {
+  kRay,       ///< a single ray
+  kCone,      ///< round
+  kPyramid,   ///< square, as wide and high as the cone
+  kDisc,      ///< a flat fan to the left and right
+  kCylinder,  ///< parallel rays, all of the radius that the cone has at its end
+};
+
+/// A volume in which the nearest thing is reported.
 struct SonarDescription {
   double min_range = 0;   ///< m; anything nearer is not seen
   double max_range = 1;   ///< m
-  double half_angle = 0;  ///< rad, between the axis and the cone's side
+  double half_angle = 0;  ///< rad, between the axis and the volume's side
+  ProximityVolume volume = ProximityVolume::kCone;
+};
+
+/// Angles of a scan: `samples` of them evenly from `min` to `max`, both included; one alone lies at `min`.
+struct ScanAngles {
+  int samples = 1;
+  double min = 0;  ///< rad
+  double max = 0;  ///< rad
+};
+
+struct LidarDescription {
+  ScanAngles horizontal;  ///< about z, to the left
+  ScanAngles vertical;    ///< upwards
+  double min_range = 0;   ///< m
+  double max_range = 1;   ///< m
+  double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
+  NoiseDescription noise;
+};
+
+/// A pinhole camera that looks along x, with y to the left and z up.
+struct CameraDescription {
+  int width = 320;                ///< pixels
+  int height = 240;               ///< pixels
+  double horizontal_fov = 1.047;  ///< rad
+  double near = 0.1;              ///< m along the axis
+  double far = 100;               ///< m along the axis
+  bool color = true;              ///< false for a camera that measures depth only
+  bool antialias = false;         ///< four rays a pixel
+  NoiseDescription noise;         ///< of each colour value, from 0 to 1, or of the depth in m when there is no colour
 };
 
 struct SensorDescription {
   std::string name;
   Pose pose;               ///< in the link's frame; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
-  std::variant<SonarDescription> kind;
+  std::variant<SonarDescription, LidarDescription, CameraDescription> kind;
   Source source;
 };
 
@@ -72,6 +158,7 @@ struct LinkDescription {
   Vector3 inertia_diagonal = Vector3::One;
   Vector3 inertia_products;
   std::vector<CollisionDescription> collisions;
+  std::vector<VisualDescription> visuals;
   std::vector<SensorDescription> sensors;
   Source source;
 };
@@ -121,6 +208,7 @@ struct SceneDescription {
   Vector3 gravity{0, 0, -9.81};  ///< m/s^2
   double time_step = 0.05;       ///< s, of one simulation pass
   double physics_step = 0.005;   ///< s, of one physics substep; divides time_step
+  Environment environment;
   std::vector<ModelDescription> models;
   Source source;
 };

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sensor is. A sensor returns a struct; who shows or publishes it is not its business.
+// What sensors measure, and what a sensor is. A sensor returns a struct; who shows or publishes it is not its business.
+// SI units; sensors look along their x axis, y to the left, z up.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <optional>
+#include <variant>
+#include <vector>
 
+#include "bubblesim/math.hpp"
 #include "bubblesim/scene.hpp"
-#include "bubblesim/world.hpp"
+#include "bubblesim/scene_tree.hpp"
 
 namespace bubblesim {
 
-/// What a sonar or another proximity sensor saw. Lengths in metres, in the sensor's frame (x is where it looks).
+class World;
+class RayScene;
+
+/// What a sonar or another proximity sensor saw. Lengths in metres, in the sensor's frame.
 struct ProximityReading {
   bool detected = false;
   double distance = 0;
@@ -19,16 +27,63 @@ struct ProximityReading {
   ObjectId object = kNoObject;  ///< the link seen
 };
 
+/// One turn of a lidar. Ring by ring, the lowest first; in each ring from `horizontal.min` on.
+struct LidarScan {
+  ScanAngles horizontal;
+  ScanAngles vertical;
+  double min_range = 0;
+  double max_range = 0;
+  std::vector<float> ranges;       ///< m; +Inf for nothing within max_range, -Inf for nearer than min_range (REP 117)
+  std::vector<float> intensities;  ///< laser_retro of what was hit, 0 for nothing
+};
+
+/// What a camera saw, row by row, the uppermost first, each from left to right.
+struct CameraImage {
+  int width = 0;
+  int height = 0;
+  double horizontal_fov = 0;      ///< rad
+  std::vector<std::uint8_t> rgb;  ///< three bytes a pixel; empty for a depth camera
+  std::vector<float> depth;       ///< m along the axis; +Inf beyond the far plane, -Inf before the near one (REP 117)
+  std::vector<ObjectId> objects;  ///< the link seen, or kNoObject
+};
+
+using Measurement = std::variant<ProximityReading, LidarScan, CameraImage>;
+
+struct Reading {
+  double time = 0;  ///< s of simulation time at which it was measured
+  Measurement measurement;
+};
+
+/// What a sensor measures from.
+struct Moment {
+  const World& world;
+  RayScene& rays;
+  double time = 0;         ///< s
+  std::uint64_t seed = 0;  ///< of the simulation; noise follows from it, the sensor and the time alone
+};
+
 class Sensor {
  public:
   virtual ~Sensor() = default;
-  /// Measures the world as it stands now.
-  virtual void update(const World& world) = 0;
-  /// The last measurement of a proximity sensor, nothing for sensors of other kinds.
-  virtual std::optional<ProximityReading> proximity() const { return std::nullopt; }
+
+  void update(const Moment& moment);
+  /// The last measurement. It stays as it is: the next one is written elsewhere as long as anybody holds it.
+  std::shared_ptr<const Reading> reading() const { return reading_; }
+
+ protected:
+  /// `empty` tells which kind of measurement it makes.
+  explicit Sensor(Measurement empty);
+
+ private:
+  /// Writes into `measurement`, which holds an earlier one of the same kind.
+  virtual void measure(const Moment& moment, Measurement& measurement) = 0;
+
+  Measurement empty_;
+  std::shared_ptr<Reading> reading_;
 };
 
 /// Makes the sensor that a scene describes; `id` is its object in the world's tree.
-std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, ObjectId id, const World& world);
+std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,
+                                    const World& world);
 
 }  // namespace bubblesim

@@ -65,8 +65,12 @@ class Simulation {
   const World& world() const { return world_; }
 
   /// What the sensor measured in its last due pass. A sensor that nobody read for a while measures when it is asked.
-  ProximityReading read_proximity(ObjectId sensor);
+  /// Throws NoSuchObject when the object is no sensor.
+  std::shared_ptr<const Reading> read(ObjectId sensor);
   /// Measures now, whatever the sensor's rate.
+  std::shared_ptr<const Reading> measure(ObjectId sensor);
+  /// The same for sensors of one kind; NoSuchObject for those of others.
+  ProximityReading read_proximity(ObjectId sensor);
   ProximityReading measure_proximity(ObjectId sensor);
 
   /// Equal for equal histories, in every process.
@@ -77,12 +81,15 @@ class Simulation {
 
   void check_may_reset() const;
   void make_sensors();
-  SensorSlot& proximity_slot(ObjectId sensor);
+  SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
+  void update(SensorSlot& slot);
+  void require_proximity(ObjectId sensor);
   void update_sensors();
 
   SceneDescription scene_;
   std::uint64_t seed_;
   World world_;
+  std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;

@@ -15,7 +15,9 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kMaxSize = 1e5;  // m
+constexpr double kMaxSize = 1e5;     // m
+constexpr int kMaxSamples = 100000;  // of a lidar, in a ring or of rings
+constexpr int kMaxPixels = 16384;    // of a picture, across or down
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Collects problems; knows which object it looks at.
@@ -34,6 +36,7 @@ class SceneChecker {
             "the time step of a pass", text(scene_.time_step) + " s",
             "a whole number of physics steps (" + text(scene_.physics_step) + " s)");
     require(within(scene_.gravity, 1e4), "gravity", text(scene_.gravity), "finite and at most 1e4 m/s^2");
+    check_environment(scene_.environment);
     for (const ModelDescription& model : scene_.models) check_model(model);
     return std::move(problems_);
   }
@@ -91,6 +94,14 @@ class SceneChecker {
       check_geometry(model, collision.geometry);
       require(collision.surface.mu >= 0, "the friction mu", text(collision.surface.mu), "0 or more");
     }
+    for (const VisualDescription& visual : link.visuals) {
+      at(visual.source, path + "/" + visual.name);
+      check_pose(visual.pose);
+      check_geometry(model, visual.geometry);
+      check_material(visual.material);
+      require(visual.laser_retro >= 0 && within(visual.laser_retro, 1e6), "the laser retro", text(visual.laser_retro),
+              "0 or more");
+    }
     for (const SensorDescription& sensor : link.sensors) {
       at(sensor.source, path + "/" + sensor.name);
       check_pose(sensor.pose);
@@ -133,11 +144,77 @@ class SceneChecker {
     }
   }
 
+  void check_color(const char* what, const Color& color) {
+    const auto fine = [](float part) { return part >= 0 && part <= 1; };
+    require(fine(color.r) && fine(color.g) && fine(color.b), what, text(Vector3(color.r, color.g, color.b)),
+            "red, green and blue from 0 to 1");
+  }
+
+  void check_material(const Material& material) {
+    check_color("the diffuse colour", material.diffuse);
+    check_color("the emissive colour", material.emissive);
+    check_color("the checker's colour", material.checker_color);
+    require(material.checker_size >= 0 && within(material.checker_size, kMaxSize), "the checker's size",
+            text(material.checker_size) + " m", "0 (no checker) to 1e5 m");
+  }
+
+  void check_environment(const Environment& environment) {
+    check_color("the ambient light", environment.ambient);
+    check_color("the background", environment.background);
+    for (const DirectionalLight& light : environment.lights) {
+      check_color("the light's colour", light.diffuse);
+      require(within(light.direction, 1e6) && light.direction.Length() > 1e-9, "the light's direction",
+              text(light.direction), "a direction");
+    }
+  }
+
+  void check_ranges(double min_range, double max_range) {
+    require(max_range > 0 && max_range <= kMaxSize, "the maximal range", text(max_range) + " m", "above 0");
+    require(min_range >= 0 && min_range < max_range, "the minimal range", text(min_range) + " m",
+            "0 or more and below the maximal range");
+  }
+
+  void check_noise(const NoiseDescription& noise) {
+    require(within(noise.mean, kMaxSize), "the noise's mean", text(noise.mean), "finite");
+    require(within(noise.bias_mean, kMaxSize), "the bias's mean", text(noise.bias_mean), "finite");
+    for (const double deviation : {noise.stddev, noise.bias_stddev, noise.precision}) {
+      require(deviation >= 0 && deviation <= kMaxSize, "the noise's standard deviation or precision", text(deviation),
+              "0 or more");
+    }
+  }
+
+  void check_scan(const char* what, const ScanAngles& scan, double reach) {
+    const std::string name = what;
+    require(scan.samples >= 1 && scan.samples <= kMaxSamples, "the number of " + name + " samples",
+            std::to_string(scan.samples), "1 to " + std::to_string(kMaxSamples));
+    require(within(scan.min, reach) && within(scan.max, reach) && scan.min <= scan.max,
+            "the range of " + name + " angles", text(scan.min) + " to " + text(scan.max) + " rad",
+            "from low to high, at most +-" + text(reach));
+  }
+
+  void check_sensor(const LidarDescription& lidar) {
+    check_scan("horizontal", lidar.horizontal, 2 * M_PI);
+    check_scan("vertical", lidar.vertical, M_PI / 2);
+    check_ranges(lidar.min_range, lidar.max_range);
+    require(lidar.resolution >= 0 && lidar.resolution <= lidar.max_range, "the range's resolution",
+            text(lidar.resolution) + " m", "0 (not rounded) to the maximal range");
+    check_noise(lidar.noise);
+  }
+
+  void check_sensor(const CameraDescription& camera) {
+    require(camera.width >= 1 && camera.width <= kMaxPixels && camera.height >= 1 && camera.height <= kMaxPixels,
+            "the picture's size", std::to_string(camera.width) + " x " + std::to_string(camera.height),
+            "1 to " + std::to_string(kMaxPixels) + " pixels each way");
+    require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.1, "the horizontal field of view",
+            text(camera.horizontal_fov) + " rad", "above 0 and below 3.1: a pinhole camera cannot see beside itself");
+    require(camera.far > 0 && camera.far <= kMaxSize, "the far plane", text(camera.far) + " m", "above 0");
+    require(camera.near > 0 && camera.near < camera.far, "the near plane", text(camera.near) + " m",
+            "above 0 and before the far plane");
+    check_noise(camera.noise);
+  }
+
   void check_sensor(const SonarDescription& sonar) {
-    require(sonar.max_range > 0 && sonar.max_range <= kMaxSize, "the maximal range", text(sonar.max_range) + " m",
-            "above 0");
-    require(sonar.min_range >= 0 && sonar.min_range < sonar.max_range, "the minimal range",
-            text(sonar.min_range) + " m", "0 or more and below the maximal range");
+    check_ranges(sonar.min_range, sonar.max_range);
     require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",
             text(sonar.half_angle) + " rad", "from 0 to below pi/2");
   }

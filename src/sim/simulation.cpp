@@ -7,6 +7,7 @@
 
 #include "bubblesim/error.hpp"
 #include "fnv1a.hpp"
+#include "rays/ray_scene.hpp"
 
 namespace bubblesim {
 
@@ -24,7 +25,11 @@ struct Simulation::SensorSlot {
 };
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
-    : scene_(std::move(scene)), seed_(seed), world_(scene_, seed) {
+    : scene_(std::move(scene)), seed_(seed), world_(scene_, seed), rays_(std::make_unique<RayScene>()) {
+  auto model = scene_.models.begin();
+  for (const Object& object : world_.tree().objects()) {
+    if (object.kind == ObjectKind::kModel) rays_->add_model(world_, object.id, *model++);
+  }
   make_sensors();
 }
 
@@ -38,7 +43,7 @@ void Simulation::make_sensors() {
   for (const ModelDescription& model : scene_.models) {
     for (const LinkDescription& link : model.links) {
       for (const SensorDescription& description : link.sensors) {
-        slot->sensor = make_sensor(description, slot->id, world_);
+        slot->sensor = make_sensor(description, scene_.environment, slot->id, world_);
         slot->period = description.update_rate > 0 ? 1 / description.update_rate : 0;
         ++slot;
       }
@@ -125,31 +130,48 @@ void Simulation::update_sensors() {
     if (slot.due > until) continue;
     slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
     slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
-    if (slot.wanted) slot.sensor->update(world_);
+    if (slot.wanted) update(slot);
     slot.wanted = false;
   }
 }
 
-Simulation::SensorSlot& Simulation::proximity_slot(ObjectId sensor) {
+void Simulation::update(SensorSlot& slot) { slot.sensor->update({world_, *rays_, time(), seed_}); }
+
+Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
   for (SensorSlot& slot : sensors_) {
-    if (slot.id == sensor && slot.sensor->proximity()) return slot;
+    if (slot.id == sensor) return slot;
   }
   throw NoSuchObject(world_.tree().short_path(sensor) + " is a " +
-                     std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a proximity sensor");
+                     std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
+}
+
+std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
+  SensorSlot& found = slot(sensor);
+  if (!found.measured) update(found);
+  found.measured = true;
+  found.wanted = true;
+  return found.sensor->reading();
+}
+
+std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
+  SensorSlot& found = slot(sensor);
+  update(found);
+  return found.sensor->reading();
+}
+
+void Simulation::require_proximity(ObjectId sensor) {
+  if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
+  throw NoSuchObject(world_.tree().short_path(sensor) + " is a sensor of another kind, not a proximity sensor");
 }
 
 ProximityReading Simulation::read_proximity(ObjectId sensor) {
-  SensorSlot& slot = proximity_slot(sensor);
-  if (!slot.measured) slot.sensor->update(world_);
-  slot.measured = true;
-  slot.wanted = true;
-  return *slot.sensor->proximity();
+  require_proximity(sensor);
+  return std::get<ProximityReading>(read(sensor)->measurement);
 }
 
 ProximityReading Simulation::measure_proximity(ObjectId sensor) {
-  SensorSlot& slot = proximity_slot(sensor);
-  slot.sensor->update(world_);
-  return *slot.sensor->proximity();
+  require_proximity(sensor);
+  return std::get<ProximityReading>(measure(sensor)->measurement);
 }
 
 std::uint64_t Simulation::state_hash() const {

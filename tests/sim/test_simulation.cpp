@@ -102,6 +102,9 @@ TEST(Requests, AreOnlyNoted) {
   EXPECT_DOUBLE_EQ(simulation.time(), 0.05) << "step() does not look at them";
 }
 
+constexpr double kExact = 1e-4;                   // m, of rays
+constexpr double kExactInPasses = kExact / 0.05;  // for what moves by 1 m/s
+
 /// A sonar that looks along x at a sphere that starts 5 m away and comes nearer by 1 m/s: the distance tells when it
 /// was measured.
 SceneDescription approach(double update_rate) {
@@ -133,7 +136,7 @@ TEST(Sensor, WithoutARateMeasuresInEveryPass) {
   Approach approach(0);
   for (int i = 0; i < 30; ++i) {
     approach.simulation.step();
-    EXPECT_NEAR(approach.age_in_passes(), 0, 1e-6);
+    EXPECT_NEAR(approach.age_in_passes(), 0, kExactInPasses);
   }
 }
 
@@ -145,7 +148,7 @@ TEST_P(SensorRate, MeasuresOnceInItsPeriod) {
   approach.age_in_passes();  // from now on somebody wants it
   for (int i = 0; i < 60; ++i) {
     approach.simulation.step();
-    EXPECT_NEAR(approach.age_in_passes(), i % passes, 1e-6) << "rate " << rate << " pass " << i;
+    EXPECT_NEAR(approach.age_in_passes(), i % passes, kExactInPasses) << "rate " << rate << " pass " << i;
   }
 }
 
@@ -160,7 +163,7 @@ TEST(SensorRateThatDoesNotDivideTheClock, IsKeptOnAverage) {
   int measured = 0;
   for (int i = 0; i < 200; ++i) {
     approach.simulation.step();
-    if (std::abs(approach.age_in_passes()) < 1e-6) ++measured;
+    if (std::abs(approach.age_in_passes()) < kExactInPasses) ++measured;
     if (approach.simulation.time() > 4.5) break;  // it would pass through the sensor
   }
   EXPECT_NEAR(measured, 3 * 4.5, 1);
@@ -170,25 +173,25 @@ TEST(SensorThatNobodyReads, MeasuresWhenItIsAsked) {
   Approach approach(1);
   for (int i = 0; i < 33; ++i) approach.simulation.step();
   // Had it measured when it was due, at 1.0 s, the answer would be old.
-  EXPECT_NEAR(approach.age_in_passes(), 0, 1e-6);
+  EXPECT_NEAR(approach.age_in_passes(), 0, kExactInPasses);
   approach.simulation.step();
-  EXPECT_NEAR(approach.age_in_passes(), 1, 1e-6) << "now it keeps to its rate again";
+  EXPECT_NEAR(approach.age_in_passes(), 1, kExactInPasses) << "now it keeps to its rate again";
 }
 
 TEST(Measuring, IsIndependentOfTheRate) {
   Approach approach(1);
   approach.age_in_passes();
   for (int i = 0; i < 5; ++i) approach.simulation.step();
-  EXPECT_NEAR(approach.simulation.measure_proximity(approach.sonar).distance, 5 - 0.25, 1e-9);
+  EXPECT_NEAR(approach.simulation.measure_proximity(approach.sonar).distance, 5 - 0.25, kExact);
 }
 
 TEST(Reading, HoldsWhatWasSeen) {
   Approach approach(0);
   const ProximityReading reading = approach.simulation.read_proximity(approach.sonar);
   EXPECT_TRUE(reading.detected);
-  EXPECT_NEAR(reading.distance, 5, 1e-12);
-  EXPECT_LT(reading.point.Distance({5, 0, 0}), 1e-12);
-  EXPECT_LT(reading.normal.Distance({-1, 0, 0}), 1e-12);
+  EXPECT_NEAR(reading.distance, 5, kExact);
+  EXPECT_LT(reading.point.Distance({5, 0, 0}), kExact);
+  EXPECT_LT(reading.normal.Distance({-1, 0, 0}), kExact);
   EXPECT_EQ(reading.object, approach.simulation.world().tree().find("/Ball/link"));
 }
 
@@ -213,7 +216,7 @@ TEST(Sonar, DoesNotSeeItsOwnModel) {
   described.models[0].links[0].collisions.push_back(shape(Box{{1, 1, 1}}));
   described.models[0].links[0].collisions[0].pose.Pos() = {2, 0, 0};
   Simulation simulation(described);
-  EXPECT_NEAR(simulation.read_proximity(simulation.world().tree().find("/Sonar")).distance, 5, 1e-12);
+  EXPECT_NEAR(simulation.read_proximity(simulation.world().tree().find("/Sonar")).distance, 5, kExact);
 }
 
 TEST(Sonar, SeesNothingNearerThanItsMinimalRange) {
@@ -299,13 +302,13 @@ TEST(ResetWorld, LetsSensorsForgetWhatTheySawAndKeepTheirRate) {
   approach.age_in_passes();
   for (int i = 0; i < 30; ++i) approach.simulation.step();
   approach.simulation.reset_world();
-  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, 1e-12);
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, kExact);
   const ObjectId ball = approach.simulation.world().tree().find("/Ball");
   approach.simulation.world().set_velocity(ball, {{-1, 0, 0}, {}});
   for (int i = 30; i < 40; ++i) approach.simulation.step();
-  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, 1e-12);
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, kExact);
   approach.simulation.step();  // the pass at 2 s
-  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5 - 11 * 0.05, 1e-6);
+  EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5 - 11 * 0.05, kExact);
 }
 
 /// Calls a function in its drain().

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maker of each sensor kind; a new kind adds its file, its description in scene.hpp and its line here and in
-// registry.cpp.
+// The maker of each sensor kind; a new kind adds its file, its description in scene.hpp, its measurement in sensor.hpp
+// and its line here and in registry.cpp.
 #pragma once
 
 #include "bubblesim/sensor.hpp"
+#include "bubblesim/world.hpp"
 
 namespace bubblesim {
 
 std::unique_ptr<Sensor> make_sonar(const SonarDescription&, ObjectId, const World&);
+std::unique_ptr<Sensor> make_lidar(const LidarDescription&, ObjectId);
+std::unique_ptr<Sensor> make_camera(const CameraDescription&, const Environment&, ObjectId);
 
 }  // namespace bubblesim

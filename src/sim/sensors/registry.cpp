@@ -8,14 +8,20 @@ namespace {
 struct SensorMaker {
   ObjectId id;
   const World& world;
+  const Environment& environment;
 
   std::unique_ptr<Sensor> operator()(const SonarDescription& sonar) const { return make_sonar(sonar, id, world); }
+  std::unique_ptr<Sensor> operator()(const LidarDescription& lidar) const { return make_lidar(lidar, id); }
+  std::unique_ptr<Sensor> operator()(const CameraDescription& camera) const {
+    return make_camera(camera, environment, id);
+  }
 };
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, ObjectId id, const World& world) {
-  return std::visit(SensorMaker{id, world}, description.kind);
+std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,
+                                    const World& world) {
+  return std::visit(SensorMaker{id, world, environment}, description.kind);
 }
 
 }  // namespace bubblesim

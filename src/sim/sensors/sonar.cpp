@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sonar: the nearest thing in a cone, found by a fan of rays.
+// Sonar and other proximity sensors: the nearest thing in a volume, found by rays that fill it.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "kinds.hpp"
+#include "rays/ray_scene.hpp"
 
 namespace bubblesim {
 namespace {
@@ -11,54 +13,104 @@ namespace {
 // Rays on concentric rings: at the default 15 degrees and 1 m they lie at most 7 cm apart.
 constexpr int kRings = 4;
 constexpr int kRaysPerRing = 6;  // on the first ring; the n-th has n times as many
+constexpr int kRaysAcross = 8;   // of a pyramid, in each direction
+constexpr int kRaysOfDisc = 61;  // odd: one looks straight ahead
 
-std::vector<Vector3> cone_rays(double half_angle) {
-  std::vector<Vector3> rays{Vector3::UnitX};
-  for (int ring = 1; ring <= kRings && half_angle > 0; ++ring) {
-    const double tilt = half_angle * ring / kRings;
-    const int count = kRaysPerRing * ring;
-    for (int i = 0; i < count; ++i) {
-      const double turn = 2 * M_PI * i / count;
-      rays.emplace_back(std::cos(tilt), std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn));
-    }
+struct VolumeRay {
+  Vector3 start;      // in the sensor's frame
+  Vector3 direction;  // of unit length
+};
+
+Vector3 on_ring(int ring, int i) {
+  const double turn = 2 * M_PI * i / (kRaysPerRing * ring);
+  return {0, std::cos(turn) * ring / kRings, std::sin(turn) * ring / kRings};
+}
+
+std::vector<VolumeRay> fill(const SonarDescription& sonar) {
+  std::vector<VolumeRay> rays;
+  const double radius = sonar.max_range * std::tan(sonar.half_angle);
+  const auto turned = [](double pitch, double yaw) {
+    return Vector3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));
+  };
+  if (sonar.half_angle == 0 || sonar.volume == ProximityVolume::kRay) return {{Vector3::Zero, Vector3::UnitX}};
+  switch (sonar.volume) {
+    case ProximityVolume::kCone:
+    case ProximityVolume::kCylinder:
+      rays.push_back({Vector3::Zero, Vector3::UnitX});
+      for (int ring = 1; ring <= kRings; ++ring) {
+        for (int i = 0; i < kRaysPerRing * ring; ++i) {
+          const Vector3 side = on_ring(ring, i);
+          if (sonar.volume == ProximityVolume::kCylinder) {
+            rays.push_back({side * radius, Vector3::UnitX});
+          } else {
+            const double tilt = sonar.half_angle * side.Length();
+            rays.push_back({Vector3::Zero, Vector3::UnitX * std::cos(tilt) + side.Normalized() * std::sin(tilt)});
+          }
+        }
+      }
+      break;
+    case ProximityVolume::kPyramid:
+      rays.push_back({Vector3::Zero, Vector3::UnitX});
+      for (int row = 0; row < kRaysAcross; ++row) {
+        for (int column = 0; column < kRaysAcross; ++column) {
+          const auto across = [&](int i) { return std::tan(sonar.half_angle) * (2.0 * i / (kRaysAcross - 1) - 1); };
+          rays.push_back({Vector3::Zero, Vector3(1, across(column), across(row)).Normalized()});
+        }
+      }
+      break;
+    case ProximityVolume::kDisc:
+      for (int i = 0; i < kRaysOfDisc; ++i) {
+        rays.push_back({Vector3::Zero, turned(0, sonar.half_angle * (2.0 * i / (kRaysOfDisc - 1) - 1))});
+      }
+      break;
+    case ProximityVolume::kRay:
+      break;
   }
   return rays;
 }
 
 class Sonar final : public Sensor {
  public:
-  Sonar(const SonarDescription& description, ObjectId id, const World& world)
-      : description_(description),
-        id_(id),
-        model_(world.tree().model_of(id)),
-        rays_(cone_rays(description.half_angle)) {}
-
-  void update(const World& world) override {
-    const Pose sensor = world.pose(id_);
-    reading_ = {};
-    double reach = description_.max_range;
-    for (const Vector3& ray : rays_) {
-      const auto hit = world.cast_ray(sensor.Pos(), sensor.Rot().RotateVector(ray), reach, model_);
-      if (!hit || hit->distance < description_.min_range) continue;
-      reach = hit->distance;
-      reading_ = {true, hit->distance, ray * hit->distance, sensor.Rot().RotateVectorReverse(hit->normal), hit->link};
-    }
-  }
-
-  std::optional<ProximityReading> proximity() const override { return reading_; }
+  Sonar(const SonarDescription& description, ObjectId id, ObjectId model)
+      : Sensor(ProximityReading{}), description_(description), id_(id), model_(model), rays_(fill(description)) {}
 
  private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    moment.rays.refresh(moment.world);
+    const Pose sensor = moment.world.pose(id_);
+    ProximityReading nearest;
+    nearest.distance = description_.max_range;
+    rays::RayPacket packet;
+    for (std::size_t first = 0; first < rays_.size(); first += rays::kPacket) {
+      const std::size_t count = std::min(rays::kPacket, rays_.size() - first);
+      packet.start(sensor.Pos(), 0, static_cast<float>(nearest.distance), count);
+      for (std::size_t i = 0; i < rays::kPacket; ++i) {
+        const VolumeRay& ray = rays_[first + std::min(i, count - 1)];
+        rays::aim(packet.data.ray, i, sensor.CoordPositionAdd(ray.start), sensor.Rot().RotateVector(ray.direction));
+      }
+      moment.rays.trace(packet, false, model_);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double distance = packet.data.ray.tfar[i];
+        if (!packet.hit(i) || distance < description_.min_range || distance > nearest.distance) continue;
+        const VolumeRay& ray = rays_[first + i];
+        nearest = {true, distance, ray.start + ray.direction * distance,
+                   sensor.Rot().RotateVectorReverse(moment.rays.normal(packet, i)), moment.rays.shape(packet, i).link};
+      }
+    }
+    if (!nearest.detected) nearest.distance = 0;
+    measurement = nearest;
+  }
+
   SonarDescription description_;
   ObjectId id_;
   ObjectId model_;  // the sensor's own robot, which it does not see
-  std::vector<Vector3> rays_;
-  ProximityReading reading_;
+  std::vector<VolumeRay> rays_;
 };
 
 }  // namespace
 
 std::unique_ptr<Sensor> make_sonar(const SonarDescription& description, ObjectId id, const World& world) {
-  return std::make_unique<Sonar>(description, id, world);
+  return std::make_unique<Sonar>(description, id, world.tree().model_of(id));
 }
 
 }  // namespace bubblesim

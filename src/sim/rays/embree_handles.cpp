@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "embree_handles.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace bubblesim::rays {
+
+RTCDevice device() {
+  // One thread: results do not depend on how many there are, and none of them spins.
+  static RTCDevice shared = rtcNewDevice("threads=1,set_affinity=0");  // lives as long as the process
+  if (shared == nullptr) throw std::runtime_error("Embree cannot be started on this machine");
+  return shared;
+}
+
+void check_embree() {
+  const RTCError error = rtcGetDeviceError(device());
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree failed with error " + std::to_string(error));
+}
+
+SceneHandle make_scene(RTCBuildQuality quality) {
+  SceneHandle scene(rtcNewScene(device()));
+  check_embree();
+  rtcSetSceneFlags(scene.get(),
+                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneBuildQuality(scene.get(), quality);
+  return scene;
+}
+
+}  // namespace bubblesim::rays

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sixteen rays at a time, as Embree takes them.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <cstddef>
+
+#include "bubblesim/math.hpp"
+
+namespace bubblesim::rays {
+
+constexpr std::size_t kPacket = 16;
+constexpr int kUsed = -1;  ///< in a mask; 0 leaves a ray out
+
+struct alignas(64) RayMask {
+  int use[kPacket];
+};
+
+/// Where ray `i` starts and goes.
+inline void aim(RTCRay16& rays, std::size_t i, const Vector3& origin, const Vector3& direction) {
+  rays.org_x[i] = static_cast<float>(origin.X());
+  rays.org_y[i] = static_cast<float>(origin.Y());
+  rays.org_z[i] = static_cast<float>(origin.Z());
+  rays.dir_x[i] = static_cast<float>(direction.X());
+  rays.dir_y[i] = static_cast<float>(direction.Y());
+  rays.dir_z[i] = static_cast<float>(direction.Z());
+}
+
+/// Distances are multiples of each ray's direction, which need not have length 1.
+struct RayPacket {
+  RTCRayHit16 data;
+  RayMask mask;
+
+  /// Makes the first `count` rays start at `origin` and reach from `near` to `far`. Directions are yours to set.
+  void start(const Vector3& origin, float near, float far, std::size_t count) {
+    const auto x = static_cast<float>(origin.X());
+    const auto y = static_cast<float>(origin.Y());
+    const auto z = static_cast<float>(origin.Z());
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      data.ray.org_x[i] = x;
+      data.ray.org_y[i] = y;
+      data.ray.org_z[i] = z;
+      data.ray.tnear[i] = near;
+      data.ray.tfar[i] = far;
+      data.ray.time[i] = 0;
+      data.ray.mask[i] = ~0U;
+      data.ray.flags[i] = 0;
+      data.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      mask.use[i] = i < count ? kUsed : 0;
+    }
+  }
+  bool hit(std::size_t i) const { return data.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+};
+
+}  // namespace bubblesim::rays

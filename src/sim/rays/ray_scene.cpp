@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ray_scene.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace bubblesim {
+namespace {
+
+using namespace rays;
+
+constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits on planes_
+
+/// Column-major, 3 rows and 4 columns.
+std::array<float, 12> to_matrix(const Pose& pose) {
+  const ignition::math::Matrix3d turn(pose.Rot());
+  std::array<float, 12> matrix;
+  for (std::size_t column = 0; column < 3; ++column) {
+    for (std::size_t row = 0; row < 3; ++row) matrix[3 * column + row] = static_cast<float>(turn(row, column));
+  }
+  for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(pose.Pos()[row]);
+  return matrix;
+}
+
+QueryContext make_context(bool coherent, ObjectId ignored) {
+  QueryContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.ignored_model = ignored;
+  return context;
+}
+
+/// Turns down hits from inside and on the ignored model. Ray and normal are in the same frame here.
+void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
+  const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
+  const auto& context = *reinterpret_cast<const QueryContext*>(arguments->context);
+  const unsigned count = arguments->N;
+  for (unsigned i = 0; i < count; ++i) {
+    const float along = RTCRayN_dir_x(arguments->ray, count, i) * RTCHitN_Ng_x(arguments->hit, count, i) +
+                        RTCRayN_dir_y(arguments->ray, count, i) * RTCHitN_Ng_y(arguments->hit, count, i) +
+                        RTCRayN_dir_z(arguments->ray, count, i) * RTCHitN_Ng_z(arguments->hit, count, i);
+    if (along > 0 || shape.model == context.ignored_model) arguments->valid[i] = 0;
+  }
+}
+
+std::vector<ObjectId> links_of(const SceneTree& tree, ObjectId model) {
+  std::vector<ObjectId> links;
+  for (const ObjectId child : tree.at(model).children) {
+    if (tree.at(child).kind == ObjectKind::kLink) links.push_back(child);
+  }
+  return links;
+}
+
+}  // namespace
+
+struct RayScene::InfinitePlane {
+  const RayShape* shape;
+  Vector3 normal;
+  double offset;  // normal * point for its points
+};
+
+struct RayScene::MovingLink {
+  ObjectId id = kNoObject;
+  Pose pose;
+  bool placed = false;
+  SceneHandle scene;
+  GeometryHandle instance;
+  std::vector<const RayShape*> shapes;  // by geometry id
+};
+
+struct RayScene::ModelShapes {
+  std::vector<std::unique_ptr<RayShape>> shapes;
+  std::vector<unsigned> statics;
+  std::vector<unsigned> instances;
+  std::vector<std::unique_ptr<MovingLink>> links;
+};
+
+RayScene::RayScene() : statics_(make_scene(RTC_BUILD_QUALITY_HIGH)), movers_(make_scene(RTC_BUILD_QUALITY_LOW)) {
+  rtcCommitScene(statics_.get());
+  rtcCommitScene(movers_.get());
+}
+
+RayScene::~RayScene() = default;
+
+void RayScene::add_model(const World& world, ObjectId model, const ModelDescription& description) {
+  auto placed = std::make_unique<ModelShapes>();
+  const bool visuals = std::any_of(description.links.begin(), description.links.end(),
+                                   [](const LinkDescription& link) { return !link.visuals.empty(); });
+  const std::vector<ObjectId> ids = links_of(world.tree(), model);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const LinkDescription& link = description.links[i];
+    const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;
+    const std::size_t first = placed->shapes.size();
+    const auto add = [&](const Pose& in_link, const Geometry& geometry, const Material& material, double retro) {
+      placed->shapes.push_back(std::make_unique<RayShape>(
+          RayShape{geometry, pose * in_link, material, static_cast<float>(retro), ids[i], model}));
+    };
+    if (visuals) {
+      for (const VisualDescription& v : link.visuals) add(v.pose, v.geometry, v.material, v.laser_retro);
+    } else {
+      for (const CollisionDescription& c : link.collisions) add(c.pose, c.geometry, {}, 0);
+    }
+    if (placed->shapes.size() == first) continue;
+    if (description.is_static) {
+      add_static(*placed, first);
+    } else {
+      add_moving(*placed, first, ids[i]);
+    }
+  }
+  models_[model] = std::move(placed);
+}
+
+void RayScene::add_static(ModelShapes& model, std::size_t first) {
+  for (std::size_t i = first; i < model.shapes.size(); ++i) {
+    const RayShape& shape = *model.shapes[i];
+    if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
+      const Vector3 normal = shape.pose.Rot().RotateVector(plane->normal.Normalized());
+      planes_.push_back({&shape, normal, normal.Dot(shape.pose.Pos())});
+      continue;
+    }
+    const GeometryHandle geometry = make_geometry(shape);
+    const unsigned id = rtcAttachGeometry(statics_.get(), geometry.get());
+    static_shapes_.resize(std::max<std::size_t>(static_shapes_.size(), id + 1));
+    static_shapes_[id] = &shape;
+    model.statics.push_back(id);
+    statics_changed_ = true;
+  }
+}
+
+void RayScene::add_moving(ModelShapes& model, std::size_t first, ObjectId link) {
+  auto moving = std::make_unique<MovingLink>();
+  moving->id = link;
+  moving->scene = make_scene(RTC_BUILD_QUALITY_MEDIUM);
+  for (std::size_t i = first; i < model.shapes.size(); ++i) {
+    if (is_infinite(model.shapes[i]->geometry)) continue;  // cannot move: the scene check tells
+    rtcAttachGeometry(moving->scene.get(), make_geometry(*model.shapes[i]).get());
+    moving->shapes.push_back(model.shapes[i].get());
+  }
+  rtcCommitScene(moving->scene.get());
+  moving->instance.reset(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(moving->instance.get(), moving->scene.get());
+  const unsigned id = rtcAttachGeometry(movers_.get(), moving->instance.get());
+  links_.resize(std::max<std::size_t>(links_.size(), id + 1));
+  links_[id] = moving.get();
+  model.instances.push_back(id);
+  model.links.push_back(std::move(moving));
+  movers_changed_ = true;
+}
+
+void RayScene::remove_model(ObjectId model) {
+  const auto found = models_.find(model);
+  if (found == models_.end()) return;
+  for (const unsigned id : found->second->statics) {
+    rtcDetachGeometry(statics_.get(), id);
+    static_shapes_[id] = nullptr;
+    statics_changed_ = true;
+  }
+  for (const unsigned id : found->second->instances) {
+    rtcDetachGeometry(movers_.get(), id);
+    links_[id] = nullptr;
+    movers_changed_ = true;
+  }
+  const auto gone = [model](const InfinitePlane& plane) { return plane.shape->model == model; };
+  planes_.erase(std::remove_if(planes_.begin(), planes_.end(), gone), planes_.end());
+  models_.erase(found);
+}
+
+void RayScene::refresh(const World& world) {
+  for (MovingLink* link : links_) {
+    if (link == nullptr) continue;
+    const Pose pose = world.pose(link->id);
+    if (pose == link->pose && link->placed) continue;
+    link->pose = pose;
+    link->placed = true;
+    const std::array<float, 12> matrix = to_matrix(pose);
+    rtcSetGeometryTransform(link->instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
+    rtcCommitGeometry(link->instance.get());
+    movers_changed_ = true;
+  }
+  if (statics_changed_) rtcCommitScene(statics_.get());
+  if (movers_changed_) rtcCommitScene(movers_.get());
+  if (statics_changed_ || movers_changed_) check_embree();
+  statics_changed_ = movers_changed_ = false;
+}
+
+void RayScene::meet_planes(RayPacket& packet, const RayMask& mask, ObjectId ignored) const {
+  RTCRay16& ray = packet.data.ray;
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    const InfinitePlane& plane = planes_[p];
+    if (plane.shape->model == ignored) continue;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      const double height = plane.normal.X() * ray.org_x[i] + plane.normal.Y() * ray.org_y[i] +
+                            plane.normal.Z() * ray.org_z[i] - plane.offset;
+      const double descent =
+          -(plane.normal.X() * ray.dir_x[i] + plane.normal.Y() * ray.dir_y[i] + plane.normal.Z() * ray.dir_z[i]);
+      if (mask.use[i] == 0 || height < 0 || descent <= 0) continue;
+      const auto distance = static_cast<float>(height / descent);
+      if (!(distance >= ray.tnear[i] && distance < ray.tfar[i])) continue;
+      ray.tfar[i] = distance;
+      packet.data.hit.geomID[i] = static_cast<unsigned>(p);
+      packet.data.hit.instID[0][i] = kPlaneInstance;
+    }
+  }
+}
+
+void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
+  meet_planes(packet, mask, context.ignored_model);
+  rtcIntersect16(mask.use, statics_.get(), &context.embree, &packet.data);
+  if (!links_.empty()) rtcIntersect16(mask.use, movers_.get(), &context.embree, &packet.data);
+}
+
+/// Marks the rays that met a face from inside.
+bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const {
+  const RTCRay16& ray = packet.data.ray;
+  const RTCHit16& hit = packet.data.hit;
+  int any = 0;
+  int moving = 0;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const float along = ray.dir_x[i] * hit.Ng_x[i] + ray.dir_y[i] * hit.Ng_y[i] + ray.dir_z[i] * hit.Ng_z[i];
+    const int on_static = (packet.mask.use[i] != 0) & (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) &
+                          (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID);
+    moving |= (packet.mask.use[i] != 0) & (hit.instID[0][i] < kPlaneInstance);
+    inside.use[i] = on_static & (along > 0) ? kUsed : 0;
+    any |= inside.use[i];
+  }
+  if (moving == 0) return any != 0;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if (packet.mask.use[i] == 0 || hit.instID[0][i] >= kPlaneInstance) continue;
+    const Vector3 direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
+    if (normal(packet, i).Dot(direction) <= 0) continue;
+    inside.use[i] = any = kUsed;
+  }
+  return any != 0;
+}
+
+void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
+  QueryContext context = make_context(coherent, ignored);
+  if (ignored != kNoObject) context.embree.filter = keep_hits_from_outside;
+  alignas(64) std::array<float, kPacket> far;
+  std::copy_n(packet.data.ray.tfar, kPacket, far.begin());
+  trace_once(packet, packet.mask, context);
+  RayMask inside;
+  if (ignored != kNoObject || !seen_from_inside(packet, inside)) return;
+  // Only a ray that starts inside a shape gets here: once more, turning down each such hit.
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if (inside.use[i] == 0) continue;
+    packet.data.ray.tfar[i] = far[i];
+    packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  context.embree.filter = keep_hits_from_outside;
+  trace_once(packet, inside, context);
+}
+
+void RayScene::occlude(RTCRay16& rays, const RayMask& mask) const {
+  // Incoherent: with Embree's coherent flag an occlusion query may not return.
+  QueryContext context = make_context(false, kNoObject);
+  rtcOccluded16(mask.use, statics_.get(), &context.embree, &rays);
+  if (!links_.empty()) rtcOccluded16(mask.use, movers_.get(), &context.embree, &rays);
+}
+
+const RayShape& RayScene::shape(const RayPacket& packet, std::size_t i) const {
+  const unsigned geometry = packet.data.hit.geomID[i];
+  const unsigned instance = packet.data.hit.instID[0][i];
+  if (instance == kPlaneInstance) return *planes_[geometry].shape;
+  if (instance == RTC_INVALID_GEOMETRY_ID) return *static_shapes_[geometry];
+  return *links_[instance]->shapes[geometry];
+}
+
+Vector3 RayScene::normal(const RayPacket& packet, std::size_t i) const {
+  const RTCHit16& hit = packet.data.hit;
+  if (hit.instID[0][i] == kPlaneInstance) return planes_[hit.geomID[i]].normal;
+  const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).Normalized();
+  if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) return normal;
+  return links_[hit.instID[0][i]]->pose.Rot().RotateVector(normal);
+}
+
+Vector3 RayScene::in_shape(const RayPacket& packet, std::size_t i, const Vector3& point) const {
+  const unsigned instance = packet.data.hit.instID[0][i];
+  const Pose& own = shape(packet, i).pose;
+  const Vector3 outer = instance < kPlaneInstance
+                            ? links_[instance]->pose.Rot().RotateVectorReverse(point - links_[instance]->pose.Pos())
+                            : point;
+  return own.Rot().RotateVectorReverse(outer - own.Pos());
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all ray-traced sensors look at: the visuals of a scene in Embree, in single precision. Static models are traced
+// directly; each moving link is an instance, moved only when a sensor fires. Surfaces are met from outside only, so
+// that a sensor inside its own housing looks out of it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/world.hpp"
+#include "ray_packet.hpp"
+#include "ray_shape.hpp"
+
+namespace bubblesim {
+
+class RayScene {
+ public:
+  RayScene();
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  /// Adds the shapes of a model that stands in the world as `model`.
+  void add_model(const World& world, ObjectId model, const ModelDescription& description);
+  void remove_model(ObjectId model);
+
+  /// Brings moving links to where they are now. Costs next to nothing when nothing moved.
+  void refresh(const World& world);
+
+  /// Finds the nearest surface for each ray used, leaving out the model `ignored`. `coherent` says that neighbouring
+  /// rays run nearly alike.
+  void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
+  /// Sets tfar of each ray that meets anything to -infinity. Infinite planes throw no shadow.
+  void occlude(RTCRay16& rays, const rays::RayMask& mask) const;
+
+  /// What ray `i` of a traced packet hit; it must have hit something.
+  const rays::RayShape& shape(const rays::RayPacket& packet, std::size_t i) const;
+  /// Of unit length, world axes.
+  Vector3 normal(const rays::RayPacket& packet, std::size_t i) const;
+  /// A world point in the frame of the shape that was hit.
+  Vector3 in_shape(const rays::RayPacket& packet, std::size_t i, const Vector3& point) const;
+
+ private:
+  struct InfinitePlane;
+  struct MovingLink;
+  struct ModelShapes;
+
+  void add_static(ModelShapes& model, std::size_t first);
+  void add_moving(ModelShapes& model, std::size_t first, ObjectId link);
+  void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
+  void meet_planes(rays::RayPacket& packet, const rays::RayMask& mask, ObjectId ignored) const;
+  bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
+
+  std::map<ObjectId, std::unique_ptr<ModelShapes>> models_;
+  std::vector<InfinitePlane> planes_;
+  rays::SceneHandle statics_;
+  std::vector<const rays::RayShape*> static_shapes_;  // by geometry id
+  rays::SceneHandle movers_;
+  std::vector<MovingLink*> links_;  // by instance id; null where one was removed
+  bool statics_changed_ = false;
+  bool movers_changed_ = false;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ray_shape.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ray_shapes.hpp"
+
+namespace bubblesim::rays {
+namespace {
+
+/// Half the lengths of the box around a shape, in the shape's frame.
+struct HalfExtent {
+  Vector3 operator()(const Box& box) const { return box.size / 2; }
+  Vector3 operator()(const Sphere& sphere) const { return Vector3::One * sphere.radius; }
+  Vector3 operator()(const Cylinder& cylinder) const { return {cylinder.radius, cylinder.radius, cylinder.length / 2}; }
+  Vector3 operator()(const Plane&) const { return Vector3::Zero; }
+};
+
+void bounds(const RTCBoundsFunctionArguments* arguments) {
+  const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
+  const Vector3 half = std::visit(HalfExtent{}, shape.geometry);
+  const ignition::math::Matrix3d turn(shape.pose.Rot());
+  float low[3];
+  float high[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double reach =
+        std::abs(turn(axis, 0)) * half.X() + std::abs(turn(axis, 1)) * half.Y() + std::abs(turn(axis, 2)) * half.Z();
+    const double centre = shape.pose.Pos()[axis];
+    const double margin = 1e-6 * (1 + std::abs(centre) + reach);  // single precision rounds
+    low[axis] = static_cast<float>(centre - reach - margin);
+    high[axis] = static_cast<float>(centre + reach + margin);
+  }
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = low[0];
+  box.lower_y = low[1];
+  box.lower_z = low[2];
+  box.upper_x = high[0];
+  box.upper_y = high[1];
+  box.upper_z = high[2];
+}
+
+/// Where ray `i` of a packet enters the shape, as a multiple of its direction; the normal in the shape's outer frame.
+std::optional<ShapeHit> meet(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
+  const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
+  const Vector3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
+  const double length = direction.Length();
+  const Ray ray{shape.pose.Rot().RotateVectorReverse(origin - shape.pose.Pos()),
+                shape.pose.Rot().RotateVectorReverse(direction / length)};
+  std::optional<ShapeHit> hit = intersect(ray, shape.geometry, RTCRayN_tfar(rays, count, i) * length);
+  if (!hit) return std::nullopt;
+  hit->distance /= length;
+  if (hit->distance < RTCRayN_tnear(rays, count, i)) return std::nullopt;
+  hit->normal = shape.pose.Rot().RotateVector(hit->normal);
+  return hit;
+}
+
+bool ignored(const RayShape& shape, const RTCIntersectContext* context) {
+  return shape.model == reinterpret_cast<const QueryContext*>(context)->ignored_model;
+}
+
+void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
+  const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
+  if (ignored(shape, arguments->context)) return;
+  const unsigned count = arguments->N;
+  RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
+  RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
+  for (unsigned i = 0; i < count; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const std::optional<ShapeHit> hit = meet(shape, rays, count, i);
+    if (!hit) continue;
+    RTCRayN_tfar(rays, count, i) = static_cast<float>(hit->distance);
+    RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.X());
+    RTCHitN_Ng_y(hits, count, i) = static_cast<float>(hit->normal.Y());
+    RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit->normal.Z());
+    RTCHitN_geomID(hits, count, i) = arguments->geomID;
+    RTCHitN_primID(hits, count, i) = 0;
+    RTCHitN_instID(hits, count, i, 0) = arguments->context->instID[0];
+  }
+}
+
+void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
+  const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
+  const unsigned count = arguments->N;
+  for (unsigned i = 0; i < count; ++i) {
+    if (arguments->valid[i] == 0 || !meet(shape, arguments->ray, count, i)) continue;
+    RTCRayN_tfar(arguments->ray, count, i) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+GeometryHandle make_round() {
+  GeometryHandle geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
+  rtcSetGeometryBoundsFunction(geometry.get(), bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry.get(), intersect_round);
+  rtcSetGeometryOccludedFunction(geometry.get(), occlude_round);
+  return geometry;
+}
+
+/// Six faces, wound so that Embree's normals point outwards.
+GeometryHandle make_box(const Box& box, const Pose& pose) {
+  GeometryHandle geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_QUAD));
+  auto* vertex = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 8));
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [corner](int axis) { return (corner >> axis & 1) != 0 ? 0.5 : -0.5; };
+    const Vector3 place = pose.CoordPositionAdd(box.size * Vector3(side(0), side(1), side(2)));
+    for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
+  }
+  constexpr std::array<unsigned, 24> kFaces = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+  auto* index = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), 6));
+  for (const unsigned corner : kFaces) *index++ = corner;
+  return geometry;
+}
+
+}  // namespace
+
+bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
+
+GeometryHandle make_geometry(const RayShape& shape) {
+  const auto* box = std::get_if<Box>(&shape.geometry);
+  GeometryHandle geometry = box != nullptr ? make_box(*box, shape.pose) : make_round();
+  // Callbacks read the shape only; Embree's interface knows no const.
+  rtcSetGeometryUserData(geometry.get(), const_cast<RayShape*>(&shape));
+  rtcCommitGeometry(geometry.get());
+  check_embree();
+  return geometry;
+}
+
+}  // namespace bubblesim::rays

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One shape as Embree holds it. Flat shapes become faces; round ones are met by the exact float64 formulas of
+// ray_shapes.hpp. A new kind of geometry finds its form here and nowhere else.
+#pragma once
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/scene_tree.hpp"
+#include "embree_handles.hpp"
+
+namespace bubblesim::rays {
+
+struct RayShape {
+  Geometry geometry;
+  Pose pose;  ///< in the link's frame, or in the world's when the link is static
+  Material material;
+  float laser_retro = 0;
+  ObjectId link = kNoObject;
+  ObjectId model = kNoObject;
+};
+
+/// What a query asks of Embree beside the rays; handed to every callback.
+struct QueryContext {
+  RTCIntersectContext embree;  // first: Embree hands back a pointer to it
+  ObjectId ignored_model = kNoObject;
+};
+
+/// Infinite planes have no place in a tree of boxes: RayScene meets them itself.
+bool is_infinite(const Geometry& geometry);
+
+/// The shape as a geometry of Embree, which keeps a pointer to it.
+GeometryHandle make_geometry(const RayShape& shape);
+
+}  // namespace bubblesim::rays

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "noise.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "fnv1a.hpp"
+
+namespace bubblesim {
+namespace {
+
+std::uint64_t bits_of(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel, std::uint64_t moment) {
+  Fnv1a hash;
+  hash.add(seed);
+  hash.add(static_cast<std::uint64_t>(sensor));
+  hash.add(channel);
+  hash.add(moment);
+  return hash.value();
+}
+
+}  // namespace
+
+double NormalSource::uniform() {
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1;
+}
+
+double NormalSource::next() {
+  if (has_spare_) {
+    has_spare_ = false;
+    return spare_;
+  }
+  double u = 0;
+  double v = 0;
+  double square = 0;
+  do {
+    u = uniform();
+    v = uniform();
+    square = u * u + v * v;
+  } while (square >= 1 || square == 0);
+  const double scale = std::sqrt(-2 * std::log(square) / square);
+  spare_ = v * scale;
+  has_spare_ = true;
+  return u * scale;
+}
+
+Noise::Noise(const NoiseDescription& description, const Moment& moment, ObjectId sensor, std::uint64_t channel)
+    : description_(description),
+      active_(description.mean != 0 || description.stddev > 0 || description.bias_mean != 0 ||
+              description.bias_stddev > 0 || description.precision > 0),
+      normal_(seed_of(moment.seed, sensor, 2 * channel, bits_of(moment.time))) {
+  // The bias knows no time: it is the same in each measurement.
+  NormalSource once(seed_of(moment.seed, sensor, 2 * channel + 1, 0));
+  bias_ = description.bias_mean + description.bias_stddev * once.next();
+}
+
+double Noise::operator()(double value) {
+  double noisy = value + bias_ + description_.mean;
+  if (description_.stddev > 0) noisy += description_.stddev * normal_.next();
+  if (description_.precision > 0) noisy = std::round(noisy / description_.precision) * description_.precision;
+  return noisy;
+}
+
+}  // namespace bubblesim
