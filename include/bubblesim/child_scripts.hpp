@@ -31,6 +31,10 @@ class ChildScripts : public Participant {
 
   void actuate(World& world, double time) override;
   void sense(const World& world, double time) override;
+  /// finish(), and forgets the scripts.
+  void stop() override;
+  /// Loads the scripts afresh, from their files.
+  void start() override;
   /// Calls sysCall_cleanup of all scripts and ends the programs they started.
   void finish();
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -26,7 +27,13 @@ class Participant {
   virtual void sense(const World& world, double time);
   /// Tells the outside.
   virtual void publish(const World& world, double time);
+  /// The simulation stops after its last pass; then world and time go back to the start.
+  virtual void stop() {}
+  /// It starts again.
+  virtual void start() {}
 };
+
+enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last pass of all
 
 class Simulation {
  public:
@@ -43,7 +50,7 @@ class Simulation {
 
   /// Puts the world and what the sensors remember back to the start; time goes on. As reset(): between passes, or in a
   /// participant's drain(), where it takes effect at once. Throws std::logic_error in the other phases of a pass and
-  /// while another thread is stepping. Requests (pause, stop) stay as they are.
+  /// while another thread is stepping. The state and the requests stay as they are.
   void reset_world();
   /// The same, and time starts at 0 again: what follows equals a new simulation, bit by bit.
   void reset();
@@ -54,12 +61,22 @@ class Simulation {
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Requests to whoever runs the passes; step() itself does not look at them. Any thread may make them.
-  void pause() { paused_ = true; }
-  void resume() { paused_ = false; }
-  void stop() { stopping_ = true; }
-  bool paused() const { return paused_; }
-  bool stopping() const { return stopping_; }
+  /// Requests to whoever runs the passes, who carries them out in their order by carry_out_requests(); step() does not
+  /// look at them. Any thread may make them. What does not fit the state then does nothing: to pause what is stopped.
+  void start();  ///< from the start of the scene; after a pause, where it was
+  void pause();
+  void stop();  ///< one more pass, then world and time go back to the start
+  void end() { ending_ = true; }
+  /// From now on a stop is an end: after its last pass the world stays as it is.
+  void end_at_stop() { ends_at_stop_ = true; }
+
+  /// Between passes. Throws what step() throws.
+  void carry_out_requests();
+  bool has_requests() const;
+  /// Running to begin with.
+  RunState state() const { return state_; }
+  /// Whether no more passes are wanted of whoever runs them.
+  bool ending() const { return ending_; }
 
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -78,6 +95,10 @@ class Simulation {
 
  private:
   struct SensorSlot;
+  enum class Request { kStart, kPause, kStop };
+
+  void request(Request wanted);
+  void carry_out(Request wanted);
 
   void check_may_reset() const;
   void make_sensors();
@@ -95,8 +116,11 @@ class Simulation {
   std::uint64_t passes_ = 0;
   std::atomic<std::thread::id> stepping_thread_{};  // none: no pass is being run
   bool draining_ = false;                           // the phase of the pass that is being run
-  std::atomic<bool> paused_{false};
-  std::atomic<bool> stopping_{false};
+  std::atomic<RunState> state_{RunState::kRunning};
+  std::atomic<bool> ending_{false};
+  bool ends_at_stop_ = false;
+  mutable std::mutex requests_mutex_;
+  std::vector<Request> requests_;
 };
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node: a scene, its child scripts and the ROS bridge, run at the wanted pace until the time is up or someone stops
+// The node: a scene, its child scripts and the ROS bridge, run at the wanted pace until the time is up or someone ends
 // it.
 #include <chrono>
 #include <cinttypes>
@@ -20,7 +20,7 @@
 namespace bubblesim::app {
 namespace {
 
-constexpr double kPausedPeriod = 0.02;  // s between looks at ROS while paused
+constexpr double kIdlePeriod = 0.02;  // s between looks at ROS while no passes are run
 
 /// Gives the bridge its place in the pass: messages in first, all of them under the pass's time.
 class RosParticipant final : public Participant {
@@ -44,30 +44,33 @@ bool time_is_up(const Options& options, const Simulation& simulation) {
 
 int run(const Options& options, Simulation& simulation, const ChildScripts& scripts) {
   Pacer pacer(options.speed);
-  while (!stop_requested() && !simulation.stopping() && !time_is_up(options, simulation)) {
-    if (simulation.paused()) {
+  while (!stop_requested() && !time_is_up(options, simulation)) {
+    simulation.carry_out_requests();
+    if (simulation.ending()) break;
+    if (simulation.state() != RunState::kRunning) {
       simulation.drain();
       pacer.restart();
-      std::this_thread::sleep_for(std::chrono::duration<double>(kPausedPeriod));
-      continue;
+      std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
+    } else if (pacer.wait_for(simulation.time())) {
+      simulation.step();
+    } else {
+      simulation.drain();  // a slow simulation hears what it is asked
     }
-    if (!pacer.wait_for(simulation.time())) continue;
-    simulation.step();
     if (options.strict && scripts.failures() > 0) return kScriptFailed;
   }
-  if (simulation.stopping()) simulation.step();  // scripts see that it is the last one
   return kFine;
 }
 
 int run_scene(const Options& options, int& argc, char** argv) {
   Simulation simulation(load_scene(options.scene), options.seed);
   if (options.paused) simulation.pause();
+  if (!options.ros || options.until) simulation.end_at_stop();  // there is nobody to start it again, or no wish to
 
   std::unique_ptr<RosBridge> bridge;
   std::unique_ptr<RosParticipant> ros;
   if (options.ros) {
     RosBridgeOptions ros_options;
-    ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.resume(); };
+    ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.start(); };
     ros_options.is_ending = stop_requested;
     bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
     ros = std::make_unique<RosParticipant>(*bridge, simulation);

@@ -57,7 +57,8 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
   app.add_option("SCENE", options.scene, "name of a scene, or path of an .sdf file");
   app.add_option("--seed", options.seed, "of everything random (default 0)");
-  CLI::Option* until_option = app.add_option("--until", until, "end at this simulation time, seconds");
+  CLI::Option* until_option =
+      app.add_option("--until", until, "end at this simulation time, seconds, or when it is stopped");
   until_option->check([](const std::string& text) {
     return CLI::NonNegativeNumber(text).empty() && text != "nan" ? ""
                                                                  : "takes seconds, 0 or more, found '" + text + "'";

@@ -112,6 +112,12 @@ void bind_simulation(py::module_& module) {
           "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
       .def_readonly("is_static", &CollisionShape::is_static);
 
+  py::enum_<RunState>(module, "RunState", "What whoever runs the passes of a simulation does.")
+      .value("STOPPED", RunState::kStopped)
+      .value("PAUSED", RunState::kPaused)
+      .value("RUNNING", RunState::kRunning)
+      .value("STOPPING", RunState::kStopping, "The last pass.");
+
   py::class_<Simulation>(module, "Simulation", R"(A scene that runs.
 
 Equal seeds and equal commands give equal states, bit by bit, in every process.
@@ -138,11 +144,12 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
+      .def("start", &Simulation::start, "Asks whoever runs the passes to start, or to go on after a pause.")
       .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")
-      .def("resume", &Simulation::resume)
-      .def("stop", &Simulation::stop)
-      .def_property_readonly("paused", &Simulation::paused)
-      .def_property_readonly("stopping", &Simulation::stopping)
+      .def("stop", &Simulation::stop, "Asks whoever runs the passes to stop: back to the start of the scene.")
+      .def("end", &Simulation::end, "Asks whoever runs the passes to end.")
+      .def_property_readonly("state", &Simulation::state)
+      .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
       .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
       .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
       .def("object", &find_object, py::arg("path"),

@@ -95,6 +95,14 @@ void ChildScripts::sense(const World&, double) {
   with_python([&] { python_->sense(); });
 }
 
+void ChildScripts::stop() {
+  with_python([&] { python_->host.attr("stop")(); });
+}
+
+void ChildScripts::start() {
+  with_python([&] { python_->host.attr("start")(); });
+}
+
 void ChildScripts::finish() {
   if (std::exchange(python_->finished, true)) return;
   with_python([&] { python_->finish(); });

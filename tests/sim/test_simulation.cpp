@@ -90,18 +90,6 @@ TEST(Drain, MovesNothing) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
-TEST(Requests, AreOnlyNoted) {
-  Simulation simulation(scene({floor()}));
-  simulation.pause();
-  EXPECT_TRUE(simulation.paused());
-  simulation.resume();
-  EXPECT_FALSE(simulation.paused());
-  simulation.stop();
-  EXPECT_TRUE(simulation.stopping());
-  simulation.step();
-  EXPECT_DOUBLE_EQ(simulation.time(), 0.05) << "step() does not look at them";
-}
-
 constexpr double kExact = 1e-4;                   // m, of rays
 constexpr double kExactInPasses = kExact / 0.05;  // for what moves by 1 m/s
 

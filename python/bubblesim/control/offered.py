@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which services the node offers to control the simulation."""
+"""Which services and topics the node offers to control the simulation."""
 
 from __future__ import annotations
 
 from bubblesim.control.object_services import ObjectServices
 from bubblesim.control.reset_services import offer_reset_services
+from bubblesim.control.simulation_topics import listen_to_simulation_topics
 from bubblesim.control.step_service import offer_step_service
 from bubblesim.scripting.host import ScriptHost
 
@@ -14,3 +15,4 @@ def offer_services(host: ScriptHost) -> None:
     ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
     offer_reset_services(host.bridge, host)
     offer_step_service(host.bridge, host.simulation)
+    listen_to_simulation_topics(host.bridge, host.simulation)

@@ -21,13 +21,17 @@ def offer_step_service(bridge: Any, simulation: Any) -> None:
 
 def _step(simulation: Any, passes: int) -> str:
     """Run the passes; what kept them from being run, or nothing."""
-    if not simulation.paused:
+    if simulation.state == _core.RunState.STOPPED:
+        return "the simulation is stopped: start it first, with ~unpause"
+    if simulation.state != _core.RunState.PAUSED:
         return "the simulation is running by itself: pause it first, with ~pause"
     if interruption.allowed:
         return "the simulation is being stepped already, by another request or around the script that asks"
     try:
         interruption.allowed = True  # so that a request for many passes does not keep the simulator from ending
-        for _ in range(passes):
+        for done in range(passes):
+            if done and simulation.has_requests:
+                return f"broken off after {done} passes by a request to start, pause or stop"
             simulation.step()
     except KeyboardInterrupt:
         return "the simulator is ending"

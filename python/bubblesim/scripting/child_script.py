@@ -89,6 +89,7 @@ class ChildScript:
         if self._started:
             self._call("sysCall_cleanup")
         self._end()
+        sys.modules.pop(self._module.__name__, None)
 
     def _call(self, name: str) -> None:
         hook = self._hooks[name]

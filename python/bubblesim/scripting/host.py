@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 from typing import Any
 
+from bubblesim import _core
 from bubblesim.scripting import interruption
 from bubblesim.scripting.child_script import ChildScript
 from bubblesim.scripting.ros_api import SimRos, SimRos2
@@ -29,15 +31,23 @@ class ScriptHost:
         self.bridge = bridge
         self.search_paths = search_paths
         self.failures = 0
-        self.last_pass = False
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         # Descendants before ancestors, siblings in the scene's order.
         self._placed.sort(key=lambda script: (-script[0].count("/"), script[1]))
-        self.scripts = self._load()
+        self.scripts: list[ChildScript] = []
+        self.start()
 
-    def _load(self) -> list[ChildScript]:
-        return [ChildScript(self, path, handle, file) for path, handle, file in self._placed]
+    def start(self) -> None:
+        """Load the scripts, from their files as they are now."""
+        self.scripts = [ChildScript(self, path, handle, file) for path, handle, file in self._placed]
+
+    def stop(self) -> None:
+        """End the scripts and forget them, with all that they left: signals, and files and sockets not closed."""
+        self.finish()
+        self.scripts = []
+        self.signals.clear()
+        gc.collect()  # the globals and functions of a script refer to each other
 
     def make_modules(self, script: ChildScript) -> dict[str, Any]:
         """The modules that a script finds among its globals."""
@@ -59,20 +69,18 @@ class ScriptHost:
         """Call sysCall_sensing of all scripts."""
         for script in self.scripts:
             script.sense()
-        # A request to stop takes effect between passes, so that the last pass is the last for every phase of it.
-        self.last_pass = self.simulation.stopping
 
     def restart(self) -> None:
-        """End all scripts, put the world back to its start at time 0, and load the scripts afresh.
+        """End all scripts, put the world back to its start at time 0, and load the scripts afresh unless it is stopped.
 
         Between passes or while messages are delivered, but not from within a script: RuntimeError.
         """
         if interruption.allowed:  # a script is running
             raise RuntimeError("a child script cannot start the simulation anew that it is called from")
-        self.finish()
-        self.signals.clear()
+        self.stop()
         self.simulation.reset()
-        self.scripts = self._load()
+        if self.simulation.state != _core.RunState.STOPPED:
+            self.start()
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and end what they started."""

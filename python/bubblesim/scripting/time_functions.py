@@ -5,7 +5,16 @@ from __future__ import annotations
 
 import time
 
+from bubblesim._core import RunState
+from bubblesim.scripting.constants import SimConstants
 from bubblesim.scripting.context import ApiContext
+
+_STATES = {
+    RunState.STOPPED: SimConstants.simulation_stopped,
+    RunState.PAUSED: SimConstants.simulation_paused,
+    RunState.RUNNING: SimConstants.simulation_advancing_running,
+    RunState.STOPPING: SimConstants.simulation_advancing_lastbeforestop,
+}
 
 _started: float | None = None
 
@@ -41,18 +50,20 @@ class TimeFunctions(ApiContext):
 
     def getSimulationState(self) -> int:
         """sim.simulation_advancing_running, simulation_paused or simulation_advancing_lastbeforestop."""
-        if self._script.host.last_pass:
-            return self.simulation_advancing_lastbeforestop
-        return self.simulation_paused if self._simulation.paused else self.simulation_advancing_running
+        return _STATES[self._simulation.state]
 
     def pauseSimulation(self) -> None:
         """Pause after this pass."""
         self._simulation.pause()
 
     def startSimulation(self) -> None:
-        """Go on after a pause."""
-        self._simulation.resume()
+        """Go on after a pause, or start again when it has stopped."""
+        self._simulation.start()
 
     def stopSimulation(self) -> None:
-        """Stop after one more pass."""
+        """Stop after one more pass, back to the start of the scene; the node ends when nobody could start it again."""
         self._simulation.stop()
+
+    def quitSimulator(self) -> None:
+        """End the node after this pass."""
+        self._simulation.end()

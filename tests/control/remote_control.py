@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A node at the other end of the simulation's topics, in a process of its own."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from types import TracebackType
+
+from ros_support import start, stop, wait_until
+
+
+class Remote:
+    """Presses Start, Pause and Stop, and notes what it hears; connected when it has been made."""
+
+    def __init__(self, env: dict[str, str], log: Path, *hears: str) -> None:
+        """`hears` are topics with their types in std_msgs, such as /simulationTime=Float32."""
+        self._log = log
+        command = [sys.executable, "-u", str(Path(__file__).with_name("remote_control_node.py")), *hears]
+        with log.open("w") as output:
+            self._process = start(command, env, stdin=subprocess.PIPE, stdout=output)
+        wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
+
+    def press(self, what: str) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"/{what}Simulation\n")
+        self._process.stdin.flush()
+
+    def heard(self, topic: str) -> list[str]:
+        """The values heard so far, as they are printed."""
+        return re.findall(rf"^{topic} (\S+)$", self._log.read_text(), re.MULTILINE)
+
+    def __enter__(self) -> "Remote":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.close()  # ends what it does; it would not look at a signal while it reads
+        stop(self._process)

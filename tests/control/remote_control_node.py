@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The node of remote_control.py: publishes a Bool on each topic that it reads from stdin, and prints what it hears on
+those of its arguments, topic=Type of std_msgs."""
+
+import sys
+import time
+
+import rospy
+import std_msgs.msg
+
+COMMANDS = ("/startSimulation", "/pauseSimulation", "/stopSimulation")
+
+rospy.init_node("remote_control")
+publishers = {topic: rospy.Publisher(topic, std_msgs.msg.Bool, queue_size=1000) for topic in COMMANDS}
+for argument in sys.argv[1:]:
+    heard, _, type_name = argument.partition("=")
+    rospy.Subscriber(
+        heard,
+        getattr(std_msgs.msg, type_name),
+        lambda message, topic=heard: sys.stdout.write(f"{topic} {message.data}\n"),
+    )
+while not all(publisher.get_num_connections() for publisher in publishers.values()):
+    time.sleep(0.01)
+print("connected", flush=True)
+for line in sys.stdin:
+    publishers[line.strip()].publish(True)
