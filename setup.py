@@ -4,4 +4,8 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import find_packages, setup
 
-setup(**generate_distutils_setup(packages=find_packages("python"), package_dir={"": "python"}))
+setup(
+    **generate_distutils_setup(
+        packages=find_packages("python"), package_dir={"": "python"}, package_data={"bubblesim.scripting": ["*.lua"]}
+    )
+)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child scripts in an embedded Python, as participants of a simulation.
+// Child scripts in an embedded Python, which runs those in Lua too, as participants of a simulation.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,10 @@ namespace bubblesim {
 struct ScriptOptions {
   /// Pairs of object path and file: the file takes the place of the object's script, or gives it one.
   std::vector<std::pair<std::string, std::filesystem::path>> replacements;
-  /// Where `include NAME` is looked for, after the folder of the script itself.
+  /// Where what a script includes or requires is looked for, after the folder of the script itself.
   std::vector<std::filesystem::path> search_paths;
+  /// Lets scripts in Lua use os, io, debug and package.
+  bool lua_unsafe = false;
 };
 
 /// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and

@@ -31,6 +31,7 @@ struct Options {
   bool state_hash = false;
   std::vector<std::pair<std::string, std::filesystem::path>> child_scripts;
   std::vector<std::filesystem::path> script_paths;
+  bool lua_unsafe = false;
 };
 
 /// Reads the command line. When it asks for nothing but a text (--help, --list-scenes) or cannot be used, the text is

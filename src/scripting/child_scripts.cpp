@@ -66,7 +66,8 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
     python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
                                bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
-                               scripts_to_run(simulation, options), options.search_paths);
+                               scripts_to_run(simulation, options), options.search_paths,
+                               py::arg("lua_unsafe") = options.lua_unsafe);
     if (bridge != nullptr) {
       py::module_::import("bubblesim.control.offered").attr("offer_services")(python_->host);
     }

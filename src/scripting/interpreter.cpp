@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,19 @@ namespace py = pybind11;
 /// space alike.
 fs::path package_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "python3" / "dist-packages";
+}
+
+/// Scripts find the packages of the virtual environment that is active, or else of the one that the build was told of,
+/// after Debian's own. One made for another version of Python has no folder of this name and is left alone.
+void add_packages_of_virtual_environment() {
+  const char* active = std::getenv("VIRTUAL_ENV");
+  const fs::path environment = active != nullptr && *active != '\0' ? active : BUBBLESIM_VIRTUAL_ENV;
+  const py::object version = py::module_::import("sys").attr("version_info");
+  const std::string folder = py::str("python{}.{}").format(version.attr("major"), version.attr("minor"));
+  const fs::path packages = environment / "lib" / folder / "site-packages";
+  if (!environment.empty() && fs::is_directory(packages)) {
+    py::module_::import("site").attr("addsitedir")(packages.string());
+  }
 }
 
 std::atomic<bool> can_interrupt{false};
@@ -56,6 +70,7 @@ Interpreter::Interpreter() {
   start();
   try {
     py::module_::import("sys").attr("path").attr("insert")(0, package_folder().string());
+    add_packages_of_virtual_environment();
     py::module_::import("bubblesim.scripting.host");
     install_interruption();
   } catch (const py::error_already_set& error) {

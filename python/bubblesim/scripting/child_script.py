@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import sys
-import traceback
 from collections.abc import Callable, Hashable
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
 from bubblesim.scripting import interruption
 from bubblesim.scripting.output import write_line
-from bubblesim.scripting.source import ScriptSourceError, load_source
+from bubblesim.scripting.script_code import load_code
+from bubblesim.scripting.source import ScriptSourceError
 
 if TYPE_CHECKING:
     from bubblesim.scripting.host import ScriptHost
@@ -22,7 +21,6 @@ Hook = Callable[[], object]
 
 # The phases that a script may take part in, by the names it gives them.
 HOOKS = ("sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup")
-_OUR_FOLDER = str(Path(__file__).parent)
 
 
 class ChildScript:
@@ -38,38 +36,30 @@ class ChildScript:
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
-        # A real module, for dataclasses and pickle look up the module of what a script defines.
-        self._module = ModuleType(f"child_script_{object_path.strip('/').replace('/', '_')}")
-        sys.modules[self._module.__name__] = self._module
-        self._globals: dict[str, Any] = self._module.__dict__
-        self._globals.update(__file__=str(file), self=SimpleNamespace(), require=self._require)
-        self._globals.update(host.make_modules(self))
-        self._modules = {name: self._globals[name] for name in ("sim", "simROS", "simROS2")}
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
         self._load()
 
     def _load(self) -> None:
+        name = f"child_script_{self.object_path.strip('/').replace('/', '_')}"
         try:
-            source = load_source(self.file, self.host.search_paths)
+            self._code = load_code(
+                self.file,
+                self.host.search_paths,
+                self.host.make_modules(self),
+                name,
+                lua_unsafe=self.host.lua_unsafe,
+            )
         except ScriptSourceError as error:
             self._fail(f"error: child script of {self.object_path} is disabled: {error}")
             return
-        for part in source.parts:
-            if not self.run("loading", lambda code=part: exec(code, self._globals)):  # type: ignore[misc]
-                return
-        self._hooks = {name: self._globals.get(name) for name in HOOKS}
+        if not self.run("loading", self._code.run):
+            return
+        self._hooks = {name: self._code.function(name) for name in HOOKS}
         if self._hooks["sysCall_init"] is None:
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init; "
                 "a script needs that function"
             )
-
-    def _require(self, name: str) -> Any:
-        """Return the module `sim`, `simROS` or `simROS2`; a version such as in 'sim-1' does not matter."""
-        bare = name.partition("-")[0]
-        if bare not in self._modules:
-            raise ImportError(f"there is no module '{name}' to require; there are {', '.join(self._modules)}")
-        return self._modules[bare]
 
     def actuate(self) -> None:
         """Run sysCall_actuation, and sysCall_init before the first time."""
@@ -108,16 +98,18 @@ class ChildScript:
         except SystemExit:
             self._end()
         except BaseException as error:
-            if isinstance(error, KeyboardInterrupt) and interruption.requested:
+            place = self._code.place(error)
+            where = f"{what} ({place})" if place else what
+            if interruption.requested and self._code.broken_off(error):
                 write_line(
                     sys.stderr,
-                    f"warning: child script of {self.object_path} was broken off in {what}{_place(error)}: "
+                    f"warning: child script of {self.object_path} was broken off in {where}: "
                     "the simulator was told to end",
                 )
                 return False
             self._fail(
-                f"error: child script of {self.object_path} failed in {what}{_place(error)} and is disabled:\n"
-                + _script_traceback(error).rstrip()
+                f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
+                + self._code.report(error)
             )
         else:
             return True
@@ -155,7 +147,7 @@ class ChildScript:
 
     def _target(self, function: Callable[..., Any] | str) -> tuple[Callable[..., Any], str]:
         """The function that is meant, and what to call it in reports."""
-        target = self._globals.get(function) if isinstance(function, str) else function
+        target = self._code.function(function) if isinstance(function, str) else function
         if callable(target):
             return target, f"the callback {getattr(target, '__name__', function)}"
         if isinstance(function, str):
@@ -176,21 +168,3 @@ class ChildScript:
             except Exception as error:  # must not keep the others from being taken down
                 write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")
 
-
-def _without_our_frames(report: traceback.TracebackException) -> traceback.TracebackException:
-    """Leave the frames of the script itself, not those of ours that it called or was called by; in causes, too."""
-    kept = [frame for frame in report.stack if not frame.filename.startswith(_OUR_FOLDER)]
-    report.stack = traceback.StackSummary.from_list(kept)
-    for earlier in (report.__cause__, report.__context__):
-        if earlier is not None:
-            _without_our_frames(earlier)
-    return report
-
-
-def _place(error: BaseException) -> str:
-    frames = _without_our_frames(traceback.TracebackException.from_exception(error)).stack
-    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
-
-
-def _script_traceback(error: BaseException) -> str:
-    return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format())

@@ -18,7 +18,13 @@ class ScriptHost:
     """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every pass and ``finish`` at the end."""
 
     def __init__(
-        self, simulation: Any, bridge: Any | None, scripts: list[tuple[str, Path]], search_paths: list[Path]
+        self,
+        simulation: Any,
+        bridge: Any | None,
+        scripts: list[tuple[str, Path]],
+        search_paths: list[Path],
+        *,
+        lua_unsafe: bool = False,
     ) -> None:
         """Load the scripts.
 
@@ -26,10 +32,12 @@ class ScriptHost:
         :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is None in scripts.
         :param scripts: pairs of object path and file.
         :param search_paths: where ``include`` looks after the script's own folder.
+        :param lua_unsafe: let scripts in Lua reach files and processes.
         """
         self.simulation = simulation
         self.bridge = bridge
         self.search_paths = search_paths
+        self.lua_unsafe = lua_unsafe
         self.failures = 0
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]

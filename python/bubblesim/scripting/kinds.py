@@ -84,12 +84,18 @@ def _whole(value: float) -> int:
     return int(value)
 
 
+def _integer(value: Any) -> int:
+    if isinstance(value, float) and value.is_integer():  # 10 / 2 is 5.0, in Lua as in Python
+        return int(value)
+    return operator.index(value)
+
+
 NUMBER = Kind("a number", _number)
-INTEGER = Kind("an integer", operator.index)
+INTEGER = Kind("an integer", _integer)
 TEXT = Kind("a text", _text)
 FLAG = Kind("true or false", _flag)
 
-Handle = Annotated[int, Kind("the handle of an object, an integer", operator.index)]
+Handle = Annotated[int, Kind("the handle of an object, an integer", _integer)]
 Vector3 = Annotated[list[float], numbers(3)]
 Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]

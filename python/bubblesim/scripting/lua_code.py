@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The code of a child script in Lua, in a Lua state of its own."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from lupa import lua54
+
+from bubblesim.scripting.api import functions
+from bubblesim.scripting.lua_values import BROKEN_OFF, LuaFunction, LuaValues
+from bubblesim.scripting.output import write_line
+from bubblesim.scripting.source import ScriptSourceError, find_file, read_text
+
+_SANDBOX = Path(__file__).with_name("sandbox.lua")
+_MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough memory"
+
+
+class LuaCode:
+    """See ScriptCode."""
+
+    def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], *, unsafe: bool) -> None:
+        """Compile ``file`` without running it.
+
+        :param modules: what the script finds under the names ``sim``, ``simROS``, ``simROS2``.
+        :param unsafe: leave the script the libraries that reach outside: ``os``, ``io``, ``debug``, ``package``.
+        :raises ScriptSourceError: when it cannot be read or is no Lua.
+        """
+        self._folders = [file.parent, *search_paths]
+        self._files: dict[str, Path] = {}  # by the names that Lua knows them by
+        self._runtime = lua54.LuaRuntime(
+            encoding=None,  # strings are bytes
+            unpack_returned_tuples=True,
+            register_eval=False,
+            register_builtins=False,
+            attribute_filter=_no_attributes,
+            max_memory=_MOST_MEMORY,
+        )
+        self._values = LuaValues(self._runtime)
+        self._furnish(modules, unsafe=unsafe)
+        text = self._take_in(file)
+        try:
+            self._body = self._runtime.compile(text, name=self._chunk_name(file), mode=b"t")
+        except lua54.LuaError as error:
+            raise ScriptSourceError(self._with_whole_paths(_message(error))) from error
+
+    def run(self) -> None:
+        """Run the body of the script."""
+        self._body()
+
+    def function(self, name: str) -> Callable[..., Any] | None:
+        """Find a global function of the script."""
+        value = self._runtime.globals()[name.encode()]
+        return LuaFunction(self._values, value, name) if lua54.lua_type(value) == "function" else None
+
+    def broken_off(self, error: BaseException) -> bool:
+        """Whether the script failed for it was interrupted."""
+        return isinstance(error, KeyboardInterrupt) or BROKEN_OFF.decode() in _message(error).partition("\n")[0]
+
+    def place(self, error: BaseException) -> str:
+        """FILE:LINE where the script failed, or nothing."""
+        match = re.match(r"(.*?):(\d+): ", self._with_whole_paths(_message(error)))
+        return f"{match[1]}:{match[2]}" if match else ""
+
+    def report(self, error: BaseException) -> str:
+        """What went wrong, and the calls that led there, the last one first."""
+        lines = self._with_whole_paths(_message(error)).splitlines()
+        return "\n".join(line for line in lines if "[C]:" not in line and "[sandbox]" not in line)
+
+    def _furnish(self, modules: dict[str, Any], *, unsafe: bool) -> None:
+        to_lua, callable_from_lua = self._values.to_lua, self._values.callable_from_lua
+        host = self._runtime.table()
+        host[b"modules"] = self._runtime.table_from(
+            {name.encode(): self._module(module) for name, module in modules.items() if module is not None}
+        )
+        host[b"write"] = lambda line: write_line(sys.stdout, line.decode(errors="backslashreplace"))
+        host[b"find_source"] = callable_from_lua(self._find_source)
+        host[b"pulse"] = _pulse
+        host[b"unsafe"] = to_lua(unsafe)
+        self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+
+    def _module(self, module: Any) -> Any:
+        constants = {
+            name: getattr(module, name)
+            for name in dir(module)
+            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str)
+        }
+        table = self._runtime.table()
+        table[b"constants"] = self._values.to_lua(constants)
+        table[b"functions"] = self._runtime.table_from(
+            {
+                function.name.encode(): self._values.callable_from_lua(getattr(module, function.name))
+                for function in functions(type(module))
+            }
+        )
+        return table
+
+    def _find_source(self, name: str) -> tuple[bytes, bytes]:
+        """Text and chunk name of a Lua file that the script requires."""
+        file = find_file(f"{name.replace('.', '/')}.lua", self._folders)
+        return self._take_in(file), self._chunk_name(file)
+
+    def _take_in(self, file: Path) -> bytes:
+        text = read_text(file)
+        if text.startswith("#"):  # the header
+            text = "--" + text
+        return text.encode()
+
+    def _chunk_name(self, file: Path) -> bytes:
+        """Lua cuts long names: it gets those of files without their folders."""
+        self._files[file.name] = file
+        return b"@" + file.name.encode()
+
+    def _with_whole_paths(self, text: str) -> str:
+        for name, file in self._files.items():
+            text = re.sub(rf"(?<![\w/.-]){re.escape(name)}(?=:\d+:)", str(file).replace("\\", r"\\"), text)
+        return text
+
+
+def _message(error: BaseException) -> str:
+    if isinstance(error, lua54.LuaMemoryError):
+        return f"not enough memory: a script in Lua may take {_MOST_MEMORY >> 20} MB"
+    text = error.args[0] if error.args else ""
+    if isinstance(text, bytes):
+        text = text.decode(errors="backslashreplace")
+    return str(text).removeprefix("error loading code: ") or "an error that is not a text"
+
+
+def _pulse() -> None:
+    """Let signals in: Python looks for them when it enters a function."""
+
+
+def _no_attributes(_object: Any, name: Any, _setting: bool) -> Any:
+    raise AttributeError(f"Lua does not reach into objects of Python: {name!r}")

@@ -1,0 +1,75 @@
+-- SPDX-License-Identifier: BSD-3-Clause
+-- Makes the globals that a child script in Lua finds: the modules of the simulator, and of Lua's own libraries those
+-- that cannot reach outside. Called by lua_code.py with
+--   host.modules      by name, their functions (each returns true and its results, or false and a text) and constants
+--   host.write        writes a line of output
+--   host.find_source  text and name of a file that the script requires
+--   host.pulse        fails when the script is to be broken off
+--   host.unsafe       whether the script may reach outside: files, processes, the insides of Lua
+local host = ...
+
+local INSTRUCTIONS_BETWEEN_PULSES = 100000  -- some 0.5 ms
+
+local error, load, pcall, select, sethook, tostring = error, load, pcall, select, debug.sethook, tostring
+local create, wrap = coroutine.create, coroutine.wrap
+
+-- Blames the line that called what calls this.
+local function results_or_error(succeeded, ...)
+  if succeeded then return ... end
+  error((...), 2)
+end
+
+local function checked(call)
+  return function(...) return results_or_error(call(...)) end  -- a tail call: its caller is the script's line
+end
+
+local modules = {}
+for name, module in pairs(host.modules) do
+  local functions_and_constants = {}
+  for constant, value in pairs(module.constants) do functions_and_constants[constant] = value end
+  for function_name, call in pairs(module.functions) do functions_and_constants[function_name] = checked(call) end
+  modules[name] = functions_and_constants
+  _G[name] = functions_and_constants
+end
+
+local loaded = {}
+function require(name)
+  local bare = string.match(name, "^[^-]*")
+  if modules[bare] then return modules[bare] end
+  if loaded[name] == nil then
+    local found, text, chunk_name = host.find_source(name)
+    if not found then error(text, 2) end
+    local chunk, problem = load(text, chunk_name, "t")
+    if not chunk then error(problem, 0) end
+    local value = chunk(name)
+    loaded[name] = value == nil and true or value
+  end
+  return loaded[name]
+end
+
+function print(...)
+  local texts = {}
+  for i = 1, select("#", ...) do texts[i] = tostring((select(i, ...))) end
+  host.write(table.concat(texts, "\t"))
+end
+
+-- A script that loops for ever must be able to be ended: its code is interrupted now and then, in coroutines too.
+local function pulse()
+  if not pcall(host.pulse) then error("broken off", 2) end
+end
+local function with_pulse(body)
+  return function(...)
+    sethook(pulse, "", INSTRUCTIONS_BETWEEN_PULSES)
+    return body(...)
+  end
+end
+sethook(pulse, "", INSTRUCTIONS_BETWEEN_PULSES)
+function coroutine.create(body) return create(with_pulse(body)) end
+function coroutine.wrap(body) return wrap(with_pulse(body)) end
+
+python = nil
+if not host.unsafe then
+  dofile, io, loadfile, os, package = nil, nil, nil, nil, nil
+  debug = {traceback = debug.traceback}
+  function _G.load(chunk, name, _, ...) return load(chunk, name, "t", ...) end  -- binary chunks can do anything
+end

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A child script's code, whichever language it is written in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Protocol
+
+from bubblesim.scripting.python_code import PythonCode
+from bubblesim.scripting.source import ScriptSourceError, is_lua
+
+
+class ScriptCode(Protocol):
+    """Code with globals of its own."""
+
+    def run(self) -> None:
+        """Run the body, which defines the script's functions."""
+
+    def function(self, name: str) -> Callable[..., Any] | None:
+        """Find what the script has under a global name."""
+
+    def broken_off(self, error: BaseException) -> bool:
+        """Whether the script failed for it was interrupted."""
+
+    def place(self, error: BaseException) -> str:
+        """FILE:LINE where the script failed, or nothing."""
+
+    def report(self, error: BaseException) -> str:
+        """What went wrong, and the calls that led there."""
+
+
+def load_code(
+    file: Path, search_paths: list[Path], modules: dict[str, Any], name: str, *, lua_unsafe: bool
+) -> ScriptCode:
+    """Compile a script without running it.
+
+    :param name: of the Python module that the script becomes.
+    :param lua_unsafe: see LuaCode.
+    :raises ScriptSourceError: naming file and line.
+    """
+    if not is_lua(file):
+        return PythonCode(file, search_paths, modules, name)
+    try:
+        from bubblesim.scripting.lua_code import LuaCode
+    except ImportError as error:
+        raise ScriptSourceError(
+            f"{file}:1: is a Lua script, and these need the Python package lupa ({error}): run scripts/setup, or "
+            "activate a virtual environment in which `pip install lupa==2.8` was done"
+        ) from error
+    return LuaCode(file, search_paths, modules, unsafe=lua_unsafe)
