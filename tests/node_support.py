@@ -31,10 +31,16 @@ def run_sim(
 
 
 def run_script(
-    folder: Path, code: str, *arguments: object, scene: str = "ball", target: str = "/Ball", until: float = 0.2
+    folder: Path,
+    code: str,
+    *arguments: object,
+    name: str = "script.py",
+    scene: str = "ball",
+    target: str = "/Ball",
+    until: float = 0.2,
 ) -> "subprocess.CompletedProcess[str]":
-    """Runs a child script in a scene without ROS, as fast as it goes; the script is `folder`/script.py."""
-    file = write(folder / "script.py", code)
+    """Runs a child script in a scene without ROS, as fast as it goes; the script is the file `name` in `folder`."""
+    file = write(folder / name, code)
     options = ["--no-ros", "--speed", "max", "--until", until, "--child-script", f"{target}={file}"]
     return run_sim(scene, *options, *arguments)
 

@@ -13,10 +13,11 @@ from pathlib import Path
 
 import pytest
 
+from node_support import run_script
 from ros_support import REPOSITORY, RosCore, start, stop, wait_until
 
 PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
-BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?) -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
 CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
@@ -28,6 +29,9 @@ PYTHON_ENDS_ALONE = [
     if language == "python" and CHILD_SCRIPT not in code
 ]
 WITH_BASH = [page for page in PAGES if any(language == "bash" for language, _ in BLOCK.findall(page.read_text()))]
+
+
+IN_LUA = [(page, code) for page in PAGES for language, code in BLOCK.findall(page.read_text()) if language == "lua"]
 
 
 def name(page: Path) -> str:
@@ -64,6 +68,12 @@ def test_bash_blocks_run(simulator: RosCore, page: Path) -> None:
 @pytest.mark.parametrize(("page", "code"), PYTHON_ENDS_ALONE)
 def test_python_blocks_run(page: Path, code: str) -> None:
     subprocess.run([sys.executable, "-c", code], cwd=REPOSITORY, check=True, timeout=60)
+
+
+@pytest.mark.parametrize(("page", "code"), IN_LUA)
+def test_lua_blocks_run(tmp_path: Path, page: Path, code: str) -> None:
+    run = run_script(tmp_path, code, "--strict", name="script.lua")
+    assert (run.stderr, run.returncode) == ("", 0)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)

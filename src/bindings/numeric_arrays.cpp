@@ -196,7 +196,8 @@ bool begin_array(const Field& field, std::size_t count, WireBuffer& out, Convers
 
 Ref as_items(const Field& field, PyObject* value, ConversionFailure& failure) {
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
-  if (is_text || !PySequence_Check(value)) {
+  const bool is_empty_table = PyDict_Check(value) && PyDict_GET_SIZE(value) == 0;  // of Lua, which has no other list
+  if (is_text || (!PySequence_Check(value) && !is_empty_table)) {
     failure.expected(array_name(field) + " as a sequence", value);
     return {};
   }

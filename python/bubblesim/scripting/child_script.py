@@ -167,4 +167,3 @@ class ChildScript:
                 undo()
             except Exception as error:  # must not keep the others from being taken down
                 write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")
-

@@ -42,7 +42,7 @@ class LuaValues:
         """Turn a value of Lua into one of Python.
 
         A table with the keys 1 to n becomes a list, any other, the empty one included, a dict. A string becomes a str
-        when it is valid UTF-8 and bytes otherwise.
+        when it is ASCII, which means the same in every encoding, and bytes otherwise.
         """
         if isinstance(value, bytes):
             return _text_or_bytes(value)
@@ -88,8 +88,6 @@ class LuaValues:
                 while given and given[-1] is None:  # a nil at the end is an argument left out
                     given.pop()
                 results = function(*given)
-                if results is None:
-                    return (True,)
                 if not isinstance(results, tuple):
                     results = (results,)
                 return (True, *map(self.to_lua, results))
@@ -119,6 +117,6 @@ BROKEN_OFF = b"broken off"
 
 def _text_or_bytes(value: bytes) -> str | bytes:
     try:
-        return value.decode()
+        return value.decode("ascii")
     except UnicodeDecodeError:
         return value

@@ -30,7 +30,7 @@ def find_file(name: str, folders: list[Path]) -> Path:
         if (folder / name).is_file():
             return folder / name
     searched = ", ".join(str(folder) for folder in folders)
-    raise ScriptSourceError(f"no file {name} to include in {searched}; add its folder with --script-path")
+    raise ScriptSourceError(f"no file {name} in {searched}; add its folder with --script-path")
 
 
 def is_lua(file: Path) -> bool:
