@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 
 #include "bubblesim/nearest_names.hpp"
 
@@ -18,9 +19,13 @@ struct OwnElement {
 
 const std::vector<OwnElement>& own_elements() {
   static const std::vector<OwnElement> elements = {
-      {"bubblesim:time_step", {"world"}},      // seconds of one simulation pass
-      {"bubblesim:child_script", {"model"}},   // file beside the scene
-      {"bubblesim:motor", {"axis", "axis2"}},  // velocity or position
+      {"bubblesim:time_step", {"world"}},         // seconds of one simulation pass
+      {"bubblesim:child_script", {"model"}},      // file beside the scene
+      {"bubblesim:motor", {"axis", "axis2"}},     // velocity or position
+      {"bubblesim:volume", {"sonar"}},            // ray, cone, pyramid, disc or cylinder
+      {"bubblesim:antialias", {"camera"}},        // true or false
+      {"bubblesim:checker_size", {"material"}},   // metres
+      {"bubblesim:checker_color", {"material"}},  // red, green and blue
   };
   return elements;
 }
@@ -37,7 +42,7 @@ std::string object_path(sdf::ElementPtr element) {
   for (; element != nullptr; element = element->GetParent()) {
     const std::string kind = element->GetName();
     if (kind == "world" || kind == "sdf") break;
-    if (element->HasAttribute("name")) path = "/" + element->GetAttribute("name")->GetAsString() + path;
+    if (element->GetAttributeSet("name")) path = "/" + element->GetAttribute("name")->GetAsString() + path;
   }
   return path;
 }
@@ -69,6 +74,25 @@ void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problem
   report("unknown element <" + name + ">" + did_you_mean(name, known));
 }
 
+/// The numbers of a text, between spaces; nothing when it holds anything else.
+std::optional<std::vector<double>> to_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    double number = 0;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size()) return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+void report_text(const sdf::ElementPtr& element, const std::string& text, const std::string& wanted,
+                 std::vector<Problem>& problems) {
+  problems.push_back({element->FilePath(), element->LineNumber().value_or(0), object_path(element),
+                      "<" + element->GetName() + "> is '" + text + "', it must be " + wanted});
+}
+
 }  // namespace
 
 bool is_own_element(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
@@ -90,12 +114,19 @@ std::optional<double> own_number(const sdf::ElementPtr& parent, const std::strin
                                  std::vector<Problem>& problems) {
   const std::optional<std::string> text = own_text(parent, name);
   if (!text) return std::nullopt;
-  double number = 0;
-  const auto parsed = std::from_chars(text->data(), text->data() + text->size(), number);
-  if (parsed.ec == std::errc() && parsed.ptr == text->data() + text->size()) return number;
-  const sdf::ElementPtr child = own_child(parent, name);
-  problems.push_back({child->FilePath(), child->LineNumber().value_or(0), object_path(child),
-                      "<" + name + "> is '" + *text + "', it must be a number"});
+  const std::optional<std::vector<double>> numbers = to_numbers(*text);
+  if (numbers && numbers->size() == 1) return numbers->front();
+  report_text(own_child(parent, name), *text, "a number", problems);
+  return std::nullopt;
+}
+
+std::optional<Vector3> own_vector(const sdf::ElementPtr& parent, const std::string& name,
+                                  std::vector<Problem>& problems) {
+  const std::optional<std::string> text = own_text(parent, name);
+  if (!text) return std::nullopt;
+  const std::optional<std::vector<double>> numbers = to_numbers(*text);
+  if (numbers && numbers->size() == 3) return Vector3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  report_text(own_child(parent, name), *text, "three numbers", problems);
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/math.hpp"
 
 namespace bubblesim {
 
@@ -18,6 +19,10 @@ void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& probl
 
 /// The text of one of our elements, if it is there.
 std::optional<std::string> own_text(const sdf::ElementPtr& parent, const std::string& name);
+
+/// The three numbers in one of our elements, if it is there; a text that is none is reported.
+std::optional<Vector3> own_vector(const sdf::ElementPtr& parent, const std::string& name,
+                                  std::vector<Problem>& problems);
 
 /// The number in one of our elements, if it is there; a text that is no number is reported.
 std::optional<double> own_number(const sdf::ElementPtr& parent, const std::string& name,

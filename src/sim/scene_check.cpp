@@ -169,7 +169,8 @@ class SceneChecker {
   }
 
   void check_ranges(double min_range, double max_range) {
-    require(max_range > 0 && max_range <= kMaxSize, "the maximal range", text(max_range) + " m", "above 0");
+    require(max_range > 0 && max_range <= kMaxSize, "the maximal range", text(max_range) + " m",
+            "above 0 and at most 1e5 m");
     require(min_range >= 0 && min_range < max_range, "the minimal range", text(min_range) + " m",
             "0 or more and below the maximal range");
   }

@@ -12,21 +12,23 @@
 #include "scene_check.hpp"
 #include "scene_folders.hpp"
 #include "scene_xml.hpp"
+#include "sdf_sensors.hpp"
+#include "sdf_source.hpp"
+#include "sdf_visuals.hpp"
 
 namespace bubblesim {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
 // SDFormat writes a limit that does not exist as +-1e16.
 constexpr double kNoLimit = 1e15;
 
-Source source_of(const sdf::ElementPtr& element) { return {element->FilePath(), element->LineNumber().value_or(0)}; }
-
-/// The child `name` of an element where it is written, or the element itself.
-Source source_of(const sdf::ElementPtr& element, const std::string& name) {
-  const Source own = element->HasElement(name) ? source_of(element->GetElement(name)) : Source{};
-  return own.line > 0 ? own : source_of(element);
+Quaternion turn_from_z(const Vector3& direction) {
+  Quaternion turn;
+  turn.From2Axes(Vector3::UnitZ, direction);
+  return turn;
 }
 
 const char* sdf_type(sdf::JointType type) {
@@ -130,6 +132,13 @@ class SceneLoader {
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
+    if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
+    std::vector<DirectionalLight> lights;
+    for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
+      const sdf::Light& light = *world.LightByIndex(i);
+      if (const auto read = read_light(light, resolved(light, "/" + light.Name()))) lights.push_back(*read);
+    }
+    if (!lights.empty()) scene.environment.lights = lights;
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       scene.models.push_back(read_model(model, resolved(model, "/" + model.Name())));
@@ -156,7 +165,7 @@ class SceneLoader {
     }
     if (model.ModelCount() > 0) report(description.source, path, "models inside a model are not supported");
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      description.links.push_back(read_link(*model.LinkByIndex(i), path));
+      description.links.push_back(read_link(*model.LinkByIndex(i), path, model.Static()));
     }
     for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
       description.joints.push_back(read_joint(*model.JointByIndex(i), path));
@@ -164,7 +173,7 @@ class SceneLoader {
     return description;
   }
 
-  LinkDescription read_link(const sdf::Link& link, const std::string& model_path) {
+  LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static) {
     const std::string path = model_path + "/" + link.Name();
     LinkDescription description;
     description.name = link.Name();
@@ -180,6 +189,8 @@ class SceneLoader {
       const sdf::Collision& collision = *link.CollisionByIndex(i);
       if (auto read = read_collision(collision, path)) description.collisions.push_back(std::move(*read));
     }
+    for (std::uint64_t i = 0; i < link.VisualCount(); ++i)
+      read_visual(*link.VisualByIndex(i), path, is_static, description);
     for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
       const sdf::Sensor& sensor = *link.SensorByIndex(i);
       if (auto read = read_sensor(sensor, path)) description.sensors.push_back(std::move(*read));
@@ -193,15 +204,8 @@ class SceneLoader {
     description.source = source_of(collision.Element());
     const std::string path = link_path + "/" + collision.Name();
     description.pose = resolved(collision, path);
-    const sdf::Geometry& geometry = *collision.Geom();
-    if (const auto* box = geometry.BoxShape()) {
-      description.geometry = Box{box->Size()};
-    } else if (const auto* sphere = geometry.SphereShape()) {
-      description.geometry = Sphere{sphere->Radius()};
-    } else if (const auto* cylinder = geometry.CylinderShape()) {
-      description.geometry = Cylinder{cylinder->Radius(), cylinder->Length()};
-    } else if (const auto* plane = geometry.PlaneShape()) {
-      description.geometry = Plane{plane->Normal()};
+    if (const auto geometry = read_geometry(*collision.Geom())) {
+      description.geometry = *geometry;
     } else {
       report(source_of(collision.Element(), "geometry"), path,
              "this geometry is not supported; supported are box, sphere, cylinder, plane");
@@ -209,6 +213,30 @@ class SceneLoader {
     }
     read_surface(collision.Element(), path, description.surface);
     return description;
+  }
+
+  /// A visual of a shape that is not supported is replaced by the link's collision shapes, in its colour.
+  void read_visual(const sdf::Visual& visual, const std::string& link_path, bool is_static, LinkDescription& link) {
+    VisualDescription description;
+    description.name = visual.Name();
+    description.source = source_of(visual.Element());
+    description.material = read_material(visual, problems_);
+    description.laser_retro = visual.LaserRetro();
+    if (const auto geometry = read_geometry(*visual.Geom())) {
+      description.pose = resolved(visual, link_path + "/" + visual.Name());
+      description.geometry = *geometry;
+      if (const auto* plane = visual.Geom()->PlaneShape(); plane != nullptr && !is_static) {
+        description.geometry = Box{{plane->Size().X(), plane->Size().Y(), kThin}};
+        description.pose.Rot() = description.pose.Rot() * turn_from_z(plane->Normal());
+      }
+      link.visuals.push_back(std::move(description));
+      return;
+    }
+    for (const CollisionDescription& collision : link.collisions) {
+      description.pose = collision.pose;
+      description.geometry = collision.geometry;
+      link.visuals.push_back(description);
+    }
   }
 
   void read_surface(const sdf::ElementPtr& collision, const std::string& path, Surface& surface) {
@@ -230,27 +258,15 @@ class SceneLoader {
 
   std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& link_path) {
     const std::string path = link_path + "/" + sensor.Name();
-    const sdf::ElementPtr element = sensor.Element();
     SensorDescription description;
     description.name = sensor.Name();
-    description.source = source_of(element);
+    description.source = source_of(sensor.Element());
     description.pose = resolved(sensor, path);
     description.update_rate = sensor.UpdateRate();
-    if (sensor.Type() != sdf::SensorType::SONAR) {
-      report(description.source, path,
-             "sensors of type '" + sensor.TypeStr() + "' are not supported; supported are sonar");
-      return std::nullopt;
-    }
-    if (!element->HasElement("sonar")) {
-      report(description.source, path, "a sonar needs a <sonar> element with <min>, <max> and <radius>");
-      return std::nullopt;
-    }
-    const sdf::ElementPtr sonar = element->GetElement("sonar");
-    SonarDescription cone;
-    cone.min_range = sonar->Get<double>("min", cone.min_range).first;
-    cone.max_range = sonar->Get<double>("max", cone.max_range).first;
-    cone.half_angle = std::atan2(sonar->Get<double>("radius", 0.0).first, cone.max_range);  // radius at max
-    description.kind = cone;
+    const Report report_here = [&](const Source& source, std::string message) {
+      report(source, path, std::move(message));
+    };
+    if (!read_sensor_kind(sensor, description, report_here)) return std::nullopt;
     return description;
   }
 

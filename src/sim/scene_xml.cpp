@@ -31,7 +31,7 @@ std::string place(const tinyxml2::XMLElement& element) {
 
 std::string place(const sdf::ElementPtr& element) {
   const sdf::ElementPtr parent = element->GetParent();
-  const std::string name = element->HasAttribute("name") ? element->GetAttribute("name")->GetAsString() : "";
+  const std::string name = element->GetAttributeSet("name") ? element->GetAttribute("name")->GetAsString() : "";
   return (parent != nullptr ? place(parent) : "") + "/" + element->GetName() + ":" + name;
 }
 

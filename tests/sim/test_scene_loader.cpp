@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,12 +10,11 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/world.hpp"
+#include "scene_files.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 const fs::path kBadScenes = BUBBLESIM_TEST_SCENES;
 const fs::path kScenes = BUBBLESIM_SCENES;
@@ -46,27 +44,6 @@ std::string content(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
-}
-
-/// A file of the test's own, gone when the test ends.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& text)
-      : folder_(fs::temp_directory_path() / ("bubblesim_test_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-    std::ofstream(path_ = folder_ / name) << text;
-  }
-  ~TemporaryFile() { fs::remove_all(folder_); }
-  std::string path() const { return path_.string(); }
-  std::string folder() const { return folder_.string(); }
-
- private:
-  fs::path folder_;
-  fs::path path_;
-};
-
-std::string in_world(const std::string& text) {
-  return "<sdf version='1.9' xmlns:bubblesim='https://bubblesim'><world name='w'>" + text + "</world></sdf>";
 }
 
 class BadScene : public ::testing::TestWithParam<fs::path> {};

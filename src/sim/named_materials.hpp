@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The colours behind names such as Gazebo/Red, which models use without bringing the scripts that define them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+
+namespace bubblesim {
+
+std::optional<Material> named_material(const std::string& name);
+
+}  // namespace bubblesim
