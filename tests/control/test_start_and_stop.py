@@ -2,6 +2,7 @@
 """A simulation that is stopped and started by other nodes while its own node lives on."""
 
 import re
+import time
 import socket
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
@@ -36,6 +37,12 @@ def run(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
 
 def count(node: Node, text: str) -> int:
     return len(re.findall(rf"^{text}", node.output, re.MULTILINE))
+
+
+def stands_still(node: Node) -> bool:
+    before = count(node, "pass")
+    time.sleep(0.3)
+    return count(node, "pass") == before
 
 
 def descriptors(node: Node) -> int:
@@ -79,9 +86,10 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
 
 
 def test_a_start_after_a_stop_reads_the_script_files_again(run: Run, tmp_path: Path) -> None:
-    node, remote = run("def sysCall_init(): print('as it was')\n")
+    node, remote = run("def sysCall_init(): print('as it was')\ndef sysCall_cleanup(): print('cleanup')\n")
     node.wait_for_output("as it was")
     remote.press("stop")
+    node.wait_for_output("cleanup")  # what is said on two topics may arrive in any order
     write(tmp_path / "script.py", "def sysCall_init(): print('edited')\n")
     remote.press("start")
     node.wait_for_output("edited")
@@ -94,6 +102,7 @@ def test_a_pause_lets_scripts_and_time_stand_still(run: Run) -> None:
     """)
     node.wait_for_output("pass 0.10")
     remote.press("pause")
+    wait_until(lambda: stands_still(node), "the simulation to be paused")
     remote.press("start")
     wait_until(lambda: count(node, "pass") > 20, "the simulation to go on")
     passes = re.findall(r"^pass (.*)", node.output, re.MULTILINE)

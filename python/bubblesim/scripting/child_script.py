@@ -36,17 +36,17 @@ class ChildScript:
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
+        self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
         self._load()
 
     def _load(self) -> None:
-        name = f"child_script_{self.object_path.strip('/').replace('/', '_')}"
         try:
             self._code = load_code(
                 self.file,
                 self.host.search_paths,
                 self.host.make_modules(self),
-                name,
+                self._module_name,
                 lua_unsafe=self.host.lua_unsafe,
             )
         except ScriptSourceError as error:
@@ -79,7 +79,7 @@ class ChildScript:
         if self._started:
             self._call("sysCall_cleanup")
         self._end()
-        sys.modules.pop(self._module.__name__, None)
+        sys.modules.pop(self._module_name, None)
 
     def _call(self, name: str) -> None:
         hook = self._hooks[name]
