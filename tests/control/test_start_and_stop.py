@@ -2,8 +2,8 @@
 """A simulation that is stopped and started by other nodes while its own node lives on."""
 
 import re
-import time
 import socket
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
