@@ -23,6 +23,7 @@ import genpy
 import genpy.message
 import numpy as np
 import roscpp_reference
+import rospy.msg
 
 RNG = np.random.default_rng(1)
 
@@ -32,15 +33,15 @@ def stamped(frame: str) -> dict[str, Any]:
     return {"seq": 1, "stamp": {"secs": 12, "nsecs": 345}, "frame_id": frame}
 
 
-def vector(*values: float) -> dict[str, float]:
-    """x, y, z and, for a quaternion, w."""
-    return dict(zip("xyzw", values, strict=False))
+def vector(x: float, y: float, z: float) -> dict[str, float]:
+    """A vector as scripts write it."""
+    return {"x": x, "y": y, "z": z}
 
 
 def messages() -> dict[str, dict[str, Any]]:
     """One dict for each measured type, as a script would have it."""
     twist = {"linear": vector(1.0, 0.0, 0.0), "angular": vector(0.0, 0.0, 0.5)}
-    pose = {"position": vector(1.0, 2.0, 0.0), "orientation": vector(0.0, 0.0, 0.0, 1.0)}
+    pose = {"position": vector(1.0, 2.0, 0.0), "orientation": {**vector(0.0, 0.0, 0.0), "w": 1.0}}
     names = [f"joint_{i}" for i in range(12)]
     fields = [{"name": name, "offset": 4 * i, "datatype": 7, "count": 1} for i, name in enumerate("xyz")]
     return {
@@ -102,17 +103,28 @@ def plain(value: Any) -> Any:
 
 
 def wire_bytes(type_name: str, message: dict[str, Any]) -> bytes:
-    """The message's bytes by rospy, so that our codec does not vouch for itself."""
+    """The message's bytes by genpy, so that our codec does not vouch for itself."""
     made = genpy.message.get_message_class(type_name)()
     genpy.message.fill_message_args(made, [plain(message)])
-    return serialize(made)
-
-
-def serialize(message: genpy.Message) -> bytes:
-    """What rospy does to publish."""
     buffer = io.BytesIO()
-    message.serialize(buffer)
+    made.serialize(buffer)
     return buffer.getvalue()
+
+
+class Publisher:
+    """What a publisher of rospy does between `publish` and its sockets (rospy/topics.py)."""
+
+    def __init__(self) -> None:
+        """Make the buffer that all its messages share."""
+        self.buffer = io.BytesIO()
+
+    def serialize(self, message: genpy.Message) -> bytes:
+        """Turn a message into what is sent."""
+        rospy.msg.serialize_message(self.buffer, 1, message)
+        data = self.buffer.getvalue()
+        self.buffer.seek(0)
+        self.buffer.truncate(0)
+        return data
 
 
 def repeated(action: Callable[[], object]) -> Callable[[int], float]:
@@ -132,9 +144,10 @@ def candidates(type_name: str, message: dict[str, Any]) -> dict[str, Callable[[i
     data = wire_bytes(type_name, message)
     message_class = genpy.message.get_message_class(type_name)
     ready = message_class().deserialize(data)
+    publisher = Publisher()
     found: dict[str, Callable[[int], float]] = {
         "encode": lambda n: roscpp_reference.encode_seconds(type_name, message, n),
-        "rospy_encode": repeated(lambda: serialize(ready)),
+        "rospy_encode": repeated(lambda: publisher.serialize(ready)),
         "decode": lambda n: roscpp_reference.decode_seconds(type_name, data, n),
         "rospy_decode": repeated(lambda: message_class().deserialize(data)),
     }

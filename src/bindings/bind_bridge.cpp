@@ -147,10 +147,8 @@ void bind_bridge(py::module_& core) {
            py::arg("queue_size"), py::arg("time"), "`callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
            "Converts and sends a dict; does nothing when nobody listens.")
-      .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
-           "Whether publish() would send anything now.")
       .def("check", &check, py::arg("publisher"), py::arg("message"), "Converts a dict without sending it.")
-      .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"), without_gil,
+      .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
            "Whether publish() would send anything: somebody listens, or the topic is latched.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)
       .def("shutdown_subscriber", &Bridge::shutdown_subscriber, without_gil)

@@ -4,17 +4,20 @@
 #include <ros/topic_manager.h>
 
 #include <typeinfo>
-#include <vector>
 
 #include "endpoints.hpp"
 
 namespace bubblesim {
 namespace {
 
-// roscpp asks one subscription of a topic to read a message and gives the result to all whose getTypeInfo() is equal:
-// so all share one copy of the bytes.
-struct RawMessage {
-  std::vector<std::uint8_t> bytes;
+/// A type of its own for each subscriber: roscpp lets one subscriber of a topic read a message for all whose types are
+/// equal, but here each reads for itself.
+class OwnType final : public std::type_info {
+ public:
+  OwnType() : std::type_info(name_) {}
+
+ private:
+  const char name_[2] = "*";  // types whose names begin with a star are told apart by the names' places in memory
 };
 
 }  // namespace
@@ -29,19 +32,18 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
   // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
   void silence() { callback_.reset(); }
 
+  /// Hands out the bytes where they lie in roscpp's buffer, which lives as long as this call: big messages are not
+  /// copied once more. It runs where roscpp would call the callback just after.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
-    return boost::make_shared<RawMessage>(
-        RawMessage{std::vector<std::uint8_t>(params.buffer, params.buffer + params.length)});
-  }
-
-  void call(ros::SubscriptionCallbackHelperCallParams& params) override {
     const std::shared_ptr<messages::MessageCallback> callback = callback_;  // it may silence itself
-    if (!callback) return;
-    const auto message = boost::static_pointer_cast<const RawMessage>(params.event.getConstMessage());
-    guard_.run([&] { (*callback)(messages::WireView(message->bytes.data(), message->bytes.size())); });
+    if (callback) guard_.run([&] { (*callback)(messages::WireView(params.buffer, params.length)); });
+    return nullptr;
   }
 
-  const std::type_info& getTypeInfo() override { return typeid(RawMessage); }
+  /// Only called with what deserialize() returns, which is nothing.
+  void call(ros::SubscriptionCallbackHelperCallParams& /*params*/) override {}
+
+  const std::type_info& getTypeInfo() override { return type_; }
   bool isConst() override { return true; }
   bool hasHeader() override { return has_header_; }
 
@@ -49,6 +51,7 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
   std::shared_ptr<messages::MessageCallback> callback_;
   const bool has_header_;
   CallbackGuard& guard_;
+  const OwnType type_;
 };
 
 SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size,
