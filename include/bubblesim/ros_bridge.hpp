@@ -45,7 +45,7 @@ class RosBridge final : public messages::Bridge {
   messages::EndpointId advertise(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
                                  bool latch) override;
   messages::EndpointId subscribe(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
-                                 messages::MessageCallback callback) override;
+                                 messages::MessageCallback callback, bool tcp_no_delay) override;
   bool wants_messages(messages::EndpointId publisher) const override;
   const messages::MessageType& message_type(messages::EndpointId endpoint) const override;
   void publish(messages::EndpointId publisher, messages::WireBuffer message) override;

@@ -56,7 +56,7 @@ SharedFunction share(py::function function) {
 }
 
 EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string& type, py::function callback,
-                     std::uint32_t queue_size, TimeForm time) {
+                     std::uint32_t queue_size, TimeForm time, bool tcp_no_delay) {
   const messages::MessageType& listed = listed_message(type);
   auto deliver = [&listed, topic, time, function = share(std::move(callback))](messages::WireView bytes) {
     const py::gil_scoped_acquire gil;
@@ -71,7 +71,7 @@ EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string
     (*function)(message);
   };
   const py::gil_scoped_release release;
-  return bridge.subscribe(topic, listed, queue_size, std::move(deliver));
+  return bridge.subscribe(topic, listed, queue_size, std::move(deliver), tcp_no_delay);
 }
 
 messages::WireBuffer default_bytes(const messages::MessageType& type) {
@@ -144,7 +144,8 @@ void bind_bridge(py::module_& core) {
                      "Topics and services of a message bridge. Handles are integers; ValueError for stale ones.")
       .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("queue_size"), py::arg("latch"))
       .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"),
-           py::arg("queue_size"), py::arg("time"), "`callback` gets each message as a dict.")
+           py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
+           "`callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
            "Converts and sends a dict; does nothing when nobody listens.")
       .def("check", &check, py::arg("publisher"), py::arg("message"), "Converts a dict without sending it.")

@@ -189,11 +189,11 @@ EndpointId RosBridge::advertise(const std::string& topic, const MessageType& typ
 }
 
 EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                                messages::MessageCallback callback) {
+                                messages::MessageCallback callback, bool tcp_no_delay) {
   const std::string resolved = resolve_name(topic, "topic");
   impl_->check_type_on(resolved, type);
-  const auto subscriber =
-      std::make_shared<SubscriberEndpoint>(resolved, type, queue_size, std::move(callback), impl_->queue, impl_->guard);
+  const auto subscriber = std::make_shared<SubscriberEndpoint>(resolved, type, queue_size, std::move(callback),
+                                                               tcp_no_delay, impl_->queue, impl_->guard);
   const EndpointId id = impl_->next_id++;
   impl_->subscribers.emplace(id, subscriber);
   impl_->master.post([impl = impl_.get(), subscriber] {

@@ -55,11 +55,12 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
 };
 
 SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size,
-                                       messages::MessageCallback callback, ros::CallbackQueueInterface& queue,
-                                       CallbackGuard& guard)
+                                       messages::MessageCallback callback, bool tcp_no_delay,
+                                       ros::CallbackQueueInterface& queue, CallbackGuard& guard)
     : topic_(std::move(topic)),
       type_(type),
       queue_size_(queue_size),
+      tcp_no_delay_(tcp_no_delay),
       queue_(queue),
       receiver_(boost::make_shared<Receiver>(std::move(callback), type.has_header, guard)) {}
 
@@ -69,7 +70,7 @@ void SubscriberEndpoint::register_at_master() {
   ros::SubscribeOptions options(topic_, queue_size_, type_.md5, type_.name);
   options.helper = receiver_;
   options.callback_queue = &queue_;
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  options.transport_hints = ros::TransportHints().tcpNoDelay(tcp_no_delay_);
   ros::TopicManager::instance()->subscribe(options);
 }
 

@@ -177,12 +177,13 @@ class Probe {
     const auto& type = types().at(read<std::string>(words));
     const auto how = read<std::string>(words);
     const auto id = std::make_shared<EndpointId>(0);
-    *id = bridge_.subscribe(topic, type, 100, [this, id, how, &type](WireView message) {
+    const auto print = [this, id, how, &type](WireView message) {
       const std::string text = how == "size" ? std::to_string(message.left()) : decode(type, message);
       std::cout << "message " << *id << " " << text << std::endl;
       if (how == "throw") throw std::runtime_error("subscriber " + std::to_string(*id));
       if (how == "once") bridge_.shutdown_subscriber(*id);
-    });
+    };
+    *id = bridge_.subscribe(topic, type, 100, print, true);
     return std::to_string(*id);
   }
 
@@ -241,7 +242,10 @@ class Probe {
     EndpointId server = 0;
     return std::to_string(longest_call(
         100, [&] { publisher = bridge_.advertise(topic, type, 1, false); },
-        [&] { subscriber = bridge_.subscribe(topic, type, 1, [](WireView) {}); },
+        [&] {
+          subscriber = bridge_.subscribe(
+              topic, type, 1, [](WireView) {}, true);
+        },
         [&] { server = bridge_.advertise_service(topic, services().at("setbool"), nullptr); },
         [&] { bridge_.publish(publisher, encode(type, "1")); }, [&] { bridge_.publish_clock(1.0); },
         [&] { bridge_.drain(); }, [&] { bridge_.now(); }, [&] { bridge_.shutdown_publisher(publisher); },

@@ -55,8 +55,10 @@ class Bridge {
   /// as the bridge. At most `queue_size` messages wait to be sent or delivered, the oldest go first; 0 sets no limit.
   virtual EndpointId advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                bool latch) = 0;
+  /// `tcp_no_delay`: publishers shall send each message at once rather than wait for a fuller packet; where a node has
+  /// several subscribers of a topic, the first one's wish holds.
   virtual EndpointId subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                               MessageCallback callback) = 0;
+                               MessageCallback callback, bool tcp_no_delay) = 0;
   /// Whether publish() would have any effect now: somebody listens, or the publisher latches.
   virtual bool wants_messages(EndpointId publisher) const = 0;
   virtual const MessageType& message_type(EndpointId endpoint) const = 0;

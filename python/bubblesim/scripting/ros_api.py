@@ -15,6 +15,7 @@ from bubblesim.scripting.ros_services import RosServices, ServiceCallback
 from bubblesim.scripting.ros_stamps import now
 from bubblesim.scripting.ros_topics import Callback
 from bubblesim.scripting.ros_transforms import RosTransforms
+from bubblesim.scripting.ros_transport import read_transport_hints
 
 
 class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
@@ -30,13 +31,19 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         message_type: str,
         callback: Callback,
         queue_size: int = 1,
-        transport_hints: object = None,
+        transport_hints: Mapping[str, Any] | None = None,
     ) -> int:
         """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
 
-        ``transport_hints`` change nothing: messages come over TCP without delay in any case.
+        ``transport_hints`` may have 'tcpNoDelay' (by default True), 'transports' (a list of 'reliable' or 'tcp',
+        'unreliable' or 'udp') and 'maxDatagramSize'. Messages come over TCP whatever the last two say. The first
+        subscriber of a topic decides for all.
         """
-        return self._subscribe(topic, message_type, callback, queue_size)
+        hints = read_transport_hints(transport_hints)
+        if hints.wants_udp:
+            self._warn(f"'{topic}' is subscribed over TCP: there is no UDP here")
+        guarded = self._script.callback(callback)
+        return self._listen(topic, message_type, guarded, queue_size, tcp_no_delay=hints.tcp_no_delay)
 
     def shutdownSubscriber(self, subscriber: int) -> None:
         """Stop listening; the handle cannot be used any more."""
@@ -91,7 +98,7 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
         ``qos`` is a queue size, or a dict with ``depth``. Whether the last message comes at once is up to the
         publisher.
         """
-        return self._subscribe(topic, message_type, callback, read_qos(qos).depth)
+        return self._listen(topic, message_type, self._script.callback(callback), read_qos(qos).depth)
 
     def shutdownSubscription(self, subscriber: int) -> None:
         """Stop listening; the handle cannot be used any more."""

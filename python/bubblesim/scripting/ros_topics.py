@@ -54,11 +54,18 @@ class RosTopics(RosContext):
         self._unchecked[publisher] = topic
         return publisher
 
-    def _subscribe(self, topic: str, message_type: str, callback: Callback, queue_size: int) -> int:
-        return self._listen(topic, message_type, self._script.callback(callback), queue_size)
-
-    def _listen(self, topic: str, message_type: str, guarded: Callable[[dict[str, Any]], None], queue_size: int) -> int:
-        subscriber = int(self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form))
+    def _listen(
+        self,
+        topic: str,
+        message_type: str,
+        guarded: Callable[[dict[str, Any]], None],
+        queue_size: int,
+        *,
+        tcp_no_delay: bool = True,
+    ) -> int:
+        subscriber = int(
+            self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form, tcp_no_delay)
+        )
         self._script.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber
 

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transport hints of simROS.subscribe, as the publishers at the other end see them."""
+
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from node_support import Node
+from ros_support import RosCore, start, stop, wait_until
+
+Script = Callable[[str], Node]
+
+# Prints what each subscriber's connection header says about TCP_NODELAY.
+TALKER = """
+import rospy, std_msgs.msg
+from rospy.impl.tcpros_pubsub import TCPROSHandler
+as_before = TCPROSHandler.topic_connection_handler
+def tell(self, sock, address, header):
+    print(header['topic'], header.get('tcp_nodelay'))
+    return as_before(self, sock, address, header)
+TCPROSHandler.topic_connection_handler = tell
+rospy.init_node('talker')
+publishers = [rospy.Publisher(t, std_msgs.msg.String, queue_size=1, latch=True) for t in ('/fast', '/slow', '/either')]
+for publisher in publishers:
+    publisher.publish('hello')
+rospy.spin()
+"""
+
+
+@contextmanager
+def talker(core: RosCore, log: Path) -> Iterator[None]:
+    with log.open("w") as file:
+        process = start(["/usr/bin/python3", "-c", TALKER], core.env, stdout=file, stderr=subprocess.STDOUT)
+        try:
+            yield
+        finally:
+            stop(process)
+
+
+def test_publishers_are_asked_for_what_the_script_wants(script: Script, roscore: RosCore, tmp_path: Path) -> None:
+    log = tmp_path / "talker"
+    node = script("""\
+        def hear(topic):
+            return lambda message: print('heard', topic, message['data'])
+        def sysCall_init():
+            wanted = {'/fast': {'tcpNoDelay': True}, '/slow': {'tcpNoDelay': False},
+                      '/either': {'transports': ['unreliable', 'reliable'], 'maxDatagramSize': 1000}}
+            for topic, hints in wanted.items():
+                simROS.subscribe(topic, 'std_msgs/String', hear(topic), 1, hints)
+            try:
+                simROS.subscribe('/fast', 'std_msgs/String', print, 1, {'transports': ['smoke']})
+            except ValueError as error:
+                print('told:', error)
+        """)
+    with talker(roscore, log):
+        for topic in ("/fast", "/slow", "/either"):
+            node.wait_for_output(f"heard {topic} hello")
+        wanted = {"/either 1", "/fast 1", "/slow 0"}
+        wait_until(lambda: set(log.read_text().splitlines()) - {"/rosout 1", "/rosout 0"} == wanted, "the headers")
+    node.wait_for_output("told: ")
+    assert "'/either' is subscribed over TCP: there is no UDP here" in node.output
+    assert "told: transports holds 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output

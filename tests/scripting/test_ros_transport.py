@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transport hints as scripts give them."""
+
+from typing import Any
+
+import pytest
+
+from bubblesim.scripting.ros_transport import TransportHints, read_transport_hints
+
+
+@pytest.mark.parametrize(
+    ("given", "read"),
+    [
+        (None, TransportHints()),
+        ({}, TransportHints()),
+        ({"tcpNoDelay": False, "transports": ["reliable", "udp"]}, TransportHints(tcp_no_delay=False)),
+        ({"tcpNoDelay": 1, "transports": ["unreliable"], "maxDatagramSize": 1000}, TransportHints(wants_udp=True)),
+    ],
+)
+def test_hints_are_read(given: Any, read: TransportHints) -> None:
+    assert read_transport_hints(given) == read
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("tcp", "transport hints are a table, found str 'tcp'"),
+        ({"tcpNodelay": True}, "have no 'tcpNodelay'; they have transports, tcpNoDelay, maxDatagramSize"),
+        ({"tcpNoDelay": "yes"}, "tcpNoDelay is true or false, found str 'yes'"),
+        ({"transports": 5}, "transports is a list, found int 5"),
+        (
+            {"transports": ["carrier pigeon"]},
+            "transports holds 'reliable', 'tcp', 'unreliable', 'udp'; found str 'carr",
+        ),
+        ({"transports": [["tcp"]]}, "transports holds "),
+        ({"maxDatagramSize": 1.5}, "maxDatagramSize is an integer, found float 1.5"),
+        ({"maxDatagramSize": -1}, "maxDatagramSize is 0 to 65507 bytes, found -1"),
+        ({"maxDatagramSize": 10**30}, "maxDatagramSize is 0 to 65507 bytes"),
+    ],
+)
+def test_what_is_no_hint_is_told_with_what_is(given: Any, told: str) -> None:
+    with pytest.raises((TypeError, ValueError)) as error:
+        read_transport_hints(given)
+    assert told in str(error.value)
