@@ -20,4 +20,8 @@ std::vector<std::string> scene_names();
 /// on a ground plane. Throws SceneError with every problem of the file at once.
 SceneDescription load_scene(const std::string& name_or_path);
 
+/// Reads a model from the text of an SDFormat or URDF file; child scripts lie in `folder`. Throws SceneError with every
+/// problem of the text at once, as in a file named <data-string>.
+ModelDescription load_model(const std::string& text, const std::filesystem::path& folder);
+
 }  // namespace bubblesim

@@ -5,13 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace bubblesim {
 
-/// Handle of an object; counts up and is never used twice, so a stale one is noticed.
+/// Handle of an object; counts up and is never used twice, so that of a removed object is noticed.
 using ObjectId = std::int32_t;
 constexpr ObjectId kNoObject = -1;
 
@@ -24,16 +25,23 @@ struct Object {
   std::string name;
   ObjectId parent = kNoObject;  ///< kNoObject: at the top of the scene
   std::vector<ObjectId> children;
-  std::size_t index = 0;  ///< among the objects of its kind, in the order of the scene file
+  std::size_t index = 0;  ///< among the objects of its kind in its model, in the order of the scene file
 };
 
 class SceneTree {
  public:
   ObjectId add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index);
+  /// Removes an object with all that lies below it. Throws NoSuchObject.
+  void remove(ObjectId id);
 
   /// Throws NoSuchObject.
   const Object& at(ObjectId id) const;
-  const std::vector<Object>& objects() const { return objects_; }
+  /// All objects that are there, in the order in which they came.
+  const std::map<ObjectId, Object>& objects() const { return objects_; }
+  /// The models at the top of the scene, in the order in which they came.
+  const std::vector<ObjectId>& models() const { return models_; }
+  /// The objects of one kind directly below another, in the order of the scene file.
+  std::vector<ObjectId> children(ObjectId parent, ObjectKind kind) const;
 
   /// Finds an object by path. `/a/b` starts at the scene and may leave out levels in between, so `/b` finds an object
   /// anywhere; `./b`, `../b`, `:/b`, `::/b` start at `from`, its parent, its model, its model's parent.
@@ -50,11 +58,13 @@ class SceneTree {
   ObjectId model_of(ObjectId id) const;
 
  private:
+  const std::vector<ObjectId>& level_below(ObjectId parent) const;
   std::string indexed_name(const Object& object) const;
-  std::vector<ObjectId> top_level() const;
   std::vector<ObjectId> matches(std::string_view path, ObjectId from) const;
 
-  std::vector<Object> objects_;  // by id
+  std::map<ObjectId, Object> objects_;
+  std::vector<ObjectId> models_;
+  ObjectId next_ = 0;
 };
 
 }  // namespace bubblesim

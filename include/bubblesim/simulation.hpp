@@ -31,6 +31,10 @@ class Participant {
   virtual void stop() {}
   /// It starts again.
   virtual void start() {}
+  /// A model has come into the world; between passes, or while others drain.
+  virtual void model_added(World& world, ObjectId model);
+  /// A model is about to leave the world; it is still there.
+  virtual void model_removing(World& world, ObjectId model);
 };
 
 enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last pass of all
@@ -48,16 +52,23 @@ class Simulation {
   /// The part of a pass that goes on while paused.
   void drain();
 
-  /// Puts the world and what the sensors remember back to the start; time goes on. As reset(): between passes, or in a
-  /// participant's drain(), where it takes effect at once. Throws std::logic_error in the other phases of a pass and
-  /// while another thread is stepping. The state and the requests stay as they are.
+  /// These change what is simulated: between passes, or in a participant's drain(), where they take effect at once.
+  /// They throw std::logic_error in the other phases of a pass and while another thread is stepping. The state and the
+  /// requests stay as they are.
+
+  /// Puts the models that are there now, and what the sensors remember, back to the start; time goes on.
   void reset_world();
-  /// The same, and time starts at 0 again: what follows equals a new simulation, bit by bit.
+  /// The same, and time starts at 0 again: what follows equals a new simulation of these models, bit by bit.
   void reset();
+  /// Adds a model with its sensors, and tells the participants. Throws as World::add_model does; then nothing changed.
+  ObjectId add_model(ModelDescription model);
+  /// Removes a model with its sensors, after the participants were told. Throws as World::remove_model does.
+  void remove_model(ObjectId model);
 
   /// Seconds of simulation time; 0 in the first pass, constant through a pass.
   double time() const { return static_cast<double>(passes_) * scene_.time_step; }
   double time_step() const { return scene_.time_step; }
+  /// As it was loaded.
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
@@ -100,8 +111,9 @@ class Simulation {
   void request(Request wanted);
   void carry_out(Request wanted);
 
-  void check_may_reset() const;
-  void make_sensors();
+  void check_may_change() const;
+  void make_sensors(ObjectId model);
+  void make_all_sensors();
   SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);

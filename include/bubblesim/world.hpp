@@ -42,8 +42,20 @@ class World {
   /// Refers to the world as it is now: a reset ends the reference, handles stay.
   const SceneTree& tree() const;
 
-  /// Puts everything back to where the scene has it: poses, velocities, joint targets and force limits. What follows
-  /// equals what follows in a new world, bit by bit. A world that diverged is of use again.
+  /// Adds a model at the pose that it has in its description. Throws SceneError with all that is wrong with it, also
+  /// when its name is taken; and Diverged when the world diverged.
+  ObjectId add_model(ModelDescription model);
+  /// Removes a model with all that belongs to it; the handles of these objects name nothing from now on. Throws
+  /// InvalidInput for objects of other kinds, and Diverged when the world diverged.
+  void remove_model(ObjectId model);
+  /// Throws what remove_model() would throw.
+  void check_removable(ObjectId model) const;
+  /// Of the model that an object belongs to.
+  const ModelDescription& description(ObjectId object) const;
+
+  /// Puts the models that are there now back to where they came into the world: poses, velocities, joint targets and
+  /// force limits. What follows equals what follows in a new world of these models, bit by bit. A world that diverged
+  /// is of use again.
   void reset();
 
   /// Lets `duration` seconds pass in steps of `step` seconds. Throws Diverged when a body leaves the finite world
@@ -85,11 +97,11 @@ class World {
   struct State;  // see src/sim/world_state.hpp
 
  private:
-  void build();
+  struct Discard {
+    void operator()(State* state) const;
+  };
 
-  SceneDescription scene_;
-  std::uint64_t seed_;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<State, Discard> state_;
 };
 
 }  // namespace bubblesim

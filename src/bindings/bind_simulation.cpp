@@ -71,8 +71,8 @@ ObjectView find_object(const py::object& simulation, const std::string& path) {
 
 std::vector<ObjectView> all_objects(const py::object& simulation) {
   std::vector<ObjectView> views;
-  for (const Object& object : simulation.cast<Simulation&>().world().tree().objects()) {
-    views.emplace_back(simulation, object.id);
+  for (const auto& [id, object] : simulation.cast<Simulation&>().world().tree().objects()) {
+    views.emplace_back(simulation, id);
   }
   return views;
 }

@@ -42,11 +42,12 @@ void find_contacts(World::State& state) {
   dJointGroupEmpty(state.contacts.get());
   // Models against each other; the shapes of one model do not meet, unless it says so.
   dSpaceCollide(state.movers.get(), &state, touch_spaces);
-  for (const PlacedModel& model : state.models) {
-    if (model.space == nullptr) continue;
-    if (model.self_collide) dSpaceCollide(model.space, &state, touch);
-    dSpaceCollide2(as_geom(model.space), as_geom(state.statics.get()), &state, touch);
-    dSpaceCollide2(as_geom(model.space), as_geom(state.planes.get()), &state, touch);
+  for (const auto& [id, model] : state.models) {
+    dSpaceID space = model.space.get();
+    if (space == nullptr) continue;
+    if (model.description.self_collide) dSpaceCollide(space, &state, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &state, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &state, touch);
   }
 }
 

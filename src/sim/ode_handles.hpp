@@ -19,6 +19,9 @@ struct Destroy {
 };
 
 using WorldHandle = std::unique_ptr<std::remove_pointer_t<dWorldID>, Destroy<dWorldDestroy>>;
+using BodyHandle = std::unique_ptr<std::remove_pointer_t<dBodyID>, Destroy<dBodyDestroy>>;
+using JointHandle = std::unique_ptr<std::remove_pointer_t<dJointID>, Destroy<dJointDestroy>>;
+using GeomHandle = std::unique_ptr<std::remove_pointer_t<dGeomID>, Destroy<dGeomDestroy>>;
 using SpaceHandle = std::unique_ptr<std::remove_pointer_t<dSpaceID>, Destroy<dSpaceDestroy>>;
 using JointGroupHandle = std::unique_ptr<std::remove_pointer_t<dJointGroupID>, Destroy<dJointGroupDestroy>>;
 using ThreadingHandle =

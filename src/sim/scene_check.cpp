@@ -23,23 +23,44 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Collects problems; knows which object it looks at.
 class SceneChecker {
  public:
-  explicit SceneChecker(const SceneDescription& scene) : scene_(scene) {}
-
-  std::vector<Problem> check() {
-    at(scene_.source, "");
-    require(scene_.physics_step >= kMinPhysicsStep && scene_.physics_step <= kMaxPhysicsStep, "the physics step",
-            text(scene_.physics_step), "1e-5 to 1 s");
-    require(scene_.time_step >= 1e-4 && scene_.time_step <= 10, "the time step of a pass", text(scene_.time_step),
+  void check_scene(const SceneDescription& scene) {
+    at(scene.source, "");
+    require(scene.physics_step >= kMinPhysicsStep && scene.physics_step <= kMaxPhysicsStep, "the physics step",
+            text(scene.physics_step), "1e-5 to 1 s");
+    require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step of a pass", text(scene.time_step),
             "1e-4 to 10 s");
-    const double substeps = scene_.time_step / scene_.physics_step;
+    const double substeps = scene.time_step / scene.physics_step;
     require(!problems_.empty() || (substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6),
-            "the time step of a pass", text(scene_.time_step) + " s",
-            "a whole number of physics steps (" + text(scene_.physics_step) + " s)");
-    require(within(scene_.gravity, 1e4), "gravity", text(scene_.gravity), "finite and at most 1e4 m/s^2");
-    check_environment(scene_.environment);
-    for (const ModelDescription& model : scene_.models) check_model(model);
-    return std::move(problems_);
+            "the time step of a pass", text(scene.time_step) + " s",
+            "a whole number of physics steps (" + text(scene.physics_step) + " s)");
+    require(within(scene.gravity, 1e4), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
+    check_environment(scene.environment);
+    for (const ModelDescription& model : scene.models) check_model(model);
   }
+
+  void check_model(const ModelDescription& model) {
+    at(model.source, "/" + model.name);
+    check_name(model.name);
+    check_pose(model.pose);
+    if (model.links.empty()) report("has no link, so there is nothing to simulate; add a <link>");
+    std::set<std::string> names;
+    const auto once = [&](const Source& source, const std::string& name) {
+      at(source, "/" + model.name + "/" + name);
+      if (!names.insert(name).second) report("the name '" + name + "' is used twice in this model");
+    };
+    for (const LinkDescription& link : model.links) {
+      once(link.source, link.name);
+      check_link(model, link);
+    }
+    for (const JointDescription& joint : model.joints) {
+      once(joint.source, joint.name);
+      check_joint(model, joint);
+    }
+    at(model.source, "/" + model.name);
+    if (!model.canonical_link.empty()) check_link_name(model, model.canonical_link, "canonical link");
+  }
+
+  std::vector<Problem> found() { return std::move(problems_); }
 
  private:
   void at(const Source& source, std::string object) {
@@ -60,25 +81,10 @@ class SceneChecker {
     require(within(norm - 1, 1e-3), "the orientation (x, y, z, w)", text(q), "a rotation");
   }
 
-  void check_model(const ModelDescription& model) {
-    at(model.source, "/" + model.name);
-    check_pose(model.pose);
-    if (model.links.empty()) report("has no link, so there is nothing to simulate; add a <link>");
-    std::set<std::string> names;
-    const auto once = [&](const Source& source, const std::string& name) {
-      at(source, "/" + model.name + "/" + name);
-      if (!names.insert(name).second) report("the name '" + name + "' is used twice in this model");
-    };
-    for (const LinkDescription& link : model.links) {
-      once(link.source, link.name);
-      check_link(model, link);
-    }
-    for (const JointDescription& joint : model.joints) {
-      once(joint.source, joint.name);
-      check_joint(model, joint);
-    }
-    at(model.source, "/" + model.name);
-    if (!model.canonical_link.empty()) check_link_name(model, model.canonical_link, "canonical link");
+  /// Paths must be able to tell it.
+  void check_name(const std::string& name) {
+    if (name.empty()) report("the model has no name");
+    if (name.find('/') != std::string::npos) report("the name holds a '/', which separates names in paths");
   }
 
   void check_link(const ModelDescription& model, const LinkDescription& link) {
@@ -275,7 +281,6 @@ class SceneChecker {
     require(axis.damping >= 0 && within(axis.damping, 1e9), "the damping", text(axis.damping), "0 or more");
   }
 
-  const SceneDescription& scene_;
   Source source_;
   std::string object_;
   std::vector<Problem> problems_;
@@ -283,6 +288,16 @@ class SceneChecker {
 
 }  // namespace
 
-std::vector<Problem> check_scene(const SceneDescription& scene) { return SceneChecker(scene).check(); }
+std::vector<Problem> check_scene(const SceneDescription& scene) {
+  SceneChecker checker;
+  checker.check_scene(scene);
+  return checker.found();
+}
+
+std::vector<Problem> check_model(const ModelDescription& model) {
+  SceneChecker checker;
+  checker.check_model(model);
+  return checker.found();
+}
 
 }  // namespace bubblesim

@@ -11,5 +11,7 @@ namespace bubblesim {
 
 /// Everything in the scene that the physics could not take; empty when it is fit to run.
 std::vector<Problem> check_scene(const SceneDescription& scene);
+/// The same of a single model.
+std::vector<Problem> check_model(const ModelDescription& model);
 
 }  // namespace bubblesim

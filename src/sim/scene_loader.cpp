@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
 // SDFormat writes a limit that does not exist as +-1e16.
 constexpr double kNoLimit = 1e15;
+// What SDFormat calls a text that comes from no file.
+constexpr const char* kText = "<data-string>";
 
 Quaternion turn_from_z(const Vector3& direction) {
   Quaternion turn;
@@ -59,21 +61,16 @@ const char* sdf_type(sdf::JointType type) {
 
 class SceneLoader {
  public:
-  explicit SceneLoader(fs::path file) : file_(std::move(file)), xml_(file_) {}
+  explicit SceneLoader(const fs::path& file) : folder_(file.parent_path()), xml_(file) {}
+  SceneLoader(const std::string& text, fs::path folder) : folder_(std::move(folder)), xml_(text, kText) {}
 
-  SceneDescription load() {
-    sdf::ParserConfig config;
-    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
-    config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
+  SceneDescription load_scene(const fs::path& file) {
     sdf::Root root;
-    take(root.Load(file_.string(), config), "");
+    take(root.Load(file.string(), parser_config()), "");
     SceneDescription scene;
-    scene.name = file_.stem().string();
-    scene.file = file_;
-    if (root.Element() != nullptr) {
-      xml_.number_own_elements(root.Element());
-      check_own_elements(root.Element(), problems_);
-    }
+    scene.name = file.stem().string();
+    scene.file = file;
+    read_own_elements(root);
     if (root.WorldCount() > 0) {
       read_world(*root.WorldByIndex(0), scene);
       if (root.WorldCount() > 1) {
@@ -83,7 +80,7 @@ class SceneLoader {
       scene.models.push_back(ground_plane());
       scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose()));
     } else if (problems_.empty()) {
-      problems_.push_back({file_.string(), 0, "", "holds neither a <world> nor a <model>"});
+      problems_.push_back({file.string(), 0, "", "holds neither a <world> nor a <model>"});
     }
     // Values that could not be read stand at their defaults: checking those would only hide the cause.
     if (problems_.empty() || root.WorldCount() > 0) {
@@ -93,7 +90,36 @@ class SceneLoader {
     return scene;
   }
 
+  ModelDescription load_model(const std::string& text) {
+    sdf::Root root;
+    take(root.LoadSdfString(text, parser_config()), "");
+    read_own_elements(root);
+    ModelDescription model;
+    if (root.Model() != nullptr) {
+      model = read_model(*root.Model(), root.Model()->RawPose());
+    } else if (problems_.empty()) {
+      problems_.push_back(
+          {kText, 0, "", root.WorldCount() > 0 ? "holds a <world>: a <model> is wanted" : "holds no <model>"});
+    }
+    if (problems_.empty()) problems_ = check_model(model);
+    if (!problems_.empty()) throw SceneError(std::move(problems_));
+    return model;
+  }
+
  private:
+  static sdf::ParserConfig parser_config() {
+    sdf::ParserConfig config;
+    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
+    config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
+    return config;
+  }
+
+  void read_own_elements(const sdf::Root& root) {
+    if (root.Element() == nullptr) return;
+    xml_.number_own_elements(root.Element());
+    check_own_elements(root.Element(), problems_);
+  }
+
   void take(const sdf::Errors& errors, const std::string& object) {
     // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is
     // enough.
@@ -155,7 +181,7 @@ class SceneLoader {
     description.canonical_link = model.CanonicalLinkName();
     description.source = source_of(model.Element());
     if (const auto script = own_text(model.Element(), "bubblesim:child_script")) {
-      description.child_script = file_.parent_path() / *script;
+      description.child_script = folder_ / *script;
       if (script->empty()) {
         report(source_of(model.Element(), "bubblesim:child_script"), path, "<bubblesim:child_script> names no file");
       } else if (!fs::is_regular_file(description.child_script)) {
@@ -314,7 +340,7 @@ class SceneLoader {
     return description;
   }
 
-  fs::path file_;
+  fs::path folder_;  // in which child scripts are
   SceneXml xml_;
   bool frames_broken_ = false;  // SDFormat found errors that are no fault of a single object
   std::vector<Problem> problems_;
@@ -322,6 +348,13 @@ class SceneLoader {
 
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path) { return SceneLoader(find_scene(name_or_path)).load(); }
+SceneDescription load_scene(const std::string& name_or_path) {
+  const fs::path file = find_scene(name_or_path);
+  return SceneLoader(file).load_scene(file);
+}
+
+ModelDescription load_model(const std::string& text, const fs::path& folder) {
+  return SceneLoader(text, folder).load_model(text);
+}
 
 }  // namespace bubblesim

@@ -75,25 +75,38 @@ std::string_view kind_name(ObjectKind kind) {
 }
 
 ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index) {
-  const auto id = static_cast<ObjectId>(objects_.size());
-  objects_.push_back({id, kind, std::move(name), parent, {}, index});
-  if (parent != kNoObject) objects_[static_cast<std::size_t>(parent)].children.push_back(id);
+  const ObjectId id = next_++;
+  objects_[id] = {id, kind, std::move(name), parent, {}, index};
+  (parent == kNoObject ? models_ : objects_.at(parent).children).push_back(id);
   return id;
 }
 
-const Object& SceneTree::at(ObjectId id) const {
-  if (id < 0 || static_cast<std::size_t>(id) >= objects_.size()) {
-    throw NoSuchObject("no object has the handle " + std::to_string(id));
-  }
-  return objects_[static_cast<std::size_t>(id)];
+void SceneTree::remove(ObjectId id) {
+  const Object removed = at(id);
+  for (const ObjectId child : removed.children) remove(child);
+  std::vector<ObjectId>& siblings = removed.parent == kNoObject ? models_ : objects_.at(removed.parent).children;
+  siblings.erase(std::find(siblings.begin(), siblings.end(), id));
+  objects_.erase(id);
 }
 
-std::vector<ObjectId> SceneTree::top_level() const {
+const Object& SceneTree::at(ObjectId id) const {
+  const auto found = objects_.find(id);
+  if (found != objects_.end()) return found->second;
+  if (id >= 0 && id < next_) throw NoSuchObject("the object with the handle " + std::to_string(id) + " was removed");
+  throw NoSuchObject("no object has the handle " + std::to_string(id));
+}
+
+std::vector<ObjectId> SceneTree::children(ObjectId parent, ObjectKind kind) const {
   std::vector<ObjectId> ids;
-  for (const Object& object : objects_) {
-    if (object.parent == kNoObject) ids.push_back(object.id);
+  for (const ObjectId child : at(parent).children) {
+    if (at(child).kind == kind) ids.push_back(child);
   }
   return ids;
+}
+
+/// What lies directly below an object, or for kNoObject the models.
+const std::vector<ObjectId>& SceneTree::level_below(ObjectId parent) const {
+  return parent == kNoObject ? models_ : at(parent).children;
 }
 
 ObjectId SceneTree::model_of(ObjectId id) const {
@@ -103,10 +116,9 @@ ObjectId SceneTree::model_of(ObjectId id) const {
 }
 
 std::string SceneTree::indexed_name(const Object& object) const {
-  const std::vector<ObjectId> siblings = object.parent == kNoObject ? top_level() : at(object.parent).children;
   std::size_t same_name = 0;
   std::size_t position = 0;
-  for (const ObjectId sibling : siblings) {
+  for (const ObjectId sibling : level_below(object.parent)) {
     if (sibling == object.id) position = same_name;
     if (at(sibling).name == object.name) ++same_name;
   }
@@ -163,7 +175,7 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
     std::vector<ObjectId> found;
     for (const ObjectId root : roots) {
       // Breadth first, so that what lies nearer to the root comes first.
-      std::vector<ObjectId> level = root == kNoObject ? top_level() : at(root).children;
+      std::vector<ObjectId> level = level_below(root);
       while (!level.empty()) {
         std::vector<ObjectId> next;
         ObjectId last_parent = kNoObject;
@@ -203,8 +215,8 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
                        "', there is none with index " + std::to_string(index));
   }
   std::vector<std::string> known;
-  for (const Object& object : objects_) {
-    known.push_back(this->path(object.id));
+  for (const auto& [id, object] : objects_) {
+    known.push_back(this->path(id));
     known.push_back("/" + object.name);
   }
   std::sort(known.begin(), known.end());

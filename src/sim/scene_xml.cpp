@@ -53,8 +53,16 @@ bool only_follows(const std::string& message) {
 }  // namespace
 
 SceneXml::SceneXml(const std::filesystem::path& file) : file_(file.string()) {
-  if (document_.LoadFile(file_.c_str()) != tinyxml2::XML_SUCCESS) {
-    if (document_.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) throw SceneError({{file_, 0, "", "is empty"}});
+  check(document_.LoadFile(file_.c_str()));
+}
+
+SceneXml::SceneXml(const std::string& text, std::string name) : file_(std::move(name)) {
+  check(document_.Parse(text.c_str(), text.size()));
+}
+
+void SceneXml::check(tinyxml2::XMLError result) const {
+  if (result != tinyxml2::XML_SUCCESS) {
+    if (result == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) throw SceneError({{file_, 0, "", "is empty"}});
     throw SceneError({{file_, document_.ErrorLineNum(), "",
                        std::string("is not well-formed XML here (") + document_.ErrorName() + ")"}});
   }

@@ -18,6 +18,8 @@ class SceneXml {
  public:
   /// Throws SceneError when the file is no XML or no scene.
   explicit SceneXml(const std::filesystem::path& file);
+  /// The same from the text of a file; `name` is what errors call it.
+  SceneXml(const std::string& text, std::string name);
 
   /// Gives our own elements below `root` their lines: SDFormat copies elements that it does not know without.
   void number_own_elements(const sdf::ElementPtr& root) const;
@@ -27,6 +29,7 @@ class SceneXml {
   std::vector<Problem> located(const sdf::Errors& errors, const std::string& object) const;
 
  private:
+  void check(tinyxml2::XMLError result) const;
   int line_of_named(const std::string& message) const;
   int line_of_object(const std::string& path) const;
   std::string unusable_text(const std::string& element, int line) const;

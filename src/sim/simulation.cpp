@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/simulation.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@ namespace bubblesim {
 void Participant::actuate(World&, double) {}
 void Participant::sense(const World&, double) {}
 void Participant::publish(const World&, double) {}
+void Participant::model_added(World&, ObjectId) {}
+void Participant::model_removing(World&, ObjectId) {}
 
 struct Simulation::SensorSlot {
   ObjectId id = kNoObject;
@@ -26,29 +29,29 @@ struct Simulation::SensorSlot {
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
     : scene_(std::move(scene)), seed_(seed), world_(scene_, seed), rays_(std::make_unique<RayScene>()) {
-  auto model = scene_.models.begin();
-  for (const Object& object : world_.tree().objects()) {
-    if (object.kind == ObjectKind::kModel) rays_->add_model(world_, object.id, *model++);
-  }
-  make_sensors();
+  for (const ObjectId model : world_.tree().models()) rays_->add_model(world_, model, world_.description(model));
+  make_all_sensors();
 }
 
-void Simulation::make_sensors() {
-  sensors_.clear();
-  for (const Object& object : world_.tree().objects()) {
-    if (object.kind != ObjectKind::kSensor) continue;
-    sensors_.emplace_back().id = object.id;
-  }
-  auto slot = sensors_.begin();
-  for (const ModelDescription& model : scene_.models) {
-    for (const LinkDescription& link : model.links) {
-      for (const SensorDescription& description : link.sensors) {
-        slot->sensor = make_sensor(description, scene_.environment, slot->id, world_);
-        slot->period = description.update_rate > 0 ? 1 / description.update_rate : 0;
-        ++slot;
-      }
+void Simulation::make_sensors(ObjectId model) {
+  const SceneTree& tree = world_.tree();
+  const ModelDescription& description = world_.description(model);
+  const std::vector<ObjectId> links = tree.children(model, ObjectKind::kLink);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    auto sensor = description.links[i].sensors.begin();
+    for (const ObjectId id : tree.children(links[i], ObjectKind::kSensor)) {
+      SensorSlot& slot = sensors_.emplace_back();
+      slot.id = id;
+      slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
+      slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
+      ++sensor;
     }
   }
+}
+
+void Simulation::make_all_sensors() {
+  sensors_.clear();
+  for (const ObjectId model : world_.tree().models()) make_sensors(model);
 }
 
 Simulation::~Simulation() = default;
@@ -95,21 +98,21 @@ void Simulation::step() {
   ++passes_;
 }
 
-void Simulation::check_may_reset() const {
+void Simulation::check_may_change() const {
   const std::thread::id stepping = stepping_thread_;
   if (stepping == std::thread::id()) return;
   if (stepping != std::this_thread::get_id()) {
-    throw std::logic_error("another thread is stepping this simulation: reset it from there, or when it has ended");
+    throw std::logic_error("another thread is stepping this simulation: change it from there, or when it has ended");
   }
   if (!draining_)
-    throw std::logic_error("a pass is being run: the world can be reset before its actuation or after it");
+    throw std::logic_error("a pass is being run: the world can be changed before its actuation or after it");
 }
 
 void Simulation::reset_world() {
-  check_may_reset();
+  check_may_change();
   world_.reset();
   std::vector<SensorSlot> before = std::exchange(sensors_, {});
-  make_sensors();
+  make_all_sensors();
   for (std::size_t i = 0; i < sensors_.size(); ++i) {  // they keep to their rates, for time goes on
     sensors_[i].due = before[i].due;
     sensors_[i].wanted = before[i].wanted;
@@ -117,10 +120,29 @@ void Simulation::reset_world() {
 }
 
 void Simulation::reset() {
-  check_may_reset();
+  check_may_change();
   world_.reset();
-  make_sensors();
+  make_all_sensors();
   passes_ = 0;
+}
+
+ObjectId Simulation::add_model(ModelDescription model) {
+  check_may_change();
+  const ObjectId id = world_.add_model(std::move(model));
+  rays_->add_model(world_, id, world_.description(id));
+  make_sensors(id);
+  for (Participant* participant : participants_) participant->model_added(world_, id);
+  return id;
+}
+
+void Simulation::remove_model(ObjectId model) {
+  check_may_change();
+  world_.check_removable(model);
+  for (Participant* participant : participants_) participant->model_removing(world_, model);
+  const auto gone = [&](const SensorSlot& slot) { return world_.tree().model_of(slot.id) == model; };
+  sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
+  rays_->remove_model(model);
+  world_.remove_model(model);
 }
 
 void Simulation::update_sensors() {

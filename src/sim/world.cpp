@@ -19,52 +19,95 @@ namespace {
 constexpr double kMaxDuration = 1000;  // s, of one call
 
 void check_bodies(World::State& state) {
-  for (const Link& link : state.links) {
-    if (link.body == nullptr) continue;
-    const Vector3 position = to_vector(dBodyGetPosition(link.body));
-    const Vector3 linear = to_vector(dBodyGetLinearVel(link.body));
-    const Vector3 angular = to_vector(dBodyGetAngularVel(link.body));
-    if (within(position, kMaxDistance) && within(linear, kMaxSpeed) && within(angular, kMaxSpeed)) continue;
-    state.diverged = true;
-    throw Diverged("the physics diverged at " + state.tree.path(link.object) + ": position " + text(position) +
-                   " m, velocity " + text(linear) + " m/s, " + text(angular) +
-                   " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics step");
+  for (const auto& [id, model] : state.models) {
+    for (const Link& link : model.links) {
+      dBodyID body = link.body.get();
+      if (body == nullptr) continue;
+      const Vector3 position = to_vector(dBodyGetPosition(body));
+      const Vector3 linear = to_vector(dBodyGetLinearVel(body));
+      const Vector3 angular = to_vector(dBodyGetAngularVel(body));
+      if (within(position, kMaxDistance) && within(linear, kMaxSpeed) && within(angular, kMaxSpeed)) continue;
+      state.diverged = true;
+      throw Diverged("the physics diverged at " + state.tree.path(link.object) + ": position " + text(position) +
+                     " m, velocity " + text(linear) + " m/s, " + text(angular) +
+                     " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics step");
+    }
   }
+}
+
+void check_not_diverged(const World::State& state) {
+  if (state.diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
 }
 
 }  // namespace
 
-World::State::State() { ode::prepare_this_thread(); }
-
-World::State::~State() {
-  if (!interrupted) return;
-  // ODE was left in the middle of a step, perhaps with its spaces locked; taking them down would trip its assertions.
-  static_cast<void>(contacts.release());
-  static_cast<void>(movers.release());
-  static_cast<void>(statics.release());
-  static_cast<void>(planes.release());
-  static_cast<void>(world.release());
-  static_cast<void>(threading.release());
+void World::Discard::operator()(State* state) const {
+  // When ODE was left in the middle of a step, perhaps with its spaces locked, taking them down would trip its
+  // assertions.
+  if (!state->interrupted) std::default_delete<State>()(state);
 }
 
-World::World(const SceneDescription& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
-  std::vector<Problem> problems = check_scene(scene_);
+World::World(const SceneDescription& scene, std::uint64_t seed) {
+  std::vector<Problem> problems = check_scene(scene);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  build();
+  state_.reset(std::make_unique<State>(scene.gravity, seed).release());
+  for (const ModelDescription& model : scene.models) {
+    place_model(*state_, enter_model(state_->tree, model), model);
+  }
+  gather_statics(*state_);
 }
 
 World::~World() = default;
 
-void World::build() {
-  auto built = std::make_unique<State>();
-  built->seed = seed_;
-  build_world(*built, scene_);
+void World::reset() {
+  // Built anew, for ODE keeps more of the past than poses and velocities: forces of the last step, the order of its
+  // lists.
+  std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->gravity, state_->seed).release());
+  built->tree = state_->tree;
+  for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
+  gather_statics(*built);
   state_ = std::move(built);
 }
 
-// Built anew, for ODE keeps more of the past than poses and velocities: forces of the last step, the order of its
-// lists.
-void World::reset() { build(); }
+ObjectId World::add_model(ModelDescription model) {
+  check_not_diverged(*state_);
+  std::vector<Problem> problems = check_model(model);
+  for (const ObjectId id : state_->tree.models()) {
+    if (state_->tree.at(id).name != model.name) continue;
+    problems.push_back({model.source.file, model.source.line, "/" + model.name,
+                        "the world has a model of this name already; choose another name, or remove that one first"});
+  }
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  ode::prepare_this_thread();
+  const bool is_static = model.is_static;
+  const ObjectId id = enter_model(state_->tree, model);
+  try {
+    place_model(*state_, id, std::move(model));
+  } catch (...) {
+    state_->tree.remove(id);
+    throw;
+  }
+  if (is_static) gather_statics(*state_);
+  return id;
+}
+
+void World::check_removable(ObjectId model) const {
+  check_not_diverged(*state_);
+  const Object& object = state_->tree.at(model);
+  if (object.kind != ObjectKind::kModel) {
+    throw InvalidInput(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
+                       ": it belongs to its model; remove that");
+  }
+}
+
+void World::remove_model(ObjectId model) {
+  check_removable(model);
+  dJointGroupEmpty(state_->contacts.get());  // those of the last step may be with its bodies
+  state_->models.erase(model);
+  state_->tree.remove(model);
+}
+
+const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }
 
 const SceneTree& World::tree() const { return state_->tree; }
 
@@ -75,13 +118,15 @@ void World::advance(double duration, double step) {
   if (!(duration >= 0 && duration <= kMaxDuration)) {
     throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
   }
-  if (state_->diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
+  check_not_diverged(*state_);
   ode::prepare_this_thread();
   for (long left = std::lround(duration / step); left > 0; --left) {
     try {
       find_contacts(*state_);
-      for (const PlacedJoint& placed : state_->joints) {
-        if (placed.joint) placed.joint->drive(step);
+      for (const auto& [id, model] : state_->models) {
+        for (const PlacedJoint& placed : model.joints) {
+          if (placed.joint) placed.joint->drive(step);
+        }
       }
       // Draws no random numbers, unlike dWorldQuickStep: ODE keeps one random state for all worlds and threads.
       dWorldStep(state_->world.get(), step);
@@ -95,27 +140,34 @@ void World::advance(double duration, double step) {
 
 std::vector<PlacedShape> World::shapes() const {
   std::vector<PlacedShape> shapes;
-  for (const Collider& collider : state_->colliders) {
-    shapes.push_back({collider.link, state_->link(collider.link).body == nullptr, collider.geometry,
-                      state_->link_pose(collider.link) * collider.in_link});
+  for (const auto& [id, model] : state_->models) {
+    for (const Collider& collider : model.colliders) {
+      shapes.push_back({collider.link->object, model.description.is_static, collider.geometry,
+                        link_pose(*collider.link) * collider.in_link});
+    }
   }
   return shapes;
 }
 
 std::uint64_t World::state_hash() const {
   Fnv1a hash;
-  for (const Link& link : state_->links) {
-    if (link.body == nullptr) continue;
-    hash.add(dBodyGetPosition(link.body), 3);
-    hash.add(dBodyGetQuaternion(link.body), 4);
-    hash.add(dBodyGetLinearVel(link.body), 3);
-    hash.add(dBodyGetAngularVel(link.body), 3);
+  for (const auto& [id, model] : state_->models) {
+    for (const Link& link : model.links) {
+      dBodyID body = link.body.get();
+      if (body == nullptr) continue;
+      hash.add(dBodyGetPosition(body), 3);
+      hash.add(dBodyGetQuaternion(body), 4);
+      hash.add(dBodyGetLinearVel(body), 3);
+      hash.add(dBodyGetAngularVel(body), 3);
+    }
   }
-  for (const PlacedJoint& placed : state_->joints) {
-    for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
-      const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
-                                placed.joint->axis(axis).max_force};
-      hash.add(targets, 3);
+  for (const auto& [id, model] : state_->models) {
+    for (const PlacedJoint& placed : model.joints) {
+      for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
+        const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
+                                  placed.joint->axis(axis).max_force};
+        hash.add(targets, 3);
+      }
     }
   }
   hash.add(state_->seed);

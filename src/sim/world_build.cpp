@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene description to bodies, joints and shapes in ODE.
+// From the description of a model to bodies, joints and shapes in ODE.
 #include <utility>
 #include <variant>
 
@@ -14,7 +14,8 @@ constexpr double kErrorReduction = 0.2;
 constexpr double kConstraintSoftness = 1e-10;
 constexpr double kMaxCorrectingVelocity = 0.1;  // m/s
 constexpr double kSurfaceLayer = 0.001;         // m
-// Levels of the statics' quadtree: cells of 1/64 of the scene.
+// Static shapes of finite size are in a quadtree: a moving shape then meets only those near it. 6 levels: its cells are
+// 1/64 of the scene.
 constexpr int kQuadtreeDepth = 6;
 
 void set_pose(dGeomID geom, const Pose& pose) {
@@ -39,17 +40,17 @@ dGeomID make_geom(const Geometry& geometry, const Pose& pose) {
   return std::visit(Maker{pose}, geometry);
 }
 
-dBodyID make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
+ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
   dMass mass;
   dMassSetParameters(&mass, link.mass, 0, 0, 0, link.inertia_diagonal.X(), link.inertia_diagonal.Y(),
                      link.inertia_diagonal.Z(), link.inertia_products.X(), link.inertia_products.Y(),
                      link.inertia_products.Z());
-  dBodyID body = dBodyCreate(world);
-  dBodySetMass(body, &mass);
+  ode::BodyHandle body(dBodyCreate(world));
+  dBodySetMass(body.get(), &mass);
   const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
-  dBodySetPosition(body, centre.X(), centre.Y(), centre.Z());
-  dBodySetQuaternion(body, rotation);
+  dBodySetPosition(body.get(), centre.X(), centre.Y(), centre.Z());
+  dBodySetQuaternion(body.get(), rotation);
   return body;
 }
 
@@ -66,63 +67,64 @@ struct Extent {
   }
 };
 
-/// Adds the objects of one model to the tree and to ODE.
+/// Makes what one model has in ODE, for the objects that it has in the tree.
 class ModelBuilder {
  public:
-  ModelBuilder(World::State& state, const ModelDescription& model)
-      : state_(state),
-        model_(model),
-        id_(state.tree.add(ObjectKind::kModel, model.name, kNoObject, state.models.size())) {
-    state.models.emplace_back();
-    if (model.is_static) return;
-    placed().space = dSimpleSpaceCreate(state.movers.get());
-    placed().self_collide = model.self_collide;
+  ModelBuilder(const World::State& state, ObjectId id, ModelDescription description) : state_(state), id_(id) {
+    model_.description = std::move(description);
+    if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.movers.get()));
   }
 
-  void build() {
-    for (const LinkDescription& link : model_.links) add_link(link);
-    for (const JointDescription& joint : model_.joints) add_joint(joint);
-    PlacedModel& model = placed();
-    model.canonical_link = model_.canonical_link.empty() ? model.links.front() : link_named(model_.canonical_link);
-    model.in_canonical_link = state_.link_pose(model.canonical_link).Inverse() * model_.pose;
+  PlacedModel build() {
+    const ModelDescription& description = model_.description;
+    const std::vector<ObjectId> links = state_.tree.children(id_, ObjectKind::kLink);
+    for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
+    // The further axes of a joint lie below it: these are the joints alone.
+    const std::vector<ObjectId> joints = state_.tree.children(id_, ObjectKind::kJoint);
+    for (std::size_t i = 0; i < joints.size(); ++i) add_joint(description.joints[i], joints[i]);
+    const Link* canonical = &model_.links.front();
+    if (!description.canonical_link.empty()) canonical = link_named(description.canonical_link);
+    model_.canonical_link = canonical->object;
+    model_.in_canonical_link = link_pose(*canonical).Inverse() * description.pose;
+    return std::move(model_);
   }
 
  private:
-  PlacedModel& placed() { return state_.models[state_.tree.at(id_).index]; }
-
-  ObjectId link_named(const std::string& name) {
-    for (const ObjectId id : placed().links) {
-      if (state_.tree.at(id).name == name) return id;
+  const Link* link_named(const std::string& name) const {
+    for (const Link& link : model_.links) {
+      if (state_.tree.at(link.object).name == name) return &link;
     }
-    return kNoObject;  // "world"
+    return nullptr;  // "world"
   }
 
-  void add_link(const LinkDescription& description) {
-    const ObjectId id = state_.tree.add(ObjectKind::kLink, description.name, id_, state_.links.size());
-    placed().links.push_back(id);
-    const Pose pose = model_.pose * description.pose;
-    Link link{nullptr, description.centre_of_mass, pose, id};
-    if (!model_.is_static) link.body = make_body(state_.world.get(), description, pose);
-    state_.links.push_back(link);
-    for (const CollisionDescription& collision : description.collisions) add_collider(id, link, collision);
-    for (const SensorDescription& sensor : description.sensors) {
-      state_.tree.add(ObjectKind::kSensor, sensor.name, id, state_.sensors.size());
-      state_.sensors.push_back(sensor.pose);
-    }
+  void add_link(const LinkDescription& description, ObjectId id) {
+    const Pose pose = model_.description.pose * description.pose;
+    Link& link = model_.links.emplace_back();
+    link.object = id;
+    link.centre_of_mass = description.centre_of_mass;
+    link.pose = pose;
+    if (!model_.description.is_static) link.body = make_body(state_.world.get(), description, pose);
+    for (const CollisionDescription& collision : description.collisions) add_collider(link, collision);
+    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
   }
 
-  void add_collider(ObjectId link_id, const Link& link, const CollisionDescription& description) {
+  void add_collider(const Link& link, const CollisionDescription& description) {
     const Pose pose = link.pose * description.pose;
-    dGeomID geom = make_geom(description.geometry, pose);
-    state_.colliders.push_back({geom, link_id, id_, description.geometry, description.surface, description.pose});
-    dGeomSetData(geom, &state_.colliders.back());
+    Collider& collider = model_.colliders.emplace_back();
+    collider.geom.reset(make_geom(description.geometry, pose));
+    collider.link = &link;
+    collider.geometry = description.geometry;
+    collider.surface = description.surface;
+    collider.in_link = description.pose;
+    dGeomID geom = collider.geom.get();
+    dGeomSetData(geom, &collider);
     if (std::holds_alternative<Plane>(description.geometry)) {
       dSpaceAdd(state_.planes.get(), geom);
     } else if (link.body == nullptr) {
       set_pose(geom, pose);  // goes into the statics' space when their extent is known
     } else {
-      dSpaceAdd(placed().space, geom);
-      dGeomSetBody(geom, link.body);
+      dSpaceAdd(model_.space.get(), geom);
+      dGeomSetBody(geom, link.body.get());
       const Vector3 offset = description.pose.Pos() - link.centre_of_mass;
       const Quaternion& turn = description.pose.Rot();
       const dQuaternion rotation = {turn.W(), turn.X(), turn.Y(), turn.Z()};
@@ -131,40 +133,80 @@ class ModelBuilder {
     }
   }
 
-  void add_joint(const JointDescription& description) {
-    const ObjectId id = state_.tree.add(ObjectKind::kJoint, description.name, id_, state_.joints.size());
-    // The second axis of a steered wheel is an object of its own, so that scripts can name it.
-    for (std::size_t axis = 1; axis < description.axes.size(); ++axis) {
-      state_.tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), id, state_.joints.size());
-    }
+  void add_joint(const JointDescription& description, ObjectId id) {
+    const Link* parent = link_named(description.parent);
+    const Link& child = *link_named(description.child);
+    const Pose pose = model_.description.pose * description.pose;
     PlacedJoint joint;
     joint.object = id;
-    joint.parent = link_named(description.parent);
-    joint.child = link_named(description.child);
-    const Pose pose = model_.pose * description.pose;
-    joint.in_parent = joint.parent == kNoObject ? pose : state_.link_pose(joint.parent).Inverse() * pose;
-    joint.in_child = state_.link_pose(joint.child).Inverse() * pose;
-    if (!model_.is_static) {
-      const JointBodies bodies{joint.parent == kNoObject ? nullptr : state_.link(joint.parent).body,
-                               state_.link(joint.child).body};
+    joint.parent = parent == nullptr ? kNoObject : parent->object;
+    joint.child = child.object;
+    joint.in_parent = parent == nullptr ? pose : link_pose(*parent).Inverse() * pose;
+    joint.in_child = link_pose(child).Inverse() * pose;
+    if (!model_.description.is_static) {
+      const JointBodies bodies{parent == nullptr ? nullptr : parent->body.get(), child.body.get()};
       joint.joint = make_joint(state_.world.get(), description, pose, bodies);
     }
-    state_.joints.push_back(std::move(joint));
+    model_.joints.push_back(std::move(joint));
   }
 
-  World::State& state_;
-  const ModelDescription& model_;
+  const World::State& state_;
   ObjectId id_;
+  PlacedModel model_;
 };
 
-/// Static shapes of finite size go into a quadtree: a moving shape then meets only those near it.
+}  // namespace
+
+World::State::State(const Vector3& gravity_, std::uint64_t seed_) : gravity(gravity_), seed(seed_) {
+  ode::prepare_this_thread();
+  threading.reset(dThreadingAllocateSelfThreadedImplementation());
+  world.reset(dWorldCreate());
+  dWorldSetStepThreadingImplementation(world.get(), dThreadingImplementationGetFunctions(threading.get()),
+                                       threading.get());
+  dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
+  dWorldSetERP(world.get(), kErrorReduction);
+  dWorldSetCFM(world.get(), kConstraintSoftness);
+  dWorldSetContactMaxCorrectingVel(world.get(), kMaxCorrectingVelocity);
+  dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
+  movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
+  planes.reset(dSimpleSpaceCreate(nullptr));
+  contacts.reset(dJointGroupCreate(0));
+}
+
+ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
+  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
+  std::size_t sensors = 0;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const ObjectId link = tree.add(ObjectKind::kLink, model.links[i].name, id, i);
+    for (const SensorDescription& sensor : model.links[i].sensors) {
+      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++);
+    }
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const ObjectId joint = tree.add(ObjectKind::kJoint, model.joints[i].name, id, i);
+    // The second axis of a steered wheel is an object of its own, so that scripts can name it.
+    for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
+      tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);
+    }
+  }
+  return id;
+}
+
+void place_model(World::State& state, ObjectId id, ModelDescription model) {
+  state.models.emplace(id, ModelBuilder(state, id, std::move(model)).build());
+}
+
 void gather_statics(World::State& state) {
   Extent extent;
   std::vector<dGeomID> geoms;
-  for (const Collider& collider : state.colliders) {
-    if (dGeomGetSpace(collider.geom) != nullptr) continue;
-    geoms.push_back(collider.geom);
-    extent.include(collider.geom);
+  for (const auto& [id, model] : state.models) {
+    for (const Collider& collider : model.colliders) {
+      dGeomID geom = collider.geom.get();
+      if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
+      if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.statics.get(), geom);
+      geoms.push_back(geom);
+      extent.include(geom);
+    }
   }
   const Vector3 centre = (extent.low + extent.high) / 2;
   const Vector3 half = (extent.high - extent.low) / 2;
@@ -172,27 +214,6 @@ void gather_statics(World::State& state) {
   const dVector3 ode_half = {half.X(), half.Y(), half.Z()};
   state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, kQuadtreeDepth));
   for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
-}
-
-}  // namespace
-
-void build_world(World::State& state, const SceneDescription& scene) {
-  state.threading.reset(dThreadingAllocateSelfThreadedImplementation());
-  state.world.reset(dWorldCreate());
-  dWorldID world = state.world.get();
-  dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(state.threading.get()),
-                                       state.threading.get());
-  dWorldSetGravity(world, scene.gravity.X(), scene.gravity.Y(), scene.gravity.Z());
-  dWorldSetERP(world, kErrorReduction);
-  dWorldSetCFM(world, kConstraintSoftness);
-  dWorldSetContactMaxCorrectingVel(world, kMaxCorrectingVelocity);
-  dWorldSetContactSurfaceLayer(world, kSurfaceLayer);
-  state.movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
-  state.planes.reset(dSimpleSpaceCreate(nullptr));
-  state.contacts.reset(dJointGroupCreate(0));
-
-  for (const ModelDescription& model : scene.models) ModelBuilder(state, model).build();
-  gather_statics(state);
 }
 
 }  // namespace bubblesim

@@ -18,7 +18,7 @@ const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
   if (object.kind != ObjectKind::kJoint) {
     throw NoSuchObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
   }
-  return state.joints[object.index];
+  return state.model_of(id).joints[object.index];
 }
 
 /// A joint and one of its axes. The second axis of a joint is an object of its own.
@@ -48,7 +48,7 @@ void check_target(const World::State& state, ObjectId id, const char* what, doub
 
 Pose World::joint_moving_pose(ObjectId joint) const {
   const PlacedJoint& placed = placed_joint(*state_, joint);
-  return state_->link_pose(placed.child) * placed.in_child;
+  return link_pose(state_->link(placed.child)) * placed.in_child;
 }
 
 double World::joint_position(ObjectId joint, int axis) const {

@@ -13,17 +13,18 @@ namespace bubblesim {
 namespace {
 
 /// The links that move with a model or link; throws when it is neither or does not move at all.
-std::vector<ObjectId> moving_links(const World::State& state, ObjectId id) {
+std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   const Object& object = state.tree.at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw InvalidInput(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                        ": it moves with its link; move that or the model");
   }
-  std::vector<ObjectId> links =
-      object.kind == ObjectKind::kModel ? state.models[object.index].links : std::vector<ObjectId>{id};
-  if (state.link(links.front()).body == nullptr) {
+  if (state.model_of(id).description.is_static) {
     throw InvalidInput(state.shown(id) + " is static: it stays where the scene put it");
   }
+  if (object.kind == ObjectKind::kLink) return {&state.link(id)};
+  std::vector<const Link*> links;
+  for (const Link& link : state.model_of(id).links) links.push_back(&link);
   return links;
 }
 
@@ -31,11 +32,11 @@ std::vector<ObjectId> moving_links(const World::State& state, ObjectId id) {
 ObjectId carrier(const World::State& state, const Object& object) {
   switch (object.kind) {
     case ObjectKind::kModel:
-      return state.models[object.index].canonical_link;
+      return state.models.at(object.id).canonical_link;
     case ObjectKind::kLink:
       return object.id;
     case ObjectKind::kJoint:
-      return state.joints[object.index].parent;
+      return state.model_of(object.id).joints[object.index].parent;
     case ObjectKind::kSensor:
       return object.parent;
   }
@@ -51,34 +52,33 @@ Pose body_pose(dBodyID body) {
   return {to_vector(dBodyGetPosition(body)), Quaternion(q[0], q[1], q[2], q[3])};
 }
 
-Pose World::State::link_pose(ObjectId id) const {
-  const Link& placed = link(id);
-  if (placed.body == nullptr) return placed.pose;
-  Pose pose = body_pose(placed.body);
-  pose.Pos() -= pose.Rot().RotateVector(placed.centre_of_mass);
+Pose link_pose(const Link& link) {
+  if (link.body == nullptr) return link.pose;
+  Pose pose = body_pose(link.body.get());
+  pose.Pos() -= pose.Rot().RotateVector(link.centre_of_mass);
   return pose;
 }
 
 Pose World::pose(ObjectId object) const {
   const Object& found = state_->tree.at(object);
   const ObjectId link = carrier(*state_, found);
-  const Pose base = link == kNoObject ? Pose::Zero : state_->link_pose(link);
+  const Pose base = link == kNoObject ? Pose::Zero : link_pose(state_->link(link));
   switch (found.kind) {
     case ObjectKind::kModel:
-      return base * state_->models[found.index].in_canonical_link;
+      return base * state_->models.at(object).in_canonical_link;
     case ObjectKind::kLink:
       return base;
     case ObjectKind::kJoint:
-      return base * state_->joints[found.index].in_parent;
+      return base * state_->model_of(object).joints[found.index].in_parent;
     case ObjectKind::kSensor:
-      return base * state_->sensors[found.index];
+      return base * state_->model_of(object).sensors[found.index];
   }
   return base;
 }
 
 Twist World::velocity(ObjectId object) const {
   const ObjectId link = carrier(*state_, state_->tree.at(object));
-  dBodyID body = link == kNoObject ? nullptr : state_->link(link).body;
+  dBodyID body = link == kNoObject ? nullptr : state_->link(link).body.get();
   if (body == nullptr) return {};
   const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
   const Vector3 angular = to_vector(dBodyGetAngularVel(body));
@@ -86,7 +86,7 @@ Twist World::velocity(ObjectId object) const {
 }
 
 void World::set_pose(ObjectId object, const Pose& pose) {
-  const std::vector<ObjectId> links = moving_links(*state_, object);
+  const std::vector<const Link*> links = moving_links(*state_, object);
   if (!within(pose.Pos(), kMaxDistance)) {
     throw InvalidInput(state_->shown(object) + ": the position " + text(pose.Pos()) +
                        " is not usable: it must be finite and within 1e6 m of the origin");
@@ -98,25 +98,24 @@ void World::set_pose(ObjectId object, const Pose& pose) {
   }
   const Pose wanted(pose.Pos(), q.Normalized());
   const Pose before = this->pose(object);
-  for (const ObjectId id : links) {
-    const Link& link = state_->link(id);
-    const Pose moved = wanted * (before.Inverse() * state_->link_pose(id));
-    const Vector3 centre = moved.CoordPositionAdd(link.centre_of_mass);
+  for (const Link* link : links) {
+    const Pose moved = wanted * (before.Inverse() * link_pose(*link));
+    const Vector3 centre = moved.CoordPositionAdd(link->centre_of_mass);
     const dQuaternion rotation = {moved.Rot().W(), moved.Rot().X(), moved.Rot().Y(), moved.Rot().Z()};
-    dBodySetPosition(link.body, centre.X(), centre.Y(), centre.Z());
-    dBodySetQuaternion(link.body, rotation);
+    dBodySetPosition(link->body.get(), centre.X(), centre.Y(), centre.Z());
+    dBodySetQuaternion(link->body.get(), rotation);
   }
 }
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
-  const std::vector<ObjectId> links = moving_links(*state_, object);
+  const std::vector<const Link*> links = moving_links(*state_, object);
   if (!within(velocity.linear, kMaxSpeed) || !within(velocity.angular, kMaxSpeed)) {
     throw InvalidInput(state_->shown(object) + ": the velocity " + text(velocity.linear) + " m/s, " +
                        text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
   }
   const Vector3 origin = pose(object).Pos();
-  for (const ObjectId id : links) {
-    dBodyID body = state_->link(id).body;
+  for (const Link* link : links) {
+    dBodyID body = link->body.get();
     const Vector3 linear = velocity.linear + velocity.angular.Cross(to_vector(dBodyGetPosition(body)) - origin);
     dBodySetLinearVel(body, linear.X(), linear.Y(), linear.Z());
     dBodySetAngularVel(body, velocity.angular.X(), velocity.angular.Y(), velocity.angular.Z());

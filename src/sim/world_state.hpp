@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,22 +19,21 @@
 
 namespace bubblesim {
 
-/// A collision shape. ODE's geom points back at it.
-struct Collider {
-  dGeomID geom = nullptr;
-  ObjectId link = kNoObject;
-  ObjectId model = kNoObject;
-  Geometry geometry;
-  Surface surface;
-  Pose in_link;
-};
-
 /// A link. Static ones have no body and stay at `pose`.
 struct Link {
-  dBodyID body = nullptr;
+  ode::BodyHandle body;
   Vector3 centre_of_mass;  // body's origin, in the link's frame
   Pose pose;               // of static links, in the world
   ObjectId object = kNoObject;
+};
+
+/// A collision shape. ODE's geom points back at it.
+struct Collider {
+  ode::GeomHandle geom;
+  const Link* link = nullptr;
+  Geometry geometry;
+  Surface surface;
+  Pose in_link;
 };
 
 struct PlacedJoint {
@@ -45,43 +45,51 @@ struct PlacedJoint {
   Pose in_child;
 };
 
+/// A model with what ODE has of it; links, joints and sensors by Object::index. Members are destroyed in the reverse
+/// order: joints and geoms before bodies.
 struct PlacedModel {
+  ModelDescription description;
   Pose in_canonical_link;  // model frame in its canonical link's frame
   ObjectId canonical_link = kNoObject;
-  std::vector<ObjectId> links;
-  dSpaceID space = nullptr;  // its moving geoms, inside World::State::movers
-  bool self_collide = false;
+  std::deque<Link> links;          // a deque, for pointers to its elements are kept
+  ode::SpaceHandle space;          // its moving geoms, inside World::State::movers; null when it is static
+  std::deque<Collider> colliders;  // too
+  std::vector<PlacedJoint> joints;
+  std::vector<Pose> sensors;  // in their link's frame
 };
 
 struct World::State {
-  State();
-  ~State();
+  /// Without any model.
+  State(const Vector3& gravity, std::uint64_t seed);
 
+  Vector3 gravity;  // m/s^2
+  std::uint64_t seed;
   SceneTree tree;
-  std::vector<PlacedModel> models;  // by Object::index, as the following ones
-  std::vector<Link> links;
-  std::vector<PlacedJoint> joints;
-  std::vector<Pose> sensors;       // in their link's frame
-  std::deque<Collider> colliders;  // a deque: ODE's geoms keep pointers to its elements
 
-  // Destroyed in the reverse order: contacts and spaces before the world, its threading last.
+  // Destroyed in the reverse order: models and spaces before the world, its threading last.
   ode::ThreadingHandle threading;
   ode::WorldHandle world;
   ode::SpaceHandle movers;   // one space for each model that moves
   ode::SpaceHandle statics;  // geoms without a body, of finite size
   ode::SpaceHandle planes;   // infinite ones would spoil the tree of the statics
   ode::JointGroupHandle contacts;
-  std::uint64_t seed = 0;
+  std::map<ObjectId, PlacedModel> models;
   bool diverged = false;
   bool interrupted = false;  // ODE threw in the middle of a step
 
-  const Link& link(ObjectId id) const { return links[tree.at(id).index]; }
-  Pose link_pose(ObjectId id) const;
+  const PlacedModel& model_of(ObjectId id) const { return models.at(tree.model_of(id)); }
+  const Link& link(ObjectId id) const { return model_of(id).links[tree.at(id).index]; }
   std::string shown(ObjectId id) const { return tree.short_path(id); }
 };
 
-/// Fills the state from a validated scene.
-void build_world(World::State& state, const SceneDescription& scene);
+/// Enters a model and its objects into the tree.
+ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
+
+/// Builds a validated model whose objects are in the tree already. gather_statics() completes it when it is static.
+void place_model(World::State& state, ObjectId id, ModelDescription model);
+
+/// Puts all static shapes into a space that fits them.
+void gather_statics(World::State& state);
 
 /// Finds what touches and makes ODE's contact joints for it.
 void find_contacts(World::State& state);
@@ -90,5 +98,8 @@ Vector3 to_vector(const dReal* values);
 
 /// Pose of an ODE body, whose origin is its centre of mass.
 Pose body_pose(dBodyID body);
+
+/// In the world.
+Pose link_pose(const Link& link);
 
 }  // namespace bubblesim

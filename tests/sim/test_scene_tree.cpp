@@ -180,9 +180,9 @@ TEST_F(SceneTreePaths, ShortPathIsTheShortestUniqueEnding) {
 }
 
 TEST_F(SceneTreePaths, EveryPathLeadsBackToItsObject) {
-  for (const Object& object : tree.objects()) {
-    EXPECT_EQ(tree.find(tree.path(object.id)), object.id) << tree.path(object.id);
-    EXPECT_EQ(tree.find(tree.short_path(object.id)), object.id) << tree.short_path(object.id);
+  for (const auto& [id, object] : tree.objects()) {
+    EXPECT_EQ(tree.find(tree.path(id)), id) << tree.path(id);
+    EXPECT_EQ(tree.find(tree.short_path(id)), id) << tree.short_path(id);
   }
 }
 

@@ -7,10 +7,9 @@ namespace {
 
 class Ball final : public Joint {
  public:
-  Ball(dWorldID world, const Pose& pose, JointBodies bodies) : Joint({}) {
-    dJointID joint = dJointCreateBall(world, nullptr);  // owned by the ODE world
-    dJointAttach(joint, bodies.child, bodies.parent);
-    dJointSetBallAnchor(joint, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+  Ball(dWorldID world, const Pose& pose, JointBodies bodies) : Joint({}), joint_(dJointCreateBall(world, nullptr)) {
+    dJointAttach(joint_.get(), bodies.child, bodies.parent);
+    dJointSetBallAnchor(joint_.get(), pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
   }
 
   double position(int) const override { return 0; }
@@ -19,6 +18,8 @@ class Ball final : public Joint {
  private:
   void set_stop(int, int, double) override {}
   void set_motor(int, int, double) override {}
+
+  ode::JointHandle joint_;
 };
 
 }  // namespace

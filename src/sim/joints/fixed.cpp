@@ -7,10 +7,9 @@ namespace {
 
 class Fixed final : public Joint {
  public:
-  Fixed(dWorldID world, JointBodies bodies) : Joint({}) {
-    dJointID joint = dJointCreateFixed(world, nullptr);  // owned by the ODE world
-    dJointAttach(joint, bodies.child, bodies.parent);
-    dJointSetFixed(joint);
+  Fixed(dWorldID world, JointBodies bodies) : Joint({}), joint_(dJointCreateFixed(world, nullptr)) {
+    dJointAttach(joint_.get(), bodies.child, bodies.parent);
+    dJointSetFixed(joint_.get());
   }
 
   double position(int) const override { return 0; }
@@ -19,6 +18,8 @@ class Fixed final : public Joint {
  private:
   void set_stop(int, int, double) override {}
   void set_motor(int, int, double) override {}
+
+  ode::JointHandle joint_;
 };
 
 }  // namespace

@@ -11,38 +11,39 @@ class Hinge2 final : public Joint {
       : Joint(description.axes), joint_(dJointCreateHinge2(world, nullptr)) {
     // Hinge2 needs two bodies and wants the one that holds the first axis first: the parent. It counts the turn of the
     // first body relative to the second; about the negative axes, that is the child's about the positive ones.
-    dJointAttach(joint_, bodies.parent, bodies.child);
-    dJointSetHinge2Anchor(joint_, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+    dJointAttach(joint_.get(), bodies.parent, bodies.child);
+    dJointSetHinge2Anchor(joint_.get(), pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
     const Vector3 steering = -pose.Rot().RotateVector(description.axes[0].direction);
     const Vector3 rolling = -pose.Rot().RotateVector(description.axes[1].direction);
     const dVector3 axis1 = {steering.X(), steering.Y(), steering.Z()};
     const dVector3 axis2 = {rolling.X(), rolling.Y(), rolling.Z()};
-    dJointSetHinge2Axes(joint_, axis1, axis2);
+    dJointSetHinge2Axes(joint_.get(), axis1, axis2);
     steering_motor_ = separate_turning_motor(world, description.axes[0], steering, bodies.parent, bodies.child);
     apply_axes();
   }
 
   double position(int axis) const override {
-    return axis == 0 ? dJointGetHinge2Angle1(joint_) : -dJointGetHinge2Angle2(joint_);  // against its own rate
+    return axis == 0 ? dJointGetHinge2Angle1(joint_.get())
+                     : -dJointGetHinge2Angle2(joint_.get());  // against its own rate
   }
   double velocity(int axis) const override {
-    return axis == 0 ? dJointGetHinge2Angle1Rate(joint_) : dJointGetHinge2Angle2Rate(joint_);
+    return axis == 0 ? dJointGetHinge2Angle1Rate(joint_.get()) : dJointGetHinge2Angle2Rate(joint_.get());
   }
 
  private:
   void set_stop(int axis, int parameter, double value) override {
-    dJointSetHinge2Param(joint_, axis * dParamGroup + parameter, value);
+    dJointSetHinge2Param(joint_.get(), axis * dParamGroup + parameter, value);
   }
   void set_motor(int axis, int parameter, double value) override {
     if (axis == 0 && steering_motor_ != nullptr) {
-      dJointSetAMotorParam(steering_motor_, parameter, value);
+      dJointSetAMotorParam(steering_motor_.get(), parameter, value);
     } else {
-      dJointSetHinge2Param(joint_, axis * dParamGroup + parameter, value);
+      dJointSetHinge2Param(joint_.get(), axis * dParamGroup + parameter, value);
     }
   }
 
-  dJointID joint_;                     // owned by the ODE world
-  dJointID steering_motor_ = nullptr;  // too; null when the joint drives itself
+  ode::JointHandle joint_;
+  ode::JointHandle steering_motor_;  // null when the joint drives itself
 };
 
 }  // namespace

@@ -109,23 +109,23 @@ void Joint::drive_axis(int index, double step) {
   set_motor(index, dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
 }
 
-dJointID separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
-                                dBodyID second) {
+ode::JointHandle separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
+                                        dBodyID first, dBodyID second) {
   if (!has_limits(axis)) return nullptr;
-  dJointID motor = dJointCreateAMotor(world, nullptr);
-  dJointAttach(motor, first, second);
-  dJointSetAMotorNumAxes(motor, 1);
-  dJointSetAMotorAxis(motor, 0, 1, direction.X(), direction.Y(), direction.Z());
+  ode::JointHandle motor(dJointCreateAMotor(world, nullptr));
+  dJointAttach(motor.get(), first, second);
+  dJointSetAMotorNumAxes(motor.get(), 1);
+  dJointSetAMotorAxis(motor.get(), 0, 1, direction.X(), direction.Y(), direction.Z());
   return motor;
 }
 
-dJointID separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
-                                dBodyID second) {
+ode::JointHandle separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
+                                        dBodyID first, dBodyID second) {
   if (!has_limits(axis)) return nullptr;
-  dJointID motor = dJointCreateLMotor(world, nullptr);
-  dJointAttach(motor, first, second);
-  dJointSetLMotorNumAxes(motor, 1);
-  dJointSetLMotorAxis(motor, 0, 1, direction.X(), direction.Y(), direction.Z());
+  ode::JointHandle motor(dJointCreateLMotor(world, nullptr));
+  dJointAttach(motor.get(), first, second);
+  dJointSetLMotorNumAxes(motor.get(), 1);
+  dJointSetLMotorAxis(motor.get(), 0, 1, direction.X(), direction.Y(), direction.Z());
   return motor;
 }
 

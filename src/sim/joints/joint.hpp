@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "ode_handles.hpp"
 
 namespace bubblesim {
 
@@ -65,10 +66,10 @@ class Joint {
 /// ODE serves the stop and the motor of an axis by one constraint: a motor that pushes on a stop becomes a plain force,
 /// infinite when it has no limit. An axis with limits therefore has its motor in a joint of its own; these make it, for
 /// the motion of the first body relative to the second. They return null for an axis without limits.
-dJointID separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
-                                dBodyID second);
-dJointID separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction, dBodyID first,
-                                dBodyID second);
+ode::JointHandle separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
+                                        dBodyID first, dBodyID second);
+ode::JointHandle separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
+                                        dBodyID first, dBodyID second);
 
 /// Makes the joint in ODE. `pose` is the joint's frame in the world. Throws InvalidInput for a type that is not known.
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const Pose& pose,

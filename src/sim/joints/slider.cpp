@@ -9,24 +9,25 @@ class Slider final : public Joint {
  public:
   Slider(dWorldID world, const JointDescription& description, const Pose& pose, JointBodies bodies)
       : Joint(description.axes), joint_(dJointCreateSlider(world, nullptr)) {
-    dJointAttach(joint_, bodies.child, bodies.parent);
+    dJointAttach(joint_.get(), bodies.child, bodies.parent);
     const Vector3 axis = pose.Rot().RotateVector(description.axes[0].direction);
-    dJointSetSliderAxis(joint_, axis.X(), axis.Y(), axis.Z());
+    dJointSetSliderAxis(joint_.get(), axis.X(), axis.Y(), axis.Z());
     motor_ = separate_sliding_motor(world, description.axes[0], axis, bodies.child, bodies.parent);
     apply_axes();
   }
 
-  double position(int) const override { return dJointGetSliderPosition(joint_); }
-  double velocity(int) const override { return dJointGetSliderPositionRate(joint_); }
+  double position(int) const override { return dJointGetSliderPosition(joint_.get()); }
+  double velocity(int) const override { return dJointGetSliderPositionRate(joint_.get()); }
 
  private:
-  void set_stop(int, int parameter, double value) override { dJointSetSliderParam(joint_, parameter, value); }
+  void set_stop(int, int parameter, double value) override { dJointSetSliderParam(joint_.get(), parameter, value); }
   void set_motor(int, int parameter, double value) override {
-    motor_ != nullptr ? dJointSetLMotorParam(motor_, parameter, value) : dJointSetSliderParam(joint_, parameter, value);
+    motor_ != nullptr ? dJointSetLMotorParam(motor_.get(), parameter, value)
+                      : dJointSetSliderParam(joint_.get(), parameter, value);
   }
 
-  dJointID joint_;            // owned by the ODE world
-  dJointID motor_ = nullptr;  // too; null when the slider drives itself
+  ode::JointHandle joint_;
+  ode::JointHandle motor_;  // null when the slider drives itself
 };
 
 }  // namespace

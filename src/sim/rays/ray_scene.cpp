@@ -43,14 +43,6 @@ void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-std::vector<ObjectId> links_of(const SceneTree& tree, ObjectId model) {
-  std::vector<ObjectId> links;
-  for (const ObjectId child : tree.at(model).children) {
-    if (tree.at(child).kind == ObjectKind::kLink) links.push_back(child);
-  }
-  return links;
-}
-
 }  // namespace
 
 struct RayScene::InfinitePlane {
@@ -86,7 +78,7 @@ void RayScene::add_model(const World& world, ObjectId model, const ModelDescript
   auto placed = std::make_unique<ModelShapes>();
   const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                    [](const LinkDescription& link) { return !link.visuals.empty(); });
-  const std::vector<ObjectId> ids = links_of(world.tree(), model);
+  const std::vector<ObjectId> ids = world.tree().children(model, ObjectKind::kLink);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const LinkDescription& link = description.links[i];
     const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;
