@@ -37,6 +37,10 @@ class ChildScripts : public Participant {
   void stop() override;
   /// Loads the scripts afresh, from their files.
   void start() override;
+  /// Loads the script of a model that has one: it runs from the next actuation on.
+  void model_added(World& world, ObjectId model) override;
+  /// Calls sysCall_cleanup of a model's scripts and ends what they started.
+  void model_removing(World& world, ObjectId model) override;
   /// Calls sysCall_cleanup of all scripts and ends the programs they started.
   void finish();
 

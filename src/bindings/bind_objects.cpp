@@ -94,6 +94,9 @@ void bind_objects(py::module_& module) {
           "reading", [](const View& v) { return v.simulation().read_proximity(v.id()); },
           "What a proximity sensor measured last.")
       .def("__repr__", [](const View& v) {
+        if (v.tree().objects().count(v.id()) == 0) {
+          return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";
+        }
         return "<bubblesim.Object " + v.tree().path(v.id()) + " (" + std::string(kind_name(v.object().kind)) + ")>";
       });
 }

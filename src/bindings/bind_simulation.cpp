@@ -77,6 +77,21 @@ std::vector<ObjectView> all_objects(const py::object& simulation) {
   return views;
 }
 
+ObjectView add_model(const py::object& owner, const std::string& text, const std::string& name,
+                     const NumpyArray& position, const NumpyArray& orientation) {
+  auto& simulation = owner.cast<Simulation&>();
+  const Pose pose(to_vector(position, "position"), to_quaternion(orientation, "orientation"));
+  ObjectId id = kNoObject;
+  {
+    const py::gil_scoped_release others_may_run;
+    ModelDescription model = load_model(text, simulation.scene().file.parent_path());
+    if (!name.empty()) model.name = name;
+    model.pose = pose * model.pose;
+    id = simulation.add_model(std::move(model));
+  }
+  return {owner, id};
+}
+
 void bind_errors(py::module_& module) {
   static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
@@ -133,12 +148,25 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            "Simulates `passes` passes of `time_step` seconds, without holding the GIL.\n\n"
            ":raises Diverged: when a body leaves the finite world; reset it or load the scene again then.")
       .def("reset_world", &Simulation::reset_world, py::call_guard<py::gil_scoped_release>(),
-           "Puts all objects and sensors back to the start of the scene; time goes on, handles stay.\n\n"
+           "Puts the models that are there now back to where they came into the world; time goes on, handles stay.\n\n"
            "Call it between passes, or in a callback that brings messages or service calls: there it takes effect at\n"
            "once. A diverged simulation is of use again.\n\n"
            ":raises RuntimeError: in sysCall_actuation and sysCall_sensing, and while another thread steps.")
       .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
-           "As `reset_world`, and time starts at 0 again: what follows equals a new simulation, bit by bit.")
+           "As `reset_world`, and time starts at 0 again: what follows equals a new simulation of these models, bit\n"
+           "by bit.")
+      .def("add_model", &add_model, py::arg("text"), py::kw_only(), py::arg("name") = "",
+           py::arg("position") = py::make_tuple(0, 0, 0), py::arg("orientation") = py::make_tuple(0, 0, 0, 1),
+           R"(Adds a model, when `reset_world` may be called, and returns it.
+
+:param text: of an SDFormat or URDF file with one model. Its child script lies in the folder of the scene.
+:param name: instead of the one in the text.
+:param position: m, of the frame in which the text places the model.
+:param orientation: quaternion x, y, z, w of that frame.
+:raises SceneError: with all that is wrong with the model, also when its name is taken.)")
+      .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
+           "Removes a model with all that belongs to it, when `reset_world` may be called.\n\n"
+           "Handles of its objects name nothing from now on, and are not used again.")
       .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
       .def_property_readonly("seed", &Simulation::seed)

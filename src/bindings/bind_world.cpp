@@ -53,6 +53,8 @@ void bind_world(py::module_& module) {
       .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
+      .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
+      .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
       .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
       .def(

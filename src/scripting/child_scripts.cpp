@@ -104,6 +104,16 @@ void ChildScripts::start() {
   with_python([&] { python_->host.attr("start")(); });
 }
 
+void ChildScripts::model_added(World& world, ObjectId model) {
+  const std::filesystem::path& file = world.description(model).child_script;
+  if (file.empty()) return;
+  with_python([&] { python_->host.attr("add_script")(world.tree().path(model), file); });
+}
+
+void ChildScripts::model_removing(World&, ObjectId model) {
+  with_python([&] { python_->host.attr("end_scripts_of")(model); });
+}
+
 void ChildScripts::finish() {
   if (std::exchange(python_->finished, true)) return;
   with_python([&] { python_->finish(); });

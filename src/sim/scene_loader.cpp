@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
 // SDFormat writes a limit that does not exist as +-1e16.
 constexpr double kNoLimit = 1e15;
-// What SDFormat calls a text that comes from no file.
+// What SDFormat calls a text that came from no file.
 constexpr const char* kText = "<data-string>";
 
 Quaternion turn_from_z(const Vector3& direction) {
@@ -116,7 +116,7 @@ class SceneLoader {
 
   void read_own_elements(const sdf::Root& root) {
     if (root.Element() == nullptr) return;
-    xml_.number_own_elements(root.Element());
+    xml_.place_elements(root.Element());
     check_own_elements(root.Element(), problems_);
   }
 

@@ -47,7 +47,8 @@ std::string object_path(const tinyxml2::XMLElement& element) {
 /// SDFormat repeats each error for every element around it and once more for the file.
 bool only_follows(const std::string& message) {
   return message.rfind("Error reading element <", 0) == 0 || message.rfind("Unable to read file", 0) == 0 ||
-         message.rfind("Failed to load a world", 0) == 0 || message.find("Graph") != std::string::npos;
+         message.rfind("Unable to read SDF string", 0) == 0 || message.rfind("Failed to load a world", 0) == 0 ||
+         message.find("Graph") != std::string::npos;
 }
 
 }  // namespace
@@ -74,12 +75,13 @@ void SceneXml::check(tinyxml2::XMLError result) const {
   }
 }
 
-void SceneXml::number_own_elements(const sdf::ElementPtr& root) const {
+void SceneXml::place_elements(const sdf::ElementPtr& root) const {
   std::multimap<std::string, int> lines;
   visit(*document_.RootElement(), [&lines](const tinyxml2::XMLElement& element) {
     if (is_own_element(element.Name())) lines.emplace(place(element), element.GetLineNum());
   });
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
+    if (element->FilePath().empty()) element->SetFilePath(file_);
     if (is_own_element(element->GetName())) {
       const auto found = lines.find(place(element));
       if (found != lines.end()) {

@@ -21,8 +21,9 @@ class SceneXml {
   /// The same from the text of a file; `name` is what errors call it.
   SceneXml(const std::string& text, std::string name);
 
-  /// Gives our own elements below `root` their lines: SDFormat copies elements that it does not know without.
-  void number_own_elements(const sdf::ElementPtr& root) const;
+  /// Gives our own elements below `root` their lines, for SDFormat copies elements that it does not know without; and
+  /// all elements the name of a text that came from no file.
+  void place_elements(const sdf::ElementPtr& root) const;
 
   /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
   /// `object` is the path of the object that was being read, or empty.

@@ -79,6 +79,7 @@ ObjectId World::add_model(ModelDescription model) {
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   ode::prepare_this_thread();
+  model.pose.Rot().Normalize();
   const bool is_static = model.is_static;
   const ObjectId id = enter_model(state_->tree, model);
   try {

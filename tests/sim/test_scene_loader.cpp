@@ -238,5 +238,77 @@ TEST(LoadedScene, FindsTheChildScriptBesideTheFile) {
   EXPECT_TRUE(fs::equivalent(load_scene("tricycle").models.back().child_script, kScenes / "tricycle.py"));
 }
 
+/// The same for the text of a model.
+std::string complaints_about_model(const std::string& text) {
+  try {
+    load_model(text, kScenes);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "it loads";
+}
+
+std::string sphere_model(const std::string& mass) {
+  return "<sdf version='1.9'>\n<model name='Ball'><pose>1 2 3 0 0 0</pose><link name='l'>\n"
+         "<inertial><mass>" +
+         mass +
+         "</mass></inertial>"
+         "<collision name='c'><geometry><sphere><radius>0.5</radius></sphere></geometry></collision>"
+         "</link></model></sdf>";
+}
+
+TEST(ModelText, IsReadAsAFileIs) {
+  const ModelDescription ball = load_model(sphere_model("2"), kScenes);
+  EXPECT_EQ(ball.name, "Ball");
+  EXPECT_EQ(ball.pose.Pos(), Vector3(1, 2, 3));
+  EXPECT_EQ(ball.links.at(0).mass, 2);
+  EXPECT_EQ(std::get<Sphere>(ball.links.at(0).collisions.at(0).geometry).radius, 0.5);
+}
+
+TEST(ModelText, MayBeUrdf) {
+  const ModelDescription arm = load_model(R"(<?xml version="1.0"?>
+    <robot name="Arm">
+      <link name="base"><inertial><mass value="3"/>
+        <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+      <link name="tip"><inertial><origin xyz="0 0 0.5"/><mass value="1"/>
+        <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+      <joint name="swing" type="revolute"><parent link="base"/><child link="tip"/><origin xyz="0 0 2"/>
+        <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="5" velocity="2"/></joint>
+    </robot>)",
+                                          kScenes);
+  EXPECT_EQ(arm.name, "Arm");
+  ASSERT_EQ(arm.links.size(), 2u);
+  EXPECT_EQ(arm.links[0].mass, 3);
+  EXPECT_EQ(arm.links[1].pose.Pos(), Vector3(0, 0, 2));
+  ASSERT_EQ(arm.joints.size(), 1u);
+  EXPECT_EQ(arm.joints[0].axes.at(0).upper, 1);
+}
+
+TEST(ModelText, FindsItsChildScriptInTheFolder) {
+  std::string text = sphere_model("1");
+  text.replace(text.find("<link"), 0, "<bubblesim:child_script>tricycle.py</bubblesim:child_script>");
+  EXPECT_TRUE(fs::equivalent(load_model(text, kScenes).child_script, kScenes / "tricycle.py"));
+}
+
+TEST(ModelText, ThatCannotBeUsedTellsWhere) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "<data-string>: is empty"},
+      {"ball", "<data-string>"},
+      {"<sdf version='1.9'>\n<model name='Ball'>\n<link></sdf>", "<data-string>:3: is not well-formed XML here"},
+      {"<html/>", "<data-string>:1: is no scene"},
+      {"<sdf version='1.9'/>", "<data-string>"},
+      {"<sdf version='1.9'><world name='w'/></sdf>", "holds a <world>: a <model> is wanted"},
+      {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
+      {sphere_model("heavy"), "<data-string>:3: <mass> is 'heavy'"},
+      {sphere_model("nan"), "<data-string>:2: A link named l has invalid inertia"},
+      {"<robot name='r'><link name='l'/></robot>", "must have at least one link"},
+      {"<robot/>", "<data-string>"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const std::string error = complaints_about_model(text);
+    EXPECT_NE(error.find(expected), std::string::npos) << text << "\n" << error;
+  }
+}
+
 }  // namespace
 }  // namespace bubblesim::test

@@ -33,6 +33,7 @@ class ChildScript:
         self.object_handle = object_handle
         self.file = file
         self.alive = True
+        self.running = False  # its code is on the call stack
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
@@ -89,12 +90,12 @@ class ChildScript:
     def run(self, what: str, action: Hook) -> bool:
         """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
         try:
-            outer = interruption.allowed
+            outer = interruption.allowed, self.running
             try:
-                interruption.allowed = True
+                interruption.allowed = self.running = True
                 action()
             finally:
-                interruption.allowed = outer
+                interruption.allowed, self.running = outer
         except SystemExit:
             self._end()
         except BaseException as error:

@@ -41,8 +41,7 @@ class ScriptHost:
         self.failures = 0
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
-        # Descendants before ancestors, siblings in the scene's order.
-        self._placed.sort(key=lambda script: (-script[0].count("/"), script[1]))
+        self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
         self.start()
 
@@ -56,6 +55,35 @@ class ScriptHost:
         self.scripts = []
         self.signals.clear()
         gc.collect()  # the globals and functions of a script refer to each other
+
+    def add_script(self, path: str, file: Path) -> None:
+        """Place the script of a model that has come into the world, and load it unless the simulation is stopped."""
+        handle = self.simulation.object(path).handle
+        self._placed.append((path, handle, Path(file)))
+        self._placed.sort(key=lambda script: _turn(script[0], script[1]))
+        if self.simulation.state == _core.RunState.STOPPED:
+            return
+        loaded = [*self.scripts, ChildScript(self, path, handle, Path(file))]
+        self.scripts = sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle))
+
+    def end_scripts_of(self, model: int) -> None:
+        """Call sysCall_cleanup of the scripts of a model that is about to leave the world, and forget them."""
+        ending = self._scripts_of(model)
+        for script in ending:
+            script.finish()
+        self.scripts = [script for script in self.scripts if script not in ending]
+        model_of = self.simulation.world.model_of
+        self._placed = [script for script in self._placed if model_of(script[1]) != model]
+
+    def remove_model(self, model: int) -> None:
+        """Remove a model from the world with its scripts, but not from within one of these: RuntimeError."""
+        if any(script.running for script in self._scripts_of(model)):
+            raise RuntimeError("a child script cannot remove the model that it belongs to")
+        self.simulation.remove_model(model)
+
+    def _scripts_of(self, model: int) -> list[ChildScript]:
+        model_of = self.simulation.world.model_of
+        return [script for script in self.scripts if model_of(script.object_handle) == model]
 
     def make_modules(self, script: ChildScript) -> dict[str, Any]:
         """The modules that a script finds among its globals."""
@@ -94,3 +122,8 @@ class ScriptHost:
         """Call sysCall_cleanup of all scripts and end what they started."""
         for script in self.scripts:
             script.finish()
+
+
+def _turn(path: str, handle: int) -> tuple[int, int]:
+    """Order in which scripts are called: descendants before ancestors, siblings in the scene's order."""
+    return (-path.count("/"), handle)
