@@ -25,6 +25,8 @@ Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quaternion(p[6
 
 std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
 
+Vector3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
 Pose7 pose_in(const World& world, ObjectId object, const Pose& frame) {
   return to_list(frame.Inverse() * world.pose(object));
 }
@@ -63,6 +65,14 @@ void bind_world(py::module_& module) {
       .def("set_pose", [](World& w, ObjectId id, const Pose7& pose) { w.set_pose(id, to_pose(pose)); })
       .def("set_pose_in", [](World& w, ObjectId id, const Pose7& pose,
                              ObjectId frame) { w.set_pose(id, frame_of(w, frame) * to_pose(pose)); })
+      .def(
+          "pose_from",
+          [](const World& w, const Pose7& pose, ObjectId frame) { return to_list(frame_of(w, frame) * to_pose(pose)); },
+          "Pose in the world of what has this pose in the frame of an object; see `pose_in`.")
+      .def("set_velocity",
+           [](World& w, ObjectId id, const std::array<double, 3>& linear, const std::array<double, 3>& angular) {
+             w.set_velocity(id, {to_vector(linear), to_vector(angular)});
+           })
       .def("velocity",
            [](const World& w, ObjectId id) {
              const Twist v = w.velocity(id);

@@ -149,6 +149,8 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
   std::smatch match;
   const std::string message = first.Message();
   const bool is_unread = file == file_ && std::regex_match(message, match, unread);
+  // It repeats the whole text then, and has told the cause, if it knows it, on stderr only.
+  if (message.rfind("Unable to read SDF string", 0) == 0) return {{file, 0, "", "SDFormat can make no model of it"}};
   return {{file, line, object, is_unread ? unusable_text(match.str(1), line) : message}};
 }
 

@@ -2,4 +2,4 @@
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))  # for remote_control.py
+sys.path.insert(0, str(Path(__file__).parent))  # for service_caller.py

@@ -302,7 +302,7 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {sphere_model("heavy"), "<data-string>:3: <mass> is 'heavy'"},
       {sphere_model("nan"), "<data-string>:2: A link named l has invalid inertia"},
       {"<robot name='r'><link name='l'/></robot>", "must have at least one link"},
-      {"<robot/>", "<data-string>"},
+      {"<robot/>", "<data-string>: SDFormat can make no model of it"},
   };
   for (const auto& [text, expected] : cases) {
     const std::string error = complaints_about_model(text);

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bubblesim.control.model_services import ModelServices
 from bubblesim.control.object_services import ObjectServices
 from bubblesim.control.reset_services import offer_reset_services
 from bubblesim.control.simulation_topics import listen_to_simulation_topics
@@ -13,6 +14,7 @@ from bubblesim.scripting.host import ScriptHost
 def offer_services(host: ScriptHost) -> None:
     """Offer all of them, through the host's bridge."""
     ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
+    ModelServices(host)
     offer_reset_services(host.bridge, host)
     offer_step_service(host.bridge, host.simulation)
     listen_to_simulation_topics(host.bridge, host.simulation)

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How services report what is wrong with a request."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+Message = dict[str, Any]
+
+
+def telling_errors(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
+    """Report errors in the response's success and status_message, where callers look for them."""
+
+    def guarded(request: Message) -> Message:
+        try:
+            return {"success": True, **answer(request)}
+        except (LookupError, ValueError, RuntimeError) as error:
+            return {"success": False, "status_message": str(error)}
+
+    return guarded
