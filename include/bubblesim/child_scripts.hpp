@@ -31,8 +31,10 @@ class ChildScripts : public Participant {
   ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
   ~ChildScripts() override;
 
+  void drain() override;
   void actuate(World& world, double time) override;
   void sense(const World& world, double time) override;
+  void publish(const World& world, double time) override;
   /// finish(), and forgets the scripts.
   void stop() override;
   /// Loads the scripts afresh, from their files.

@@ -46,6 +46,7 @@ class RosBridge final : public messages::Bridge {
                                  bool latch) override;
   messages::EndpointId subscribe(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
                                  messages::MessageCallback callback, bool tcp_no_delay) override;
+  void give_way(messages::EndpointId endpoint) override;
   bool wants_messages(messages::EndpointId publisher) const override;
   const messages::MessageType& message_type(messages::EndpointId endpoint) const override;
   void publish(messages::EndpointId publisher, messages::WireBuffer message) override;
@@ -65,6 +66,9 @@ class RosBridge final : public messages::Bridge {
   std::optional<std::string> search_parameter(const std::string& name) override;
   void drain() override;
   messages::BridgeTime now() const override;
+
+  /// Sleeps until something has come that drain() would deliver, or for `timeout` seconds.
+  void wait_for_arrival(double timeout);
 
   /// To be called once a pass: publishes the simulation time [s] on /clock and makes it what now() returns under
   /// /use_sim_time. While a script advertises /clock itself, only the latter.

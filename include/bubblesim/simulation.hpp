@@ -78,12 +78,20 @@ class Simulation {
   void pause();
   void stop();  ///< one more pass, then world and time go back to the start
   void end() { ending_ = true; }
+  /// In synchronous mode passes wait to be triggered, each by one trigger; those that came too early are not lost, but
+  /// for a stop. step() does not wait for them. Any thread.
+  void set_synchronous(bool synchronous);
+  void trigger_pass();
   /// From now on a stop is an end: after its last pass the world stays as it is.
   void end_at_stop() { ends_at_stop_ = true; }
 
   /// Between passes. Throws what step() throws.
   void carry_out_requests();
   bool has_requests() const;
+  /// Whether whoever runs the passes should run one.
+  bool pass_is_due() const;
+  /// step(), by which a trigger is used up.
+  void run_pass();
   /// Running to begin with.
   RunState state() const { return state_; }
   /// Whether no more passes are wanted of whoever runs them.
@@ -110,6 +118,7 @@ class Simulation {
 
   void request(Request wanted);
   void carry_out(Request wanted);
+  void forget_triggers();
 
   void check_may_change() const;
   void make_sensors(ObjectId model);
@@ -131,8 +140,10 @@ class Simulation {
   std::atomic<RunState> state_{RunState::kRunning};
   std::atomic<bool> ending_{false};
   bool ends_at_stop_ = false;
-  mutable std::mutex requests_mutex_;
+  mutable std::mutex requests_mutex_;  // guards what follows
   std::vector<Request> requests_;
+  bool synchronous_ = false;
+  std::uint64_t triggers_ = 0;  // not used up yet
 };
 
 }  // namespace bubblesim

@@ -22,7 +22,7 @@
 namespace bubblesim::app {
 namespace {
 
-constexpr double kIdlePeriod = 0.02;  // s between looks at ROS while no passes are run
+constexpr double kIdlePeriod = 0.02;  // s, after which the loop looks around when nothing comes
 
 /// Images and point clouds come and go in every pass: their memory stays with the process, for getting it from the
 /// kernel page by page costs more than copying the message.
@@ -52,17 +52,22 @@ bool time_is_up(const Options& options, const Simulation& simulation) {
   return options.until && simulation.time() > *options.until - 1e-6 * simulation.time_step();
 }
 
-int run(const Options& options, Simulation& simulation, const ChildScripts& scripts) {
+void wait(RosBridge* bridge) {
+  if (bridge != nullptr) return bridge->wait_for_arrival(kIdlePeriod);
+  std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
+}
+
+int run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts) {
   Pacer pacer(options.speed);
   while (!stop_requested() && !time_is_up(options, simulation)) {
     simulation.carry_out_requests();
     if (simulation.ending()) break;
-    if (simulation.state() != RunState::kRunning) {
+    if (simulation.state() != RunState::kRunning) pacer.restart();
+    if (!simulation.pass_is_due()) {
       simulation.drain();
-      pacer.restart();
-      std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
+      if (!simulation.pass_is_due() && !simulation.has_requests()) wait(bridge);
     } else if (pacer.wait_for(simulation.time())) {
-      simulation.step();
+      simulation.run_pass();
     } else {
       simulation.drain();  // a slow simulation hears what it is asked
     }
@@ -92,7 +97,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
   ChildScripts scripts(simulation, bridge.get(), {options.child_scripts, options.script_paths, options.lua_unsafe});
   simulation.add(scripts);
 
-  int exit_code = run(options, simulation, scripts);
+  int exit_code = run(options, simulation, bridge.get(), scripts);
   scripts.finish();
   guard.reset();
   if (options.strict && scripts.failures() > 0) exit_code = kScriptFailed;

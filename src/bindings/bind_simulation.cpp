@@ -176,6 +176,9 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")
       .def("stop", &Simulation::stop, "Asks whoever runs the passes to stop: back to the start of the scene.")
       .def("end", &Simulation::end, "Asks whoever runs the passes to end.")
+      .def("set_synchronous", &Simulation::set_synchronous, py::arg("synchronous"),
+           "Asks whoever runs the passes to run one for each trigger_pass(), none else.")
+      .def("trigger_pass", &Simulation::trigger_pass)
       .def_property_readonly("state", &Simulation::state)
       .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
       .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")

@@ -24,6 +24,8 @@ namespace bubblesim {
 class PublisherEndpoint {
  public:
   PublisherEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size, bool latch);
+  /// One to register in its place; what this one latched is not in it.
+  std::shared_ptr<PublisherEndpoint> unregistered_copy() const;
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }

@@ -51,6 +51,10 @@ PublisherEndpoint::PublisherEndpoint(std::string topic, const MessageType& type,
       queue_size_(queue_size),
       latch_(latch ? std::make_shared<Latch>() : nullptr) {}
 
+std::shared_ptr<PublisherEndpoint> PublisherEndpoint::unregistered_copy() const {
+  return std::make_shared<PublisherEndpoint>(topic_, type_, queue_size_, latch_ != nullptr);
+}
+
 bool PublisherEndpoint::has_subscribers() const {
   return registered_.load(std::memory_order_acquire) && publication_->hasSubscribers();
 }

@@ -17,6 +17,7 @@ void RequestQueue::addCallback(const ros::CallbackInterfacePtr& request, std::ui
     requests_.push_back({request, owner});
   }
   changed_.notify_all();
+  arrivals_->note();
 }
 
 void RequestQueue::removeByID(std::uint64_t owner) {

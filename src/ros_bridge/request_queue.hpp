@@ -8,7 +8,11 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <utility>
+
+#include "arrivals.hpp"
 
 namespace bubblesim {
 
@@ -18,6 +22,8 @@ namespace bubblesim {
 class RequestQueue final : public ros::CallbackQueueInterface {
  public:
   using Clock = std::chrono::steady_clock;
+
+  explicit RequestQueue(std::shared_ptr<Arrivals> arrivals) : arrivals_(std::move(arrivals)) {}
 
   void addCallback(const ros::CallbackInterfacePtr& request, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override;
@@ -38,6 +44,7 @@ class RequestQueue final : public ros::CallbackQueueInterface {
     std::uint64_t owner;
   };
 
+  const std::shared_ptr<Arrivals> arrivals_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Request> requests_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/ros_bridge.hpp"
 
-#include <ros/callback_queue.h>
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/names.h>
@@ -19,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "arrivals.hpp"
 #include "endpoint_table.hpp"
 #include "endpoints.hpp"
 #include "master_call.hpp"
@@ -31,6 +31,7 @@
 #include "refused_peers.hpp"
 #include "say.hpp"
 #include "services.hpp"
+#include "topics.hpp"
 
 namespace bubblesim {
 namespace {
@@ -52,35 +53,26 @@ BridgeTime to_bridge_time(std::int64_t nanoseconds) {
           static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
 }
 
-/// A topic has one type in a node.
-void check_same_type(const std::string& topic, const MessageType& type, const char* done, const MessageType& other) {
-  if (type.md5 == other.md5) return;
-  throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name +
-                              ", so it cannot be " + type.name);
-}
-
 }  // namespace
 
 struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
-  void check_type_on(const std::string& topic, const MessageType& type) const;
   void offer_pause_service(const std::string& name, bool paused);
+  void check_clock(const std::string& topic, const MessageType& type) const;
   void on_connected();
   void read_use_sim_time();
 
   const RosBridgeOptions options;
-  ros::CallbackQueue queue;
+  const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>();
+  NotingQueue queue{arrivals};
   CallbackGuard guard;
   bool draining = false;
 
-  EndpointTable<PublisherEndpoint> publishers;
-  EndpointTable<SubscriberEndpoint> subscribers;
   EndpointId next_id = 1;
 
   const std::shared_ptr<PublisherEndpoint> clock =
       std::make_shared<PublisherEndpoint>(ros::names::resolve("/clock"), clock_type(), kClockQueueSize, false);
-  int script_clocks = 0;  // publishers of scripts on the same topic
   bool said_script_clock = false;
   std::int64_t sim_time = 0;  // [ns]
   std::atomic<bool> use_sim_time{false};
@@ -93,7 +85,8 @@ struct RosBridge::Impl {
   PublisherCheck publisher_check;
   RefusedPeers refused_peers;
   MasterThread master;
-  Services services{master, watch, guard, options.is_ending};
+  Topics topics{master, publisher_check, queue, guard};
+  Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
   Parameters parameters{master};
 };
@@ -137,14 +130,8 @@ void RosBridge::Impl::read_use_sim_time() {
   ros::TopicManager::instance()->subscribe(clock_options);
 }
 
-void RosBridge::Impl::check_type_on(const std::string& topic, const MessageType& type) const {
+void RosBridge::Impl::check_clock(const std::string& topic, const MessageType& type) const {
   if (topic == clock->topic()) check_same_type(topic, type, "advertised", clock->type());
-  for (const auto& [id, other] : publishers) {
-    if (other->topic() == topic) check_same_type(topic, type, "advertised", other->type());
-  }
-  for (const auto& [id, other] : subscribers) {
-    if (other->topic() == topic) check_same_type(topic, type, "subscribed", other->type());
-  }
 }
 
 void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
@@ -162,7 +149,7 @@ RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
 
 RosBridge::~RosBridge() {
   // Here and not where roscpp lets go of them: scripts' callbacks must die on the simulation's thread.
-  for (const auto& [id, subscriber] : impl_->subscribers) subscriber->silence();
+  impl_->topics.silence();
   impl_->services.silence();
   if (leave() && impl_->services.finish_calls(kLastCalls)) return;
   say("the ROS master at " + master_uri() + " does not answer: leaving without taking this node off it");
@@ -174,65 +161,35 @@ bool RosBridge::leave() { return impl_->master.stop(); }
 EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 bool latch) {
   const std::string resolved = resolve_name(topic, "topic");
-  impl_->check_type_on(resolved, type);
-  if (resolved == impl_->clock->topic()) {
-    ++impl_->script_clocks;
-    if (!std::exchange(impl_->said_script_clock, true)) {
-      say("a script advertises " + resolved + ": the simulator leaves publishing it to the script");
-    }
+  impl_->check_clock(resolved, type);
+  impl_->topics.advertise(impl_->next_id, resolved, type, queue_size, latch);
+  if (resolved == impl_->clock->topic() && !std::exchange(impl_->said_script_clock, true)) {
+    say("a script advertises " + resolved + ": the simulator leaves publishing it to the script");
   }
-  const auto publisher = std::make_shared<PublisherEndpoint>(resolved, type, queue_size, latch);
-  const EndpointId id = impl_->next_id++;
-  impl_->publishers.emplace(id, publisher);
-  impl_->master.post([publisher] { publisher->register_at_master(); });
-  return id;
+  return impl_->next_id++;
 }
 
 EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 messages::MessageCallback callback, bool tcp_no_delay) {
   const std::string resolved = resolve_name(topic, "topic");
-  impl_->check_type_on(resolved, type);
-  const auto subscriber = std::make_shared<SubscriberEndpoint>(resolved, type, queue_size, std::move(callback),
-                                                               tcp_no_delay, impl_->queue, impl_->guard);
-  const EndpointId id = impl_->next_id++;
-  impl_->subscribers.emplace(id, subscriber);
-  impl_->master.post([impl = impl_.get(), subscriber] {
-    subscriber->register_at_master();
-    impl->publisher_check.add(subscriber->topic(), subscriber->type());
-  });
-  return id;
+  impl_->check_clock(resolved, type);
+  impl_->topics.subscribe(impl_->next_id, resolved, type, queue_size, std::move(callback), tcp_no_delay);
+  return impl_->next_id++;
 }
 
-bool RosBridge::wants_messages(EndpointId publisher) const {
-  return find_endpoint(impl_->publishers, publisher, "publisher")->second->wants_messages();
-}
+void RosBridge::give_way(EndpointId endpoint) { impl_->topics.give_way(endpoint); }
 
-const MessageType& RosBridge::message_type(EndpointId endpoint) const {
-  const auto publisher = impl_->publishers.find(endpoint);
-  if (publisher != impl_->publishers.end()) return publisher->second->type();
-  return find_endpoint(impl_->subscribers, endpoint, "publisher or subscriber")->second->type();
-}
+bool RosBridge::wants_messages(EndpointId publisher) const { return impl_->topics.wants_messages(publisher); }
+
+const MessageType& RosBridge::message_type(EndpointId endpoint) const { return impl_->topics.type(endpoint); }
 
 void RosBridge::publish(EndpointId publisher, WireBuffer message) {
-  find_endpoint(impl_->publishers, publisher, "publisher")->second->publish(std::move(message));
+  impl_->topics.publish(publisher, std::move(message));
 }
 
-void RosBridge::shutdown_publisher(EndpointId publisher) {
-  const auto found = find_endpoint(impl_->publishers, publisher, "publisher");
-  if (found->second->topic() == impl_->clock->topic()) --impl_->script_clocks;
-  impl_->master.post([gone = std::move(found->second)] { gone->unregister_from_master(); });
-  impl_->publishers.erase(found);
-}
+void RosBridge::shutdown_publisher(EndpointId publisher) { impl_->topics.shutdown_publisher(publisher); }
 
-void RosBridge::shutdown_subscriber(EndpointId subscriber) {
-  const auto found = find_endpoint(impl_->subscribers, subscriber, "subscriber");
-  found->second->silence();
-  impl_->master.post([impl = impl_.get(), gone = std::move(found->second)] {
-    impl->publisher_check.remove(gone->topic());
-    gone->unregister_from_master();
-  });
-  impl_->subscribers.erase(found);
-}
+void RosBridge::shutdown_subscriber(EndpointId subscriber) { impl_->topics.shutdown_subscriber(subscriber); }
 
 EndpointId RosBridge::advertise_service(const std::string& name, const ServiceType& type,
                                         messages::ServiceCallback callback) {
@@ -285,6 +242,8 @@ void RosBridge::drain() {
   impl_->guard.rethrow();
 }
 
+void RosBridge::wait_for_arrival(double timeout) { impl_->arrivals->wait(std::chrono::duration<double>(timeout)); }
+
 BridgeTime RosBridge::now() const {
   // Before the master was asked, the wall clock is what any other node would use too.
   if (impl_->use_sim_time) return to_bridge_time(impl_->sim_time);
@@ -294,7 +253,7 @@ BridgeTime RosBridge::now() const {
 
 void RosBridge::publish_clock(double sim_time) {
   impl_->sim_time = std::max<std::int64_t>(0, std::llround(sim_time * kNanosecondsPerSecond));
-  if (impl_->script_clocks > 0 || !impl_->clock->wants_messages()) return;
+  if (!impl_->clock->wants_messages() || impl_->topics.publishers_on(impl_->clock->topic()) > 0) return;
   const BridgeTime time = to_bridge_time(impl_->sim_time);
   WireBuffer message;
   message.put(time.sec);

@@ -47,8 +47,13 @@ std::string seconds_text(double seconds) {
 
 }  // namespace
 
-Services::Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::function<bool()> interrupted)
-    : master_(master), watch_(watch), guard_(guard), interrupted_(std::move(interrupted)) {}
+Services::Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::shared_ptr<Arrivals> arrivals,
+                   std::function<bool()> interrupted)
+    : master_(master),
+      watch_(watch),
+      guard_(guard),
+      interrupted_(std::move(interrupted)),
+      queue_(std::make_shared<RequestQueue>(std::move(arrivals))) {}
 
 Services::~Services() { retired_.clear(); }
 

@@ -26,7 +26,8 @@ class MasterWatch;
 class Services {
  public:
   /// `interrupted` may be empty; when it says true, calls that wait are given up.
-  Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::function<bool()> interrupted);
+  Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::shared_ptr<Arrivals> arrivals,
+           std::function<bool()> interrupted);
   ~Services();
 
   /// Refuses a name that is offered already. The new server is not registered yet.
@@ -63,7 +64,7 @@ class Services {
   MasterWatch& watch_;
   CallbackGuard& guard_;
   const std::function<bool()> interrupted_;
-  const std::shared_ptr<RequestQueue> queue_ = std::make_shared<RequestQueue>();
+  const std::shared_ptr<RequestQueue> queue_;
   const std::shared_ptr<std::atomic<int>> calls_ = std::make_shared<std::atomic<int>>(0);  // threads that run
   int nested_ = 0;  // calls that wait, each but the first made while the one before it did
   EndpointTable<ServiceServer> servers_;

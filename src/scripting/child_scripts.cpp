@@ -54,6 +54,8 @@ auto with_python(Action action) {
 struct ChildScripts::Python {
   scripting::Interpreter interpreter;
   py::object host;
+  py::object drain;    // none without a bridge
+  py::object publish;  // nor this
   py::object actuate;
   py::object sense;
   py::object finish;
@@ -69,8 +71,11 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                                scripts_to_run(simulation, options), options.search_paths,
                                py::arg("lua_unsafe") = options.lua_unsafe);
     if (bridge != nullptr) {
-      py::module_::import("bubblesim.control.offered").attr("offer_services")(python_->host);
+      const py::object control = py::module_::import("bubblesim.control.offered").attr("Control")(python_->host);
+      python_->drain = control.attr("drain");
+      python_->publish = control.attr("publish");
     }
+    python_->host.attr("start")();
     // Looked up once, called in every pass.
     python_->actuate = python_->host.attr("actuate");
     python_->sense = python_->host.attr("sense");
@@ -85,7 +90,16 @@ ChildScripts::~ChildScripts() {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
   const py::gil_scoped_acquire gil;
-  python_->actuate = python_->sense = python_->finish = python_->host = py::object();
+  python_->actuate = python_->sense = python_->finish = python_->drain = python_->publish = python_->host =
+      py::object();
+}
+
+void ChildScripts::drain() {
+  if (python_->drain) with_python([&] { python_->drain(); });
+}
+
+void ChildScripts::publish(const World&, double) {
+  if (python_->publish) with_python([&] { python_->publish(); });
 }
 
 void ChildScripts::actuate(World&, double) {

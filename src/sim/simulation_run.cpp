@@ -17,9 +17,39 @@ void Simulation::request(Request wanted) {
   requests_.push_back(wanted);
 }
 
+void Simulation::set_synchronous(bool synchronous) {
+  const std::lock_guard lock(requests_mutex_);
+  synchronous_ = synchronous;
+  if (!synchronous) triggers_ = 0;
+}
+
+void Simulation::trigger_pass() {
+  const std::lock_guard lock(requests_mutex_);
+  if (synchronous_) ++triggers_;
+}
+
+bool Simulation::pass_is_due() const {
+  if (state_ != RunState::kRunning) return false;
+  const std::lock_guard lock(requests_mutex_);
+  return !synchronous_ || triggers_ > 0;
+}
+
+void Simulation::run_pass() {
+  {
+    const std::lock_guard lock(requests_mutex_);
+    if (triggers_ > 0) --triggers_;
+  }
+  step();
+}
+
 bool Simulation::has_requests() const {
   const std::lock_guard lock(requests_mutex_);
   return !requests_.empty();
+}
+
+void Simulation::forget_triggers() {
+  const std::lock_guard lock(requests_mutex_);
+  triggers_ = 0;
 }
 
 void Simulation::carry_out_requests() {
@@ -53,6 +83,7 @@ void Simulation::carry_out(Request wanted) {
       for (Participant* participant : participants_) participant->stop();
       reset();
       state_ = RunState::kStopped;
+      forget_triggers();
       return;
   }
 }

@@ -4,9 +4,11 @@
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 
+from node_support import Node
 from ros_support import start, stop, wait_until
 
 
@@ -22,8 +24,12 @@ class Remote:
         wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
 
     def press(self, what: str) -> None:
+        """`start`, `pause` or `stop`."""
+        self.send(f"/{what}Simulation", value=True)
+
+    def send(self, topic: str, *, value: bool, count: int = 1) -> None:
         assert self._process.stdin is not None
-        self._process.stdin.write(f"/{what}Simulation\n")
+        self._process.stdin.write(f"{topic} {value} {count}\n")
         self._process.stdin.flush()
 
     def heard(self, topic: str) -> list[str]:
@@ -39,3 +45,7 @@ class Remote:
         assert self._process.stdin is not None
         self._process.stdin.close()  # ends what it does; it would not look at a signal while it reads
         stop(self._process)
+
+
+Run = Callable[..., tuple[Node, Remote]]
+"""The fixture `run`: a script's code, options of the node, and `hear`, as Remote takes it."""

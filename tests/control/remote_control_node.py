@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node of remote_control.py: publishes a Bool on each topic that it reads from stdin, and prints what it hears on
-those of its arguments, topic=Type of std_msgs."""
+"""The node of remote_control.py: publishes Bools as it reads from stdin, a topic, a value and a number of messages in
+each line, and prints what it hears on those of its arguments, topic=Type of std_msgs."""
 
 import sys
 import time
@@ -8,7 +8,7 @@ import time
 import rospy
 import std_msgs.msg
 
-COMMANDS = ("/startSimulation", "/pauseSimulation", "/stopSimulation")
+COMMANDS = ("/startSimulation", "/pauseSimulation", "/stopSimulation", "/enableSyncMode", "/triggerNextStep")
 
 rospy.init_node("remote_control")
 publishers = {topic: rospy.Publisher(topic, std_msgs.msg.Bool, queue_size=1000) for topic in COMMANDS}
@@ -23,4 +23,6 @@ while not all(publisher.get_num_connections() for publisher in publishers.values
     time.sleep(0.01)
 print("connected", flush=True)
 for line in sys.stdin:
-    publishers[line.strip()].publish(True)
+    pressed, value, count = line.split()
+    for _ in range(int(count)):
+        publishers[pressed].publish(value == "True")

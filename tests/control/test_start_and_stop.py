@@ -4,35 +4,16 @@
 import re
 import socket
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from remote_control import Remote
+from remote_control import Run
 
 from node_support import NAME, Node, run_script, write
 from ros_support import RosCore, free_port, wait_until
 
 MASTER_CONNECTIONS = 2  # that roscpp keeps open between calls, or not, as it happens
 RESTARTS = 5
-
-
-Run = Callable[..., tuple[Node, Remote]]
-
-
-@pytest.fixture
-def run(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
-    """The ball with a script of the test's own, and the remote control."""
-    with ExitStack() as ends:
-
-        def begin(code: str, *options: str, hear: Sequence[str] = ()) -> tuple[Node, Remote]:
-            file = write(tmp_path / "script.py", code)
-            arguments = ["ball", "--child-script", f"/Ball={file}", *options]
-            node = ends.enter_context(Node(roscore.env, tmp_path / "log", *arguments))
-            return node, ends.enter_context(Remote(roscore.env, tmp_path / "heard", *hear))
-
-        yield begin
 
 
 def count(node: Node, text: str) -> int:

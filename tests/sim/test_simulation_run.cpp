@@ -127,6 +127,40 @@ TEST_F(Run, AStopMayBeAnEnd) {
   EXPECT_DOUBLE_EQ(simulation.time(), 0.05);
 }
 
+TEST_F(Run, InSynchronousModeEachTriggerIsGoodForOnePass) {
+  EXPECT_TRUE(simulation.pass_is_due());
+  simulation.trigger_pass();  // not in the mode: nothing
+  simulation.set_synchronous(true);
+  EXPECT_FALSE(simulation.pass_is_due());
+  simulation.trigger_pass();
+  simulation.trigger_pass();
+  simulation.set_synchronous(true);
+  int passes = 0;
+  for (; simulation.pass_is_due(); ++passes) simulation.run_pass();
+  EXPECT_EQ(passes, 2);
+  simulation.trigger_pass();
+  simulation.set_synchronous(false);
+  EXPECT_TRUE(simulation.pass_is_due());
+  simulation.set_synchronous(true);
+  EXPECT_FALSE(simulation.pass_is_due()) << "a trigger of before";
+}
+
+TEST_F(Run, APauseKeepsTriggersAndAStopForgetsThem) {
+  simulation.set_synchronous(true);
+  simulation.trigger_pass();
+  simulation.pause();
+  simulation.carry_out_requests();
+  EXPECT_FALSE(simulation.pass_is_due());
+  simulation.start();
+  simulation.carry_out_requests();
+  EXPECT_TRUE(simulation.pass_is_due());
+  simulation.stop();
+  simulation.start();
+  simulation.carry_out_requests();
+  EXPECT_FALSE(simulation.pass_is_due()) << "still synchronous, and waiting";
+  EXPECT_EQ(simulation.state(), RunState::kRunning);
+}
+
 TEST_F(Run, OtherThreadsMayAsk) {
   std::vector<std::thread> others;
   for (int i = 0; i < 4; ++i) {

@@ -59,6 +59,9 @@ class Bridge {
   /// several subscribers of a topic, the first one's wish holds.
   virtual EndpointId subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                MessageCallback callback, bool tcp_no_delay) = 0;
+  /// For endpoints of the simulator itself: from now on this publisher (subscriber) publishes (delivers) nothing while
+  /// there is another on its topic, nor while its topic is used under another type, which it does not keep from being.
+  virtual void give_way(EndpointId publisher_or_subscriber) = 0;
   /// Whether publish() would have any effect now: somebody listens, or the publisher latches.
   virtual bool wants_messages(EndpointId publisher) const = 0;
   virtual const MessageType& message_type(EndpointId endpoint) const = 0;

@@ -6,15 +6,20 @@ from __future__ import annotations
 from bubblesim.control.model_services import ModelServices
 from bubblesim.control.object_services import ObjectServices
 from bubblesim.control.reset_services import offer_reset_services
-from bubblesim.control.simulation_topics import listen_to_simulation_topics
+from bubblesim.control.simulation_topics import SimulationTopics
 from bubblesim.control.step_service import offer_step_service
 from bubblesim.scripting.host import ScriptHost
 
 
-def offer_services(host: ScriptHost) -> None:
-    """Offer all of them, through the host's bridge."""
-    ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
-    ModelServices(host)
-    offer_reset_services(host.bridge, host)
-    offer_step_service(host.bridge, host.simulation)
-    listen_to_simulation_topics(host.bridge, host.simulation)
+class Control:
+    """Made by the simulator's node, which calls ``drain`` and ``publish`` in these phases of a pass."""
+
+    def __init__(self, host: ScriptHost) -> None:
+        """Offer all of them, through the host's bridge."""
+        ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
+        ModelServices(host)
+        offer_reset_services(host.bridge, host)
+        offer_step_service(host.bridge, host.simulation)
+        topics = SimulationTopics(host.bridge, host.simulation)
+        self.drain = topics.tell_state
+        self.publish = topics.tell_pass

@@ -1,18 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The topics by which CoppeliaSim's helper for ROS starts, pauses and stops a simulation."""
+"""The topics of CoppeliaSim's helper for ROS, by which other nodes press its buttons and follow the simulation.
+
+Names, types and values are the helper's. A script that uses one of the names itself has it for itself meanwhile.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from bubblesim import _core
+from bubblesim._core import RunState
+
+_QUEUE = 10
+_QUEUE_OF_PASSES = 1000  # of those who count passes, none should be lost
+_UNLIMITED = 0
+_STATES = {RunState.STOPPED: 0, RunState.RUNNING: 1, RunState.STOPPING: 1, RunState.PAUSED: 2}
 
 
-def listen_to_simulation_topics(bridge: Any, simulation: Any) -> None:
-    """Hear std_msgs/Bool on each of them; a message asks, whatever it holds."""
-    for topic, action in (
-        ("/startSimulation", simulation.start),
-        ("/pauseSimulation", simulation.pause),
-        ("/stopSimulation", simulation.stop),
-    ):
-        bridge.subscribe(topic, "std_msgs/Bool", lambda message, do=action: do(), 10, _core.messages.TimeForm.FLOAT)
+class SimulationTopics:
+    """They are there as long as the bridge is."""
+
+    def __init__(self, bridge: Any, simulation: Any) -> None:
+        """Subscribe and advertise."""
+        self._bridge = bridge
+        self._simulation = simulation
+        self._subscribe("/startSimulation", lambda _: simulation.start())
+        self._subscribe("/pauseSimulation", lambda _: simulation.pause())
+        self._subscribe("/stopSimulation", lambda _: simulation.stop())
+        self._subscribe("/enableSyncMode", simulation.set_synchronous)
+        self._subscribe("/triggerNextStep", lambda _: simulation.trigger_pass(), _UNLIMITED)
+        self._state = self._advertise("/simulationState", "std_msgs/Int32", _QUEUE)
+        self._time = self._advertise("/simulationTime", "std_msgs/Float32", _QUEUE_OF_PASSES)
+        self._step_done = self._advertise("/simulationStepDone", "std_msgs/Bool", _QUEUE_OF_PASSES)
+
+    def _subscribe(self, topic: str, action: Callable[[bool], None], queue_size: int = _QUEUE) -> None:
+        subscriber = self._bridge.subscribe(
+            topic, "std_msgs/Bool", lambda message: action(message["data"]), queue_size, _core.messages.TimeForm.FLOAT
+        )
+        self._bridge.give_way(subscriber)
+
+    def _advertise(self, topic: str, message_type: str, queue_size: int) -> int:
+        publisher = int(self._bridge.advertise(topic, message_type, queue_size, False))
+        self._bridge.give_way(publisher)
+        return publisher
+
+    def tell_state(self) -> None:
+        """Once before each pass, and now and then while there are none."""
+        if self._bridge.wants_messages(self._state):
+            self._bridge.publish(self._state, {"data": _STATES[self._simulation.state]})
+
+    def tell_pass(self) -> None:
+        """At the end of a pass, when all else of it has been published."""
+        if self._bridge.wants_messages(self._time):
+            self._bridge.publish(self._time, {"data": self._simulation.time})
+        if self._bridge.wants_messages(self._step_done):
+            self._bridge.publish(self._step_done, {"data": True})

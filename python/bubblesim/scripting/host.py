@@ -26,7 +26,7 @@ class ScriptHost:
         *,
         lua_unsafe: bool = False,
     ) -> None:
-        """Load the scripts.
+        """Note the scripts; ``start`` loads them.
 
         :param simulation: a ``bubblesim.Simulation``.
         :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is None in scripts.
@@ -43,7 +43,6 @@ class ScriptHost:
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
-        self.start()
 
     def start(self) -> None:
         """Load the scripts, from their files as they are now."""
