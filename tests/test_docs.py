@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the documentation tells a reader to type works: its bash and python blocks run, its links lead somewhere.
 
-A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->. Blocks marked console are for
+A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->, which takes a topic when its
+scene has no /tf: <!-- in another terminal: COMMAND, until there is TOPIC -->. Blocks marked console are for
 the reader only.
 """
 
@@ -18,7 +19,7 @@ from ros_support import REPOSITORY, RosCore, start, stop, wait_until
 
 PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?) -->")
+OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
 CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
 
@@ -44,7 +45,7 @@ def simulator(request: pytest.FixtureRequest, roscore: RosCore) -> Iterator[RosC
     command = OTHER_TERMINAL.search(request.param.read_text())
     assert command, "a page with bash blocks names what runs meanwhile"
     process = start(command[1].split(), roscore.env, stdout=subprocess.DEVNULL)
-    wait_until(lambda: "/tf" in roscore.state()["publishers"], "the simulation's topics")
+    wait_until(lambda: (command[2] or "/tf") in roscore.state()["publishers"], "the simulation's topics")
     yield roscore
     stop(process)
 

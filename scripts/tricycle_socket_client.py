@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives the tricycle around obstacles over TCP: "steering;speed" out, "time;distance" in. Needs no ROS."""
+
+import argparse
+import math
+import socket
+import sys
+import time
+from typing import TextIO
+
+from bubblesim.controllers.tricycle_avoid import TricycleAvoid
+
+PATIENCE = 5.0  # s without a listener or an answer, after which there is no simulation
+
+
+def drive(connection: TextIO) -> None:
+    """Exchange a command for a measurement, again and again, until the simulation hangs up."""
+    controller = TricycleAvoid()
+    steering, speed = 0.0, 0.0
+    last_time = None
+    while True:
+        connection.write(f"{steering:.4f};{speed:.4f}\n")
+        connection.flush()
+        answer = connection.readline()
+        if not answer:
+            return
+        now, distance = (float(number) for number in answer.split(";"))
+        command = controller.update(distance or math.inf, now - (now if last_time is None else last_time))
+        last_time = now
+        if command is not None:
+            steering, speed = command.steering, command.speed
+
+
+def connect(host: str, port: int) -> socket.socket:
+    """Connect to the simulation, which may still be about to start."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return socket.create_connection((host, port), timeout=PATIENCE)
+        except ConnectionRefusedError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.1)
+
+
+def main() -> int:
+    """Run until Ctrl-C or the end of the simulation; 1 when there is none."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--host", default="127.0.0.1", help="where the simulation runs (default %(default)s)")
+    parser.add_argument("--port", type=int, default=5000, help="where it listens (default %(default)s)")
+    options = parser.parse_args()
+    address = f"{options.host}:{options.port}"
+    try:
+        with connect(options.host, options.port) as connection:
+            print(f"driving the tricycle at {address}; Ctrl-C ends", flush=True)
+            try:
+                drive(connection.makefile("rw", encoding="ascii", newline="\n"))
+            except KeyboardInterrupt:
+                connection.sendall(b"0;0\n")
+                return 0
+            print("the simulation has ended")
+            return 0
+    except ConnectionRefusedError:
+        print(
+            f"error: nobody has listened at {address} for {PATIENCE:g} s; start `rosrun bubblesim sim tricycle_socket`",
+            file=sys.stderr,
+        )
+    except TimeoutError:
+        print(f"error: no answer from {address} for {PATIENCE:g} s; is the simulation paused?", file=sys.stderr)
+    except (OSError, ValueError) as error:
+        print(f"error: {address}: {error}", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

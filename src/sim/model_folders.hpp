@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the models lie that scenes include.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bubblesim {
+
+/// In the order in which they are searched: the scene's own and its subfolder `models`, BUBBLESIM_MODEL_PATH,
+/// GAZEBO_MODEL_PATH, and `models` in each of scene_folders().
+std::vector<std::filesystem::path> model_folders(const std::filesystem::path& scene_folder);
+
+/// The file or folder that a URI means: model://NAME/..., file://PATH or a path. Nothing when there is none.
+std::filesystem::path find_model(const std::string& uri, const std::filesystem::path& scene_folder);
+
+}  // namespace bubblesim
