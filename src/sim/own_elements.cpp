@@ -19,13 +19,13 @@ struct OwnElement {
 
 const std::vector<OwnElement>& own_elements() {
   static const std::vector<OwnElement> elements = {
-      {"bubblesim:time_step", {"world"}},         // seconds of one simulation pass
-      {"bubblesim:child_script", {"model"}},      // file beside the scene
-      {"bubblesim:motor", {"axis", "axis2"}},     // velocity or position
-      {"bubblesim:volume", {"sonar"}},            // ray, cone, pyramid, disc or cylinder
-      {"bubblesim:antialias", {"camera"}},        // true or false
-      {"bubblesim:checker_size", {"material"}},   // metres
-      {"bubblesim:checker_color", {"material"}},  // red, green and blue
+      {"bubblesim:time_step", {"world"}},                // seconds of one simulation pass
+      {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
+      {"bubblesim:motor", {"axis", "axis2"}},            // velocity or position
+      {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder
+      {"bubblesim:antialias", {"camera"}},               // true or false
+      {"bubblesim:checker_size", {"material"}},          // metres
+      {"bubblesim:checker_color", {"material"}},         // red, green and blue
   };
   return elements;
 }

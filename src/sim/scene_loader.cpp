@@ -8,6 +8,7 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/nearest_names.hpp"
+#include "model_folders.hpp"
 #include "own_elements.hpp"
 #include "scene_check.hpp"
 #include "scene_folders.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kChildScript = "bubblesim:child_script";
 constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
 // SDFormat writes a limit that does not exist as +-1e16.
 constexpr double kNoLimit = 1e15;
@@ -107,8 +109,9 @@ class SceneLoader {
   }
 
  private:
-  static sdf::ParserConfig parser_config() {
+  sdf::ParserConfig parser_config() const {
     sdf::ParserConfig config;
+    config.SetFindCallback([this](const std::string& uri) { return find_model(uri, folder_).string(); });
     config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
     config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
     return config;
@@ -125,7 +128,16 @@ class SceneLoader {
     // enough.
     if (!object.empty() && frames_broken_) return;
     if (object.empty() && !errors.empty()) frames_broken_ = true;
-    for (Problem& problem : xml_.located(errors, object)) problems_.push_back(std::move(problem));
+    for (Problem& problem : xml_.located(errors, object)) {
+      if (problem.message.rfind("Unable to find uri[", 0) == 0) problem.message += where_models_are();
+      problems_.push_back(std::move(problem));
+    }
+  }
+
+  std::string where_models_are() const {
+    std::string folders;
+    for (const fs::path& folder : model_folders(folder_)) folders += " " + folder.string();
+    return " (searched in" + folders + "; BUBBLESIM_MODEL_PATH adds folders)";
   }
 
   void report(const Source& source, const std::string& object, std::string message) {
@@ -171,6 +183,26 @@ class SceneLoader {
     }
   }
 
+  /// The file that a model names, beside the file that the model stands in; whoever includes a model may give it
+  /// another.
+  fs::path read_child_script(const sdf::ElementPtr& model, const std::string& path) {
+    const sdf::ElementPtr include = model->GetIncludeElement();
+    if (include != nullptr) check_own_elements(include, problems_);
+    const bool given_by_include = include != nullptr && own_text(include, kChildScript);
+    const sdf::ElementPtr& giver = given_by_include ? include : model;
+    const auto name = own_text(giver, kChildScript);
+    if (!name) return {};
+    const bool of_included_file = include != nullptr && !given_by_include;
+    const fs::path file = (of_included_file ? fs::path(model->FilePath()).parent_path() : folder_) / *name;
+    const Source source = given_by_include ? source_of(include) : source_of(model, kChildScript);
+    if (name->empty()) {
+      report(source, path, "<" + std::string(kChildScript) + "> names no file");
+    } else if (!fs::is_regular_file(file)) {
+      report(source, path, "the child script " + file.string() + " does not exist");
+    }
+    return file;
+  }
+
   ModelDescription read_model(const sdf::Model& model, const Pose& pose) {
     const std::string path = "/" + model.Name();
     ModelDescription description;
@@ -180,15 +212,7 @@ class SceneLoader {
     description.self_collide = model.SelfCollide();
     description.canonical_link = model.CanonicalLinkName();
     description.source = source_of(model.Element());
-    if (const auto script = own_text(model.Element(), "bubblesim:child_script")) {
-      description.child_script = folder_ / *script;
-      if (script->empty()) {
-        report(source_of(model.Element(), "bubblesim:child_script"), path, "<bubblesim:child_script> names no file");
-      } else if (!fs::is_regular_file(description.child_script)) {
-        report(source_of(model.Element(), "bubblesim:child_script"), path,
-               "the child script " + description.child_script.string() + " does not exist");
-      }
-    }
+    description.child_script = read_child_script(model.Element(), path);
     if (model.ModelCount() > 0) report(description.source, path, "models inside a model are not supported");
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
       description.links.push_back(read_link(*model.LinkByIndex(i), path, model.Static()));

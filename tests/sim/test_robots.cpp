@@ -14,7 +14,7 @@ namespace {
 /// A shipped scene without what its robot could run into.
 SceneDescription open_field(const std::string& name) {
   SceneDescription scene = load_scene(name);
-  const auto in_the_way = [](const ModelDescription& m) { return m.name == "Room" || m.name == "Obstacles"; };
+  const auto in_the_way = [](const ModelDescription& m) { return m.name == "Room"; };
   scene.models.erase(std::remove_if(scene.models.begin(), scene.models.end(), in_the_way), scene.models.end());
   return scene;
 }
