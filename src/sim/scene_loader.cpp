@@ -194,7 +194,7 @@ class SceneLoader {
     if (!name) return {};
     const bool of_included_file = include != nullptr && !given_by_include;
     const fs::path file = (of_included_file ? fs::path(model->FilePath()).parent_path() : folder_) / *name;
-    const Source source = given_by_include ? source_of(include) : source_of(model, kChildScript);
+    const Source source = given_by_include ? xml_.place_of(kChildScript, *name) : source_of(model, kChildScript);
     if (name->empty()) {
       report(source, path, "<" + std::string(kChildScript) + "> names no file");
     } else if (!fs::is_regular_file(file)) {

@@ -94,6 +94,15 @@ void SceneXml::place_elements(const sdf::ElementPtr& root) const {
   number(root);
 }
 
+Source SceneXml::place_of(const std::string& element, const std::string& text) const {
+  Source source{file_, 0};
+  visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& found) {
+    const std::string found_text = found.GetText() != nullptr ? found.GetText() : "";
+    if (source.line == 0 && element == found.Name() && text == found_text) source.line = found.GetLineNum();
+  });
+  return source;
+}
+
 /// `<mu> is 'slippery', ...` for an element that SDFormat could not read and says no more about.
 std::string SceneXml::unusable_text(const std::string& element, int line) const {
   std::string text;

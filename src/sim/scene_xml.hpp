@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/scene.hpp"
 
 namespace bubblesim {
 
@@ -24,6 +25,9 @@ class SceneXml {
   /// Gives our own elements below `root` their lines, for SDFormat copies elements that it does not know without; and
   /// all elements the name of a text that came from no file.
   void place_elements(const sdf::ElementPtr& root) const;
+
+  /// Where an element of this name and text is written: SDFormat keeps no places of what stands in an <include>.
+  Source place_of(const std::string& element, const std::string& text) const;
 
   /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
   /// `object` is the path of the object that was being read, or empty.
