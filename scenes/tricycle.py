@@ -5,13 +5,18 @@ import math
 
 
 def sysCall_init():
+    find_parts()
+    if simROS:
+        simROS.subscribe('/steering', 'std_msgs/Float32', on_steering)
+        simROS.subscribe('/speed', 'std_msgs/Float32', on_speed)
+
+
+def find_parts():
     self.body = sim.getObject('.')
     self.steering = sim.getObject('/Steering')
     self.motor = sim.getObject('/FrontMotor')
     self.sonar = sim.getObject('/FrontSonar')
     if simROS:
-        simROS.subscribe('/steering', 'std_msgs/Float32', on_steering)
-        simROS.subscribe('/speed', 'std_msgs/Float32', on_speed)
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
 
 

@@ -52,6 +52,26 @@ def pose(core: RosCore) -> tuple[float, float, float]:
     return x, y, 2 * math.atan2(number(rotation, "z"), number(rotation, "w"))
 
 
+def test_the_tricycle_takes_velocities_and_stops_when_none_come(
+    roscore: RosCore, node: StartNode, tmp_path: Path
+) -> None:
+    node("tricycle_cmd_vel")
+    wait_until(lambda: "/cmd_vel" in roscore.state()["subscribers"], "the tricycle to listen")
+    x, _, _ = pose(roscore)
+    command = ["rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "[0.5, 0, 0]", "[0, 0, 0.25]"]
+    driver = start(command, roscore.env)
+    wait_until(lambda: pose(roscore)[0] > x + 0.5, "the tricycle to drive")
+    _, _, before = pose(roscore)
+    wait_until(lambda: pose(roscore)[2] > before + 0.1, "the tricycle to turn left")
+    stop(driver)
+
+    def stands() -> bool:
+        first = pose(roscore)
+        return math.dist(first, pose(roscore)) < 1e-3
+
+    wait_until(stands, "the tricycle to stop")
+
+
 def test_standard_tools_see_the_node(roscore: RosCore, node: StartNode) -> None:
     node("tricycle")
     assert NAME in roscore.run("rosnode", "list").split()

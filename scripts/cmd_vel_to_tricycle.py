@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives a tricycle by velocities: Twist on cmd_vel in; steering, speed and the odometry of what it commands out.
+
+Parameters: ~wheelbase, ~wheel_radius (m), ~max_steering (rad), ~max_speed (rad/s of the front wheel), ~patience (s
+without a command, after which it stops), ~odom_frame, ~base_frame, ~publish_tf.
+"""
+
+import argparse
+import dataclasses
+import math
+import sys
+import threading
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import TransformStamped, Twist
+from nav_msgs.msg import Odometry
+from std_msgs.msg import Float32
+
+from bubblesim.controllers.tricycle_drive import FrontWheel, Pose2D, Tricycle, Velocity, front_wheel, moved, velocity
+
+RATE = 20.0  # Hz, of the odometry
+
+
+class CmdVelToTricycle:
+    """Answers each Twist with a command for the front wheel, and stops the wheel when none comes any more."""
+
+    def __init__(self, tricycle: Tricycle) -> None:
+        """Connects the topics; the node must be initialised."""
+        self._tricycle = tricycle
+        self._patience = float(rospy.get_param("~patience", 0.6))
+        self._odom_frame = str(rospy.get_param("~odom_frame", "odom"))
+        self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
+        self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._wheel = FrontWheel(steering=0.0, speed=0.0)
+        self._pose = Pose2D()
+        self._heard_at: float | None = None  # when the last command came, None when it has stopped
+        self._moved_at = rospy.get_time()
+        self._steering = rospy.Publisher("steering", Float32, queue_size=1)
+        self._speed = rospy.Publisher("speed", Float32, queue_size=1)
+        self._odometry = rospy.Publisher("odom", Odometry, queue_size=10)
+        self._transforms = tf2_ros.TransformBroadcaster() if rospy.get_param("~publish_tf", False) else None
+        rospy.Subscriber("cmd_vel", Twist, self._on_velocity, queue_size=1)
+        rospy.Timer(rospy.Duration.from_sec(1.0 / RATE), lambda event: self._on_time(), reset=True)
+
+    def _on_velocity(self, twist: Twist) -> None:
+        with self._lock:
+            try:
+                wheel = front_wheel(self._tricycle, Velocity(twist.linear.x, twist.angular.z), self._wheel.steering)
+            except ValueError as error:
+                rospy.logwarn_throttle(5.0, f"cmd_vel: {error}; ignored")
+                return
+            self._move()
+            self._heard_at = rospy.get_time()
+            self._command(wheel)
+
+    def _on_time(self) -> None:
+        with self._lock:
+            self._move()
+            if self._heard_at is not None and not 0.0 <= rospy.get_time() - self._heard_at <= self._patience:
+                self._heard_at = None
+                self._command(FrontWheel(self._wheel.steering, 0.0))
+            self._tell()
+
+    def _command(self, wheel: FrontWheel) -> None:
+        self._wheel = wheel
+        self._steering.publish(wheel.steering)
+        self._speed.publish(wheel.speed)
+
+    def _move(self) -> None:
+        """Bring the pose up to now."""
+        now = rospy.get_time()
+        dt, self._moved_at = max(0.0, now - self._moved_at), now  # simulated time jumps back when it starts anew
+        self._pose = moved(self._pose, velocity(self._tricycle, self._wheel), dt)
+
+    def _tell(self) -> None:
+        message = Odometry()
+        message.header.stamp = rospy.Time.from_sec(self._moved_at)
+        message.header.frame_id = self._odom_frame
+        message.child_frame_id = self._base_frame
+        message.pose.pose.position.x = self._pose.x
+        message.pose.pose.position.y = self._pose.y
+        message.pose.pose.orientation.z = math.sin(self._pose.heading / 2)
+        message.pose.pose.orientation.w = math.cos(self._pose.heading / 2)
+        now = velocity(self._tricycle, self._wheel)
+        message.twist.twist.linear.x = now.linear
+        message.twist.twist.angular.z = now.angular
+        self._odometry.publish(message)
+        if self._transforms is not None:
+            transform = TransformStamped(header=message.header, child_frame_id=self._base_frame)
+            transform.transform.translation.x = self._pose.x
+            transform.transform.translation.y = self._pose.y
+            transform.transform.rotation = message.pose.pose.orientation
+            self._transforms.sendTransform(transform)
+
+
+def read_tricycle() -> Tricycle:
+    """The tricycle that the node's parameters describe."""
+    defaults = dataclasses.asdict(Tricycle())
+    return Tricycle(**{name: float(rospy.get_param(f"~{name}", value)) for name, value in defaults.items()})
+
+
+def main() -> int:
+    """Runs the node until it is told to stop; 2 for parameters that no tricycle can have."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv(sys.argv)[1:])
+    rospy.init_node("cmd_vel_to_tricycle")
+    try:
+        CmdVelToTricycle(read_tricycle())
+    except (TypeError, ValueError) as error:
+        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        return 2
+    rospy.spin()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
