@@ -137,6 +137,25 @@ class RosCore:
     def resume(self) -> None:
         os.kill(self._master_pid, signal.SIGCONT)
 
+    def kill(self) -> None:
+        """Ends the master without notice."""
+        os.kill(self._master_pid, signal.SIGKILL)
+        stop(self.process)
+
+
+class RestartableCore:
+    """A roscore that can be killed without notice and started again on its port."""
+
+    def __init__(self, directory: Path) -> None:
+        self._directory = directory
+        self.core = RosCore(directory, free_port())
+
+    def kill(self) -> None:
+        self.core.kill()
+
+    def start(self) -> None:
+        self.core = RosCore(self._directory, self.core.port)
+
 
 @pytest.fixture
 def roscore(tmp_path: Path) -> Iterator[RosCore]:

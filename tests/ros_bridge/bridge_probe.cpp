@@ -3,6 +3,7 @@
 // `! error`; what subscribers get is printed as `message ID VALUE`, what servers are asked as `request ID VALUE`, what
 // drain() throws as `drain threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py is its other half.
 #include <poll.h>
+#include <ros/console.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -52,6 +53,7 @@ const std::map<std::string, MessageType>& types() {
       {"string", make_type("std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1", "string data\n")},
       {"empty", make_type("std_msgs/Empty", "d41d8cd98f00b204e9800998ecf8427e", "\n")},
       {"clock", make_type("rosgraph_msgs/Clock", "a9c97c1d230cfc112e270351a944ee47", "time clock\n")},
+      {"log", make_type("rosgraph_msgs/Log", "acffd30cd6b6de30f120938c17c593fb", "")},
       {"temperature", make_type("sensor_msgs/Temperature", "ff71b307acdbe7c871a5a6d7ed359100",
                                 "Header header\nfloat64 temperature\nfloat64 variance\n"
                                 "================================================================================\n"
@@ -79,6 +81,11 @@ WireBuffer encode(const MessageType& type, const std::string& text) {
   return message;
 }
 
+std::string decode_string(WireView& message) {
+  const auto length = message.get<std::uint32_t>();
+  return std::string(reinterpret_cast<const char*>(message.take(length)), length);
+}
+
 std::string decode(const MessageType& type, WireView message) {
   if (type.name == "std_msgs/Float32") return std::to_string(message.get<float>());
   if (type.name == "std_msgs/Empty") return std::to_string(message.left());
@@ -86,8 +93,13 @@ std::string decode(const MessageType& type, WireView message) {
     const auto sec = message.get<std::uint32_t>();
     return std::to_string(sec) + " " + std::to_string(message.get<std::uint32_t>());
   }
-  const auto length = message.get<std::uint32_t>();
-  return std::string(reinterpret_cast<const char*>(message.take(length)), length);
+  if (type.name == "rosgraph_msgs/Log") {
+    message.take(12);  // seq, stamp
+    decode_string(message);
+    message.take(1);  // level
+    decode_string(message);
+  }
+  return decode_string(message);
 }
 
 const std::map<std::string, ServiceType>& services() {
@@ -114,8 +126,7 @@ WireBuffer encode_response(bool success, const std::string& text) {
 std::string decode_response(const WireBuffer& response) {
   WireView view(response.data(), response.size());
   const bool success = view.get<std::uint8_t>() != 0;
-  const auto length = view.get<std::uint32_t>();
-  return (success ? "yes " : "no ") + std::string(reinterpret_cast<const char*>(view.take(length)), length);
+  return (success ? "yes " : "no ") + decode_string(view);
 }
 
 /// Longest time [ms] that any of the functions has taken, in as many rounds.
@@ -266,6 +277,12 @@ class Probe {
     return "";
   }
 
+  /// log TEXT: sends it to /rosout.
+  std::string log(Words& words) {
+    ROS_WARN_STREAM(read<std::string>(words));
+    return "";
+  }
+
   std::string now(Words&) {
     const auto time = bridge_.now();
     return std::to_string(time.sec) + " " + std::to_string(time.nanosec);
@@ -285,6 +302,7 @@ class Probe {
       {"client", [this](Words& words) { return client(words); }},
       {"call", [this](Words& words) { return call(words); }},
       {"wait_for_service", [this](Words& words) { return wait_for_service(words); }},
+      {"log", [this](Words& words) { return log(words); }},
       {"flood", [this](Words& words) { return flood(words); }},
       {"longest", [this](Words& words) { return longest(words); }},
       {"shutdown_server",

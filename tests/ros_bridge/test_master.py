@@ -13,28 +13,13 @@ from typing import Any
 import pytest
 from bridge_probe import Probe
 
-from ros_support import RosCore, free_port, stop, wait_until
+from ros_support import RestartableCore, RosCore, stop, wait_until
 
 NAME = "/sim_ros_interface"
 RETURN = 1.0
 """Seconds within which everything must be back once a new master answers."""
 OWN_SERVICES = {f"{NAME}/{name}" for name in ("get_loggers", "set_logger_level", "pause", "unpause", "paint")}
 KEPT_PUBLISHERS = {"/rosout", "/clock", "/out", "/map"}
-
-
-class RestartableCore:
-    """A roscore that can be killed without notice and started again on its port."""
-
-    def __init__(self, directory: Path) -> None:
-        self._directory = directory
-        self.core = RosCore(directory, free_port())
-
-    def kill(self) -> None:
-        os.kill(self.core._master_pid, signal.SIGKILL)
-        stop(self.core.process)
-
-    def start(self) -> None:
-        self.core = RosCore(self._directory, self.core.port)
 
 
 @contextmanager
@@ -70,6 +55,7 @@ def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str,
     """A node that is new to the master sends to and hears from `probe`."""
     with Probe(core.env, f"__name:={name}") as peer:
         heard, latched = peer.ask("subscribe", "/out", "float"), peer.ask("subscribe", "/map", "float")
+        logged = peer.ask("subscribe", "/rosout", "log")
         said = peer.ask("advertise", "/in", "float")
         peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the bridge to be connected")
@@ -79,6 +65,12 @@ def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str,
         peer.wait_for(lambda: peer.messages(heard) == ["3.000000"], "the bridge's message")
         peer.wait_for(lambda: peer.messages(latched) == ["4.000000"], "the latched message")
         probe.wait_for(lambda: len(probe.messages(subscriber)) == before + 1, "the peer's message")
+
+        def log_arrives() -> bool:
+            probe.ask("log", f"to_{name}")
+            return f"to_{name}" in peer.messages(logged)
+
+        peer.wait_for(log_arrives, "the log's messages")
         answer = peer.ask("call", peer.ask("client", f"{NAME}/paint", "setbool"), 5, 1)
         assert answer.startswith("yes of")
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the scene `tricycle` with a script as the node does, one pass a period, for disturbance.py:
+//   pass_times SCRIPT PERIOD_IN_MS
+// To each line on standard input it answers with the median and the 99th percentile of the passes' times since the
+// last, in microseconds.
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "bubblesim/child_scripts.hpp"
+#include "bubblesim/ros_bridge.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "bubblesim/simulation.hpp"
+
+namespace {
+
+using namespace bubblesim;
+using Clock = std::chrono::steady_clock;
+
+class RosParticipant final : public Participant {
+ public:
+  RosParticipant(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
+
+  void drain() override {
+    bridge_.publish_clock(simulation_.time());
+    bridge_.drain();
+  }
+
+ private:
+  RosBridge& bridge_;
+  const Simulation& simulation_;
+};
+
+double percentile(std::vector<double>& values, double part) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+bool has_input() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 0) > 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  RosBridge bridge(argc, argv);
+  if (argc != 3) return 2;
+  const std::chrono::milliseconds period(std::atoi(argv[2]));
+  Simulation simulation(load_scene("tricycle"));
+  RosParticipant ros(bridge, simulation);
+  simulation.add(ros);
+  ChildScripts scripts(simulation, &bridge, {{{"/Tricycle", argv[1]}}, {}});
+  simulation.add(scripts);
+
+  std::vector<double> took;
+  for (Clock::time_point next = Clock::now();; next += period) {
+    std::this_thread::sleep_until(next);
+    const Clock::time_point begin = Clock::now();
+    simulation.step();
+    took.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
+    if (!has_input()) continue;
+    if (std::getchar() == EOF || scripts.failures() > 0) break;
+    std::printf("%f %f\n", percentile(took, 0.5), percentile(took, 0.99));
+    std::fflush(stdout);
+    took.clear();
+  }
+  return scripts.failures();
+}
