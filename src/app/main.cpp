@@ -78,6 +78,7 @@ int run(const Options& options, Simulation& simulation, RosBridge* bridge, const
 
 int run_scene(const Options& options, int& argc, char** argv) {
   Simulation simulation(load_scene(options.scene), options.seed);
+  watch_stop_signals();  // before, there was nothing to take down
   if (options.paused) simulation.pause();
   if (!options.ros || options.until) simulation.end_at_stop();  // there is nobody to start it again, or no wish to
 
@@ -91,6 +92,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
     ros = std::make_unique<RosParticipant>(*bridge, simulation);
     simulation.add(*ros);
   }
+  if (stop_requested()) return kFine;
   auto guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge] {
     if (bridge) bridge->leave();
   });
@@ -111,7 +113,6 @@ int run_scene(const Options& options, int& argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace bubblesim::app;
   keep_freed_memory();
-  watch_stop_signals();
   try {
     const ParsedOptions parsed = parse_options(argc, argv);
     if (!parsed.options) return parsed.exit_code;

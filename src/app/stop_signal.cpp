@@ -12,6 +12,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "child_processes.hpp"
+
 namespace bubblesim::app {
 namespace {
 
@@ -83,7 +85,10 @@ void StopGuard::watch() {
   }
   if (done_within(kBetweenInterrupts)) return;
   std::fputs("error: a script does not return: the simulator ends without it\n", stderr);
+  signal_child_processes(SIGTERM);
   leave_();
+  done_within(kBetweenInterrupts);
+  signal_child_processes(SIGKILL);
   const int signal = last_signal;
   std::signal(signal, SIG_DFL);
   kill(getpid(), signal);

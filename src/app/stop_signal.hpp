@@ -18,7 +18,7 @@ bool stop_requested();
 
 /// Sees to it that the thread that made it comes to the guard's end about a second after a signal. While it does not,
 /// `interrupt` is called four times a second, by a signal handler on that thread, which also ends a sleep; at last
-/// `leave` is, on a thread of the guard, and the process dies of the signal.
+/// `leave` is, on a thread of the guard, the programs that were started are ended, and the process dies of the signal.
 class StopGuard {
  public:
   StopGuard(void (*interrupt)(), std::function<void()> leave);

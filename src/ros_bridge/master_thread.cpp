@@ -30,6 +30,7 @@ constexpr auto kLetJobFinish = 200ms;
 constexpr auto kLetMasterAnswer = 1000ms;
 constexpr auto kGiveUp = 1900ms;
 constexpr auto kInterruptInterval = 2ms;
+constexpr auto kEndingLook = 50ms;
 
 /// What `function` says; false when it throws, as roscpp does at answers that it does not understand.
 template <class Function>
@@ -154,12 +155,17 @@ void MasterThread::start() {
 MasterThread::~MasterThread() { stop(); }
 
 void MasterThread::wait_for_first_answer(std::chrono::milliseconds answer_timeout,
-                                         std::chrono::milliseconds start_timeout) {
+                                         std::chrono::milliseconds start_timeout,
+                                         const std::function<bool()>& is_ending) {
   std::unique_lock lock(shared_->mutex);
-  const auto left = [this](State state) { return [this, state] { return shared_->state != state; }; };
-  if (shared_->changed.wait_for(lock, answer_timeout, left(State::kTrying))) {
-    shared_->changed.wait_for(lock, start_timeout, left(State::kStarting));
-  } else {
+  const auto has_left = [&](State state, std::chrono::milliseconds timeout) {
+    const auto end = Clock::now() + timeout;
+    while (shared_->state == state && Clock::now() < end && !is_ending()) shared_->changed.wait_for(lock, kEndingLook);
+    return shared_->state != state;
+  };
+  if (has_left(State::kTrying, answer_timeout)) {
+    has_left(State::kStarting, start_timeout);
+  } else if (!is_ending()) {
     shared_->set_absent(lock);
   }
 }

@@ -40,8 +40,9 @@ class MasterThread {
   void start();
 
   /// Blocks until the state is kAbsent or kConnected. A master that does not answer in `answer_timeout` counts as
-  /// absent; one that does but then takes longer than `start_timeout` is not waited for.
-  void wait_for_first_answer(std::chrono::milliseconds answer_timeout, std::chrono::milliseconds start_timeout);
+  /// absent; one that does but then takes longer than `start_timeout` is not waited for, nor is any when `is_ending`.
+  void wait_for_first_answer(std::chrono::milliseconds answer_timeout, std::chrono::milliseconds start_timeout,
+                             const std::function<bool()>& is_ending);
 
   State state() const;
 

@@ -144,7 +144,8 @@ void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) 
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
   init_node(argc, argv, options.node_name);
   impl_ = std::make_unique<Impl>(std::move(options));
-  impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout);
+  const auto is_ending = [this] { return impl_->options.is_ending && impl_->options.is_ending(); };
+  impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout, is_ending);
 }
 
 RosBridge::~RosBridge() {

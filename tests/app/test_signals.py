@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scripts that do not return cannot keep the node from ending in time."""
 
+import re
 import signal
 import time
 from pathlib import Path
 
 import pytest
 
-from node_support import NAME, Node, write
-from ros_support import RosCore
+from node_support import NAME, Node, clean_environment, processes_with, write
+from ros_support import RosCore, wait_until
 
 LIMIT = 2.0
 SLACK = 0.5
@@ -45,6 +46,7 @@ def test_a_script_that_python_cannot_break_off_is_left_behind(roscore: RosCore, 
     code = """
         import itertools
         def sysCall_init():
+            sim.launchExecutable('bash', '-c "sleep 36058.5 & wait"')
             print('begun')
             sum(itertools.repeat(0))  # endless, in C
     """
@@ -57,3 +59,36 @@ def test_a_script_that_python_cannot_break_off_is_left_behind(roscore: RosCore, 
         assert time.monotonic() - begin < LIMIT + SLACK
         assert "error: a script does not return" in node.output
         assert NAME not in roscore.nodes()
+        wait_until(lambda: processes_with("sleep 36058.5") == [], "the end of what the script has started")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_master_that_hangs_does_not_keep_a_node_that_starts(
+    roscore: RosCore, tmp_path: Path, number: signal.Signals
+) -> None:
+    roscore.pause()
+    with Node(roscore.env, tmp_path / "log", "ball") as node:
+        wait_until(lambda: handles(node, number), "the node to wait for the master")
+        begin = time.monotonic()
+        assert node.end(number) == 0
+        assert time.monotonic() - begin < LIMIT + SLACK
+        assert "load" not in node.output
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_scene_that_is_being_loaded_is_given_up(tmp_path: Path, number: signal.Signals) -> None:
+    models = "".join(f'<model name="m{i}"><static>1</static><link name="link"/></model>' for i in range(2000))
+    scene = tmp_path / "long.sdf"
+    scene.write_text(f'<sdf version="1.9"><world name="long">{models}</world></sdf>')
+    with Node(clean_environment(), tmp_path / "log", scene, "--no-ros") as node:
+        begin = time.monotonic()
+        assert node.end(number) == -number
+        assert time.monotonic() - begin < LIMIT + SLACK
+
+
+def handles(node: Node, number: signal.Signals) -> bool:
+    """Whether the node has set a handler for the signal, as it does when its scene is loaded."""
+    status = Path(f"/proc/{node.process.pid}/status").read_text()
+    caught = re.search(r"SigCgt:\s+(\w+)", status)
+    assert caught
+    return bool(int(caught[1], 16) & 1 << (number - 1))

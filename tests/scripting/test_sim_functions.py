@@ -247,6 +247,13 @@ def test_a_launched_program_that_ignores_sigterm_is_ended(tmp_path: Path) -> Non
     assert processes_with(mark) == []
 
 
+def test_what_a_launched_program_has_started_ends_with_it(tmp_path: Path) -> None:
+    mark = "36057.75"
+    code = f"""sim.launchExecutable('bash', '-c "sleep {mark} & wait"')\nimport time\ntime.sleep(0.5)\n"""
+    check(tmp_path, code)
+    assert processes_with(f"sleep {mark}") == []
+
+
 def test_logs_go_where_their_level_says(tmp_path: Path) -> None:
     code = """
         def sysCall_init():

@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 from bubblesim.scripting.context import ApiContext
@@ -16,7 +20,7 @@ _SECONDS_TO_END = 1.0
 
 
 class ProgramFunctions(ApiContext):
-    """Programs started by a script end with it."""
+    """Programs started by a script end with it, and so does what they have started."""
 
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
         """Start a program of this package or on PATH; ``arguments`` is split as a shell would.
@@ -24,7 +28,7 @@ class ProgramFunctions(ApiContext):
         Returns its process id.
         """
         program = _find_program(file)
-        process = subprocess.Popen([str(program), *shlex.split(arguments)])
+        process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
         self._script.at_end[process] = lambda: _end(process)
         return process.pid
 
@@ -63,9 +67,13 @@ def _find_program(file: str) -> Path:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    process.terminate()
-    try:
-        process.wait(_SECONDS_TO_END)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
+    """End the process group, which may outlive the program that leads it."""
+    with contextlib.suppress(ProcessLookupError):  # the group is gone
+        os.killpg(process.pid, signal.SIGTERM)
+        end = time.monotonic() + _SECONDS_TO_END
+        while time.monotonic() < end:
+            process.poll()  # one that has ended counts until somebody asks how
+            os.killpg(process.pid, 0)
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
