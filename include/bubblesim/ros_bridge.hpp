@@ -48,6 +48,7 @@ class RosBridge final : public messages::Bridge {
                                  messages::MessageCallback callback, bool tcp_no_delay) override;
   void give_way(messages::EndpointId endpoint) override;
   bool wants_messages(messages::EndpointId publisher) const override;
+  bool has_publisher(messages::EndpointId subscriber) const override;
   const messages::MessageType& message_type(messages::EndpointId endpoint) const override;
   void publish(messages::EndpointId publisher, messages::WireBuffer message) override;
   void shutdown_publisher(messages::EndpointId publisher) override;

@@ -153,6 +153,8 @@ void bind_bridge(py::module_& core) {
            "Whether publish() would send anything: somebody listens, or the topic is latched.")
       .def("give_way", &Bridge::give_way, py::arg("endpoint"), without_gil,
            "Leaves the topic of a publisher or subscriber to others of this bridge, while there are any.")
+      .def("has_publisher", &Bridge::has_publisher, py::arg("subscriber"),
+           "Whether anybody publishes to a subscriber, as it was a quarter of a second ago.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)
       .def("shutdown_subscriber", &Bridge::shutdown_subscriber, without_gil)
       .def("advertise_service", &advertise_service, py::arg("name"), py::arg("service_type"), py::arg("callback"),

@@ -68,6 +68,11 @@ class SubscriberEndpoint {
   void register_at_master();
   void unregister_from_master();
 
+  /// Whether one was connected when look_for_publisher() was called.
+  bool has_publisher() const { return has_publisher_; }
+  /// For the master thread: roscpp counts under a lock that it holds during calls to the master.
+  void look_for_publisher();
+
  private:
   class Receiver;
 
@@ -77,6 +82,7 @@ class SubscriberEndpoint {
   const bool tcp_no_delay_;
   ros::CallbackQueueInterface& queue_;
   const boost::shared_ptr<Receiver> receiver_;
+  std::atomic<bool> has_publisher_{false};
 };
 
 }  // namespace bubblesim

@@ -99,7 +99,11 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                     "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
                     "as a master appears");
               },
-              [this] { on_connected(); }, [this] { publisher_check.look(); }}) {
+              [this] { on_connected(); },
+              [this] {
+                publisher_check.look();
+                topics.look_for_publishers();
+              }}) {
   if (options.on_pause) {
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
@@ -181,6 +185,8 @@ EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& typ
 void RosBridge::give_way(EndpointId endpoint) { impl_->topics.give_way(endpoint); }
 
 bool RosBridge::wants_messages(EndpointId publisher) const { return impl_->topics.wants_messages(publisher); }
+
+bool RosBridge::has_publisher(EndpointId subscriber) const { return impl_->topics.has_publisher(subscriber); }
 
 const MessageType& RosBridge::message_type(EndpointId endpoint) const { return impl_->topics.type(endpoint); }
 

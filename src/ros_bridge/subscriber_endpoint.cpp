@@ -74,6 +74,10 @@ void SubscriberEndpoint::register_at_master() {
   ros::TopicManager::instance()->subscribe(options);
 }
 
+void SubscriberEndpoint::look_for_publisher() {
+  has_publisher_ = ros::TopicManager::instance()->getNumPublishers(topic_) > 0;
+}
+
 void SubscriberEndpoint::unregister_from_master() { ros::TopicManager::instance()->unsubscribe(topic_, receiver_); }
 
 }  // namespace bubblesim

@@ -118,6 +118,7 @@ void Topics::put_on(std::shared_ptr<PublisherEndpoint> publisher) {
 void Topics::put_on(std::shared_ptr<SubscriberEndpoint> subscriber) {
   master_.post([this, subscriber = std::move(subscriber)] {
     subscriber->register_at_master();
+    registered_.insert(subscriber);
     publisher_check_.add(subscriber->topic(), subscriber->type());
   });
 }
@@ -129,6 +130,7 @@ void Topics::take_off(std::shared_ptr<PublisherEndpoint> publisher) {
 void Topics::take_off(std::shared_ptr<SubscriberEndpoint> subscriber) {
   master_.post([this, subscriber = std::move(subscriber)] {
     publisher_check_.remove(subscriber->topic());
+    registered_.erase(subscriber);
     subscriber->unregister_from_master();
   });
 }
@@ -136,6 +138,14 @@ void Topics::take_off(std::shared_ptr<SubscriberEndpoint> subscriber) {
 bool Topics::wants_messages(EndpointId publisher) const {
   const auto found = find_endpoint(publishers_, publisher, "publisher");
   return !is_aside(publisher) && found->second->wants_messages();
+}
+
+bool Topics::has_publisher(EndpointId subscriber) const {
+  return find_endpoint(subscribers_, subscriber, "subscriber")->second->has_publisher();
+}
+
+void Topics::look_for_publishers() {
+  for (const auto& subscriber : registered_) subscriber->look_for_publisher();
 }
 
 const MessageType& Topics::type(EndpointId id) const {

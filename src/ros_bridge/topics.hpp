@@ -3,6 +3,8 @@
 
 #include <ros/callback_queue_interface.h>
 
+#include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -17,7 +19,7 @@ namespace bubblesim {
 class MasterThread;
 
 /// The publishers and subscribers of a node; messages::Bridge tells what the functions do. All belongs to the
-/// simulation's thread.
+/// simulation's thread, unless said otherwise.
 class Topics {
  public:
   /// Messages come through `queue`. All must outlive what is posted to `master`.
@@ -31,6 +33,7 @@ class Topics {
                  std::uint32_t queue_size, messages::MessageCallback callback, bool tcp_no_delay);
   void give_way(messages::EndpointId id);
   bool wants_messages(messages::EndpointId publisher) const;
+  bool has_publisher(messages::EndpointId subscriber) const;
   const messages::MessageType& type(messages::EndpointId id) const;
   void publish(messages::EndpointId publisher, messages::WireBuffer message);
   void shutdown_publisher(messages::EndpointId publisher);
@@ -38,6 +41,8 @@ class Topics {
 
   /// How many publishers there are on a topic.
   std::size_t publishers_on(const std::string& topic) const;
+  /// For the master thread: brings has_publisher() up to date.
+  void look_for_publishers();
   /// Silences all subscribers, for the end of the bridge.
   void silence();
 
@@ -69,6 +74,7 @@ class Topics {
   EndpointTable<PublisherEndpoint> publishers_;
   EndpointTable<SubscriberEndpoint> subscribers_;
   std::unordered_map<messages::EndpointId, Standing> giving_way_;
+  std::set<std::shared_ptr<SubscriberEndpoint>> registered_;  // the master thread's
 };
 
 /// Throws std::invalid_argument: what is `done` on the topic already is of another type.

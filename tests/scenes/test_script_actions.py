@@ -85,9 +85,6 @@ ACTIONLIB_SERVER = """\
     import rospy, actionlib
     from actionlib.msg import TestAction, TestFeedback, TestResult
     def on_goal(handle):
-        # What is sent before the client's subscribers are connected is lost, as on any topic of ROS.
-        while not all(t.get_num_connections() for t in (server.status_pub, server.feedback_pub, server.result_pub)):
-            rospy.sleep(0.01)
         number = handle.get_goal().goal
         if number == 2:
             handle.set_rejected()

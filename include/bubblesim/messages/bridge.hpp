@@ -64,6 +64,8 @@ class Bridge {
   virtual void give_way(EndpointId publisher_or_subscriber) = 0;
   /// Whether publish() would have any effect now: somebody listens, or the publisher latches.
   virtual bool wants_messages(EndpointId publisher) const = 0;
+  /// Whether anybody publishes to a subscriber, as it was a quarter of a second ago.
+  virtual bool has_publisher(EndpointId subscriber) const = 0;
   virtual const MessageType& message_type(EndpointId endpoint) const = 0;
   virtual void publish(EndpointId publisher, WireBuffer message) = 0;
   virtual void shutdown_publisher(EndpointId publisher) = 0;

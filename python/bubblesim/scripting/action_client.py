@@ -60,7 +60,6 @@ class ActionClient:
         self._last_goal = ""
         self._outgoing: deque[tuple[int, Message]] = deque()  # publisher, message
         self._server_heard = False
-        # The status comes last: who hears that most likely hears the others.
         topics.subscribe("feedback", topics.own_type("Feedback"), self._on_feedback)
         topics.subscribe("result", topics.own_type("Result"), self._on_result)
         topics.subscribe("status", STATUS_ARRAY, self._on_status)
@@ -91,7 +90,7 @@ class ActionClient:
         """Send what waits for the server, if it is there; to be called in every pass."""
         if self._topics.closed:
             return
-        if not all(map(self._topics.has_listener, (self._goal_publisher, self._cancel_publisher))):
+        if not self._topics.are_connected():  # a server's answer would be lost
             self._server_heard = False  # whoever comes next is another server
         while self._server_heard and self._outgoing:
             self._topics.publish(*self._outgoing.popleft())

@@ -44,6 +44,8 @@ class ActionTopics:
         self._type = _known_type(action_type)
         self._bridge = bridge
         self._opened = ExitStack()
+        self._publishers: list[int] = []
+        self._subscribers: list[int] = []
 
     @contextmanager
     def closed_on_error(self) -> Iterator[None]:
@@ -72,16 +74,20 @@ class ActionTopics:
         """Make a publisher on NAME/``topic``."""
         publisher = int(self._bridge.advertise(f"{self.name}/{topic}", message_type, _QUEUE_SIZE, latch))
         self._opened.callback(self._bridge.shutdown_publisher, publisher)
+        self._publishers.append(publisher)
         return publisher
 
     def subscribe(self, topic: str, message_type: str, callback: Callable[[dict[str, Any]], None]) -> None:
         """Call ``callback`` with each message on NAME/``topic``."""
         subscriber = self._bridge.subscribe(f"{self.name}/{topic}", message_type, callback, _QUEUE_SIZE, _TIME_FORM)
         self._opened.callback(self._bridge.shutdown_subscriber, subscriber)
+        self._subscribers.append(subscriber)
 
-    def has_listener(self, publisher: int) -> bool:
-        """Whether somebody hears what is published."""
-        return bool(self._bridge.wants_messages(publisher))
+    def are_connected(self) -> bool:
+        """Whether somebody is at the other end of every topic."""
+        return all(map(self._bridge.wants_messages, self._publishers)) and all(
+            map(self._bridge.has_publisher, self._subscribers)
+        )
 
     def check(self, publisher: int, message: Message) -> None:
         """Raise the MessageError of a message that cannot be published, whether or not somebody listens."""
