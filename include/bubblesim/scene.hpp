@@ -118,6 +118,8 @@ struct ScanAngles {
   int samples = 1;
   double min = 0;  ///< rad
   double max = 0;  ///< rad
+
+  double at(int i) const { return samples > 1 ? min + (max - min) * i / (samples - 1) : min; }
 };
 
 struct LidarDescription {

@@ -42,6 +42,8 @@ struct CameraImage {
   int width = 0;
   int height = 0;
   double horizontal_fov = 0;      ///< rad
+  double near = 0;                ///< m along the axis
+  double far = 0;                 ///< m along the axis
   std::vector<std::uint8_t> rgb;  ///< three bytes a pixel; empty for a depth camera
   std::vector<float> depth;       ///< m along the axis; +Inf beyond the far plane, -Inf before the near one (REP 117)
   std::vector<ObjectId> objects;  ///< the link seen, or kNoObject

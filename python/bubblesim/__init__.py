@@ -9,8 +9,10 @@
 """
 
 from bubblesim._core import (
+    CameraImage,
     CollisionShape,
     Diverged,
+    LidarScan,
     NoSuchObject,
     Object,
     ProximityReading,
@@ -21,8 +23,10 @@ from bubblesim._core import (
 )
 
 __all__ = [
+    "CameraImage",
     "CollisionShape",
     "Diverged",
+    "LidarScan",
     "NoSuchObject",
     "Object",
     "ProximityReading",

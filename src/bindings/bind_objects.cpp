@@ -37,21 +37,9 @@ void set_angular_velocity(const ObjectView& view, const NumpyArray& velocity) {
                             {view.world().velocity(view.id()).linear, to_vector(velocity, "angular_velocity")});
 }
 
-void bind_reading(py::module_& module) {
-  py::class_<ProximityReading>(module, "ProximityReading",
-                               "What a proximity sensor saw, in its own frame: it looks along x.")
-      .def_readonly("detected", &ProximityReading::detected)
-      .def_readonly("distance", &ProximityReading::distance, "Metres; 0 when nothing was detected.")
-      .def_property_readonly("point", [](const ProximityReading& r) { return to_numpy(r.point); })
-      .def_property_readonly("normal", [](const ProximityReading& r) { return to_numpy(r.normal); })
-      .def_readonly("handle", &ProximityReading::object, "Handle of the link seen, or -1.");
-}
-
 }  // namespace
 
 void bind_objects(py::module_& module) {
-  bind_reading(module);
-
   using View = ObjectView;
   py::class_<View>(module, "Object",
                    "A model, link, joint or sensor of a simulation. SI units, world frame, quaternions x, y, z, w.")
@@ -91,8 +79,8 @@ void bind_objects(py::module_& module) {
           [](const View& v, double force) { v.world().set_max_force(v.id(), force); },
           "Of the joint's motor, N m or N.")
       .def_property_readonly(
-          "reading", [](const View& v) { return v.simulation().read_proximity(v.id()); },
-          "What a proximity sensor measured last.")
+          "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
+          "What a sensor measured last: a ProximityReading, LidarScan or CameraImage.")
       .def("__repr__", [](const View& v) {
         if (v.tree().objects().count(v.id()) == 0) {
           return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";

@@ -36,10 +36,6 @@ Pose frame_of(const World& world, ObjectId object) {
   return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_moving_pose(object) : world.pose(object);
 }
 
-py::tuple reading_tuple(const ProximityReading& r) {
-  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
-}
-
 }  // namespace
 
 void bind_world(py::module_& module) {
@@ -88,13 +84,6 @@ void bind_world(py::module_& module) {
       .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
            py::arg("axis") = 0)
       .def("set_max_force", &World::set_max_force, py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
-
-  module.def(
-      "read_proximity", [](Simulation& s, ObjectId sensor) { return reading_tuple(s.read_proximity(sensor)); },
-      "(detected, distance, point, handle, normal) as last measured.");
-  module.def(
-      "measure_proximity", [](Simulation& s, ObjectId sensor) { return reading_tuple(s.measure_proximity(sensor)); },
-      "The same, measured now.");
 }
 
 }  // namespace bubblesim::bindings

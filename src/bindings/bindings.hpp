@@ -12,5 +12,6 @@ void bind_bridge(pybind11::module_& core);
 void bind_simulation(pybind11::module_& core);
 void bind_objects(pybind11::module_& core);
 void bind_world(pybind11::module_& core);
+void bind_sensors(pybind11::module_& core);
 
 }  // namespace bubblesim::bindings

@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, core) {
   bind_messages(core);
   bind_bridge(core);
   bind_world(core);
+  bind_sensors(core);
   bind_objects(core);
   bind_simulation(core);
 }

@@ -27,4 +27,7 @@ class ObjectView {
   ObjectId id_;
 };
 
+/// What a sensor measured last, as Python knows it.
+pybind11::object last_reading(Simulation& simulation, ObjectId sensor);
+
 }  // namespace bubblesim::bindings

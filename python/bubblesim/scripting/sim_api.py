@@ -11,6 +11,7 @@ from bubblesim.scripting.program_functions import ProgramFunctions
 from bubblesim.scripting.sensor_functions import SensorFunctions
 from bubblesim.scripting.signal_functions import SignalFunctions
 from bubblesim.scripting.time_functions import TimeFunctions
+from bubblesim.scripting.vision_functions import VisionFunctions
 
 
 @script_module("sim")
@@ -18,6 +19,7 @@ class SimApi(
     ObjectFunctions,
     JointFunctions,
     SensorFunctions,
+    VisionFunctions,
     SignalFunctions,
     PackFunctions,
     TimeFunctions,

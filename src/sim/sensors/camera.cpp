@@ -40,6 +40,8 @@ class Camera final : public Sensor {
     image.width = description.width;
     image.height = description.height;
     image.horizontal_fov = description.horizontal_fov;
+    image.near = description.near;
+    image.far = description.far;
     const auto pixels = static_cast<std::size_t>(description.width) * static_cast<std::size_t>(description.height);
     image.depth.resize(pixels);
     image.objects.resize(pixels);

@@ -15,18 +15,14 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-double angle_of(const ScanAngles& scan, int i) {
-  return scan.samples > 1 ? scan.min + (scan.max - scan.min) * i / (scan.samples - 1) : scan.min;
-}
-
 class Lidar final : public Sensor {
  public:
   Lidar(const LidarDescription& description, ObjectId id)
       : Sensor(empty_scan(description)), description_(description), id_(id) {
     for (int ring = 0; ring < description.vertical.samples; ++ring) {
-      const double up = angle_of(description.vertical, ring);
+      const double up = description.vertical.at(ring);
       for (int i = 0; i < description.horizontal.samples; ++i) {
-        const double left = angle_of(description.horizontal, i);
+        const double left = description.horizontal.at(i);
         x_.push_back(std::cos(up) * std::cos(left));
         y_.push_back(std::cos(up) * std::sin(left));
         z_.push_back(std::sin(up));

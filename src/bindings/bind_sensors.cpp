@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What sensors measured, as numpy arrays that look into the measurement itself.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <memory>
+#include <variant>
+
+#include "bindings.hpp"
+#include "bubblesim/error.hpp"
+#include "bubblesim/simulation.hpp"
+#include "numpy_values.hpp"
+#include "object_view.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+
+/// A measurement of one kind, kept as it is as long as Python holds it or an array of it.
+template <class Kind>
+struct Held {
+  std::shared_ptr<const Reading> reading;
+
+  const Kind& operator*() const { return std::get<Kind>(reading->measurement); }
+  const Kind* operator->() const { return &**this; }
+};
+
+using HeldScan = Held<LidarScan>;
+using HeldImage = Held<CameraImage>;
+
+/// Throws NoSuchObject when the sensor measures something else.
+template <class Kind>
+Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading,
+                const char* wanted) {
+  if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
+  throw NoSuchObject(simulation.world().tree().short_path(sensor) + " is a sensor of another kind, not a " + wanted);
+}
+
+/// An array that cannot be written, on memory that `owner` keeps.
+template <class Value>
+py::array view(const std::vector<Value>& values, std::vector<py::ssize_t> shape, const py::object& owner) {
+  py::array array(py::dtype::of<Value>(), std::move(shape), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+py::array in_rings(const std::vector<float>& values, const py::object& scan) {
+  const auto& held = scan.cast<const HeldScan&>();
+  return view(values, {held->vertical.samples, held->horizontal.samples}, scan);
+}
+
+py::array_t<double> angles(const ScanAngles& scan) {
+  py::array_t<double> array(scan.samples);
+  for (int i = 0; i < scan.samples; ++i) array.mutable_at(i) = scan.at(i);
+  return array;
+}
+
+template <class Value>
+py::array in_pixels(const std::vector<Value>& values, const py::object& image) {
+  const auto& held = image.cast<const HeldImage&>();
+  return view(values, {held->height, held->width}, image);
+}
+
+struct ToPython {
+  const std::shared_ptr<const Reading>& reading;
+
+  py::object operator()(const ProximityReading& proximity) const { return py::cast(proximity); }
+  py::object operator()(const LidarScan&) const { return py::cast(HeldScan{reading}); }
+  py::object operator()(const CameraImage&) const { return py::cast(HeldImage{reading}); }
+};
+
+std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
+
+py::tuple proximity_tuple(const ProximityReading& r) {
+  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
+}
+
+void bind_proximity(py::module_& module) {
+  py::class_<ProximityReading>(module, "ProximityReading",
+                               "What a proximity sensor saw, in its own frame: it looks along x.")
+      .def_readonly("detected", &ProximityReading::detected)
+      .def_readonly("distance", &ProximityReading::distance, "Metres; 0 when nothing was detected.")
+      .def_property_readonly("point", [](const ProximityReading& r) { return to_numpy(r.point); })
+      .def_property_readonly("normal", [](const ProximityReading& r) { return to_numpy(r.normal); })
+      .def_readonly("handle", &ProximityReading::object, "Handle of the link seen, or -1.");
+}
+
+void bind_scan(py::module_& module) {
+  py::class_<HeldScan>(module, "LidarScan",
+                       "One turn of a lidar, ring by ring from the lowest up. Its arrays cannot be written.")
+      .def_property_readonly(
+          "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "ranges", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->ranges, s); },
+          "Metres, rings x samples of float32: inf for nothing in range, -inf for nearer than min_range.")
+      .def_property_readonly(
+          "intensities", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->intensities, s); },
+          "The laser_retro of what was hit, 0 for nothing; rings x samples of float32.")
+      .def_property_readonly(
+          "angles", [](const HeldScan& s) { return angles(s->horizontal); }, "Of the samples, radians to the left.")
+      .def_property_readonly(
+          "elevations", [](const HeldScan& s) { return angles(s->vertical); }, "Of the rings, radians upwards.")
+      .def_property_readonly(
+          "min_range", [](const HeldScan& s) { return s->min_range; }, "Metres.")
+      .def_property_readonly(
+          "max_range", [](const HeldScan& s) { return s->max_range; }, "Metres.");
+}
+
+void bind_image(py::module_& module) {
+  py::class_<HeldImage>(module, "CameraImage",
+                        "What a camera saw, the uppermost row first. Its arrays cannot be written.")
+      .def_property_readonly(
+          "time", [](const HeldImage& i) { return i.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "rgb",
+          [](const py::object& image) -> py::object {
+            const auto& held = image.cast<const HeldImage&>();
+            if (held->rgb.empty()) return py::none();
+            return view(held->rgb, {held->height, held->width, 3}, image);
+          },
+          "height x width x 3 of uint8; None from a depth camera.")
+      .def_property_readonly(
+          "depth", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->depth, i); },
+          "Metres along the axis, height x width of float32: inf beyond the far plane, -inf before the near one.")
+      .def_property_readonly(
+          "objects", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->objects, i); },
+          "Handles of the links seen, -1 for none; height x width of int32.")
+      .def_property_readonly(
+          "horizontal_fov", [](const HeldImage& i) { return i->horizontal_fov; }, "Radians.")
+      .def_property_readonly(
+          "near", [](const HeldImage& i) { return i->near; }, "Metres along the axis.")
+      .def_property_readonly(
+          "far", [](const HeldImage& i) { return i->far; }, "Metres along the axis.");
+}
+
+}  // namespace
+
+py::object last_reading(Simulation& simulation, ObjectId sensor) {
+  const std::shared_ptr<const Reading> reading = simulation.read(sensor);
+  return std::visit(ToPython{reading}, reading->measurement);
+}
+
+void bind_sensors(py::module_& module) {
+  bind_proximity(module);
+  bind_scan(module);
+  bind_image(module);
+
+  module.def(
+      "read_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.read_proximity(sensor)); },
+      "(detected, distance, point, handle, normal) as last measured.");
+  module.def(
+      "measure_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.measure_proximity(sensor)); },
+      "The same, measured now.");
+  module.def(
+      "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor), "lidar"); },
+      "The lidar's last scan.");
+  module.def(
+      "measure_lidar",
+      [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.measure(sensor), "lidar"); },
+      "The lidar's scan of now.");
+  module.def(
+      "read_camera",
+      [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },
+      "The camera's last image.");
+  module.def(
+      "measure_camera",
+      [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.measure(sensor), "camera"); },
+      "The camera's image of now.");
+}
+
+}  // namespace bubblesim::bindings
