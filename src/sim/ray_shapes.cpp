@@ -90,7 +90,24 @@ struct Intersector {
   }
 };
 
+struct Inside {
+  const Vector3& point;
+
+  bool operator()(const Box& box) const {
+    const Vector3 half = box.size / 2;
+    return std::abs(point.X()) < half.X() && std::abs(point.Y()) < half.Y() && std::abs(point.Z()) < half.Z();
+  }
+  bool operator()(const Sphere& sphere) const { return point.SquaredLength() < sphere.radius * sphere.radius; }
+  bool operator()(const Cylinder& cylinder) const {
+    return std::abs(point.Z()) < cylinder.length / 2 &&
+           point.X() * point.X() + point.Y() * point.Y() < cylinder.radius * cylinder.radius;
+  }
+  bool operator()(const Plane& plane) const { return plane.normal.Dot(point) < 0; }
+};
+
 }  // namespace
+
+bool is_inside(const Vector3& point, const Geometry& geometry) { return std::visit(Inside{point}, geometry); }
 
 std::optional<ShapeHit> intersect(const Ray& ray, const Geometry& geometry, double max_distance) {
   std::optional<ShapeHit> hit = std::visit(Intersector{ray}, geometry);

@@ -22,4 +22,7 @@ struct ShapeHit {
 /// inside a shape does not see it.
 std::optional<ShapeHit> intersect(const Ray& ray, const Geometry& geometry, double max_distance);
 
+/// Whether a ray that starts there starts inside the shape, and so does not see it.
+bool is_inside(const Vector3& point, const Geometry& geometry);
+
 }  // namespace bubblesim

@@ -84,8 +84,10 @@ void RayScene::add_model(const World& world, ObjectId model, const ModelDescript
     const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;
     const std::size_t first = placed->shapes.size();
     const auto add = [&](const Pose& in_link, const Geometry& geometry, const Material& material, double retro) {
+      const Pose in_frame = pose * in_link;
+      const ignition::math::Matrix3d turn(in_frame.Rot());
       placed->shapes.push_back(std::make_unique<RayShape>(
-          RayShape{geometry, pose * in_link, material, static_cast<float>(retro), ids[i], model}));
+          RayShape{geometry, in_frame, turn, turn.Transposed(), material, static_cast<float>(retro), ids[i], model}));
     };
     if (visuals) {
       for (const VisualDescription& v : link.visuals) add(v.pose, v.geometry, v.material, v.laser_retro);

@@ -21,12 +21,11 @@ struct HalfExtent {
 void bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   const Vector3 half = std::visit(HalfExtent{}, shape.geometry);
-  const ignition::math::Matrix3d turn(shape.pose.Rot());
   float low[3];
   float high[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double reach =
-        std::abs(turn(axis, 0)) * half.X() + std::abs(turn(axis, 1)) * half.Y() + std::abs(turn(axis, 2)) * half.Z();
+    const double reach = std::abs(shape.turn(axis, 0)) * half.X() + std::abs(shape.turn(axis, 1)) * half.Y() +
+                         std::abs(shape.turn(axis, 2)) * half.Z();
     const double centre = shape.pose.Pos()[axis];
     const double margin = 1e-6 * (1 + std::abs(centre) + reach);  // single precision rounds
     low[axis] = static_cast<float>(centre - reach - margin);
@@ -43,16 +42,17 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
 
 /// Where ray `i` of a packet enters the shape, as a multiple of its direction; the normal in the shape's outer frame.
 std::optional<ShapeHit> meet(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
+  const Vector3 start(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
+  const Vector3 origin = shape.turn_back * (start - shape.pose.Pos());
+  if (is_inside(origin, shape.geometry)) return std::nullopt;  // soon told, for a lidar in its housing
   const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
-  const Vector3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
   const double length = direction.Length();
-  const Ray ray{shape.pose.Rot().RotateVectorReverse(origin - shape.pose.Pos()),
-                shape.pose.Rot().RotateVectorReverse(direction / length)};
+  const Ray ray{origin, shape.turn_back * (direction / length)};
   std::optional<ShapeHit> hit = intersect(ray, shape.geometry, RTCRayN_tfar(rays, count, i) * length);
   if (!hit) return std::nullopt;
   hit->distance /= length;
   if (hit->distance < RTCRayN_tnear(rays, count, i)) return std::nullopt;
-  hit->normal = shape.pose.Rot().RotateVector(hit->normal);
+  hit->normal = shape.turn * hit->normal;
   return hit;
 }
 

@@ -3,6 +3,8 @@
 // ray_shapes.hpp. A new kind of geometry finds its form here and nowhere else.
 #pragma once
 
+#include <ignition/math/Matrix3.hh>
+
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "embree_handles.hpp"
@@ -11,7 +13,9 @@ namespace bubblesim::rays {
 
 struct RayShape {
   Geometry geometry;
-  Pose pose;  ///< in the link's frame, or in the world's when the link is static
+  Pose pose;                      ///< in the link's frame, or in the world's when the link is static
+  ignition::math::Matrix3d turn;  ///< the pose's rotation, and its inverse: quaternions would take longer for each ray
+  ignition::math::Matrix3d turn_back;
   Material material;
   float laser_retro = 0;
   ObjectId link = kNoObject;
