@@ -2,6 +2,7 @@
 // Child scripts in an embedded Python, which runs those in Lua too, as participants of a simulation.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -46,12 +47,20 @@ class ChildScripts : public Participant {
   /// Calls sysCall_cleanup of all scripts and ends the programs they started.
   void finish();
 
-  /// How many scripts failed so far.
-  int failures() const;
+  /// How many scripts failed so far. Any thread may call it.
+  int failures() const { return failures_; }
+  /// How many of those that are loaded now have failed. Any thread may call it.
+  int disabled() const { return disabled_; }
 
  private:
   struct Python;
+
+  template <class Action>
+  void with_host(Action action);
+
   std::unique_ptr<Python> python_;
+  std::atomic<int> failures_{0};
+  std::atomic<int> disabled_{0};
 };
 
 /// Makes the code of a script that is running raise KeyboardInterrupt, and all scripts be called no more but for

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/run_report.hpp"
 
 namespace bubblesim {
 
@@ -18,6 +19,8 @@ struct RosBridgeOptions {
   std::function<void(bool paused)> on_pause;
   /// Asked while a service call waits; when it says true (the process was told to end), the call is given up.
   std::function<bool()> is_ending;
+  /// Called on another thread once a second, for what is published on /diagnostics; without it nothing is.
+  std::function<RunReport()> take_report;
 };
 
 /// One per process, for roscpp is global. All calls come from the simulation's thread; what may wait for the master
@@ -74,6 +77,10 @@ class RosBridge final : public messages::Bridge {
   /// To be called once a pass: publishes the simulation time [s] on /clock and makes it what now() returns under
   /// /use_sim_time. While a script advertises /clock itself, only the latter.
   void publish_clock(double sim_time);
+
+  /// Publishes on /diagnostics now; for the last words of a simulation. Waits until they are sent, half a second at
+  /// most.
+  void publish_diagnostics();
 
   /// Whether the node is registered at a master that was there when last asked, four times a second.
   bool connected() const;

@@ -17,6 +17,7 @@
 #include "bubblesim/simulation.hpp"
 #include "options.hpp"
 #include "pacer.hpp"
+#include "run_meter.hpp"
 #include "stop_signal.hpp"
 
 namespace bubblesim::app {
@@ -57,17 +58,19 @@ void wait(RosBridge* bridge) {
   std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
 }
 
-int run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts) {
+int run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts,
+        RunMeter& meter) {
   Pacer pacer(options.speed);
   while (!stop_requested() && !time_is_up(options, simulation)) {
     simulation.carry_out_requests();
+    meter.note(simulation, scripts);
     if (simulation.ending()) break;
     if (simulation.state() != RunState::kRunning) pacer.restart();
     if (!simulation.pass_is_due()) {
       simulation.drain();
       if (!simulation.pass_is_due() && !simulation.has_requests()) wait(bridge);
     } else if (pacer.wait_for(simulation.time())) {
-      simulation.run_pass();
+      meter.run_pass(simulation);
     } else {
       simulation.drain();  // a slow simulation hears what it is asked
     }
@@ -82,12 +85,14 @@ int run_scene(const Options& options, int& argc, char** argv) {
   if (options.paused) simulation.pause();
   if (!options.ros || options.until) simulation.end_at_stop();  // there is nobody to start it again, or no wish to
 
+  const auto meter = std::make_shared<RunMeter>(simulation, options.speed);
   std::unique_ptr<RosBridge> bridge;
   std::unique_ptr<RosParticipant> ros;
   if (options.ros) {
     RosBridgeOptions ros_options;
     ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.start(); };
     ros_options.is_ending = stop_requested;
+    ros_options.take_report = [meter] { return meter->take(); };
     bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
     ros = std::make_unique<RosParticipant>(*bridge, simulation);
     simulation.add(*ros);
@@ -99,7 +104,14 @@ int run_scene(const Options& options, int& argc, char** argv) {
   ChildScripts scripts(simulation, bridge.get(), {options.child_scripts, options.script_paths, options.lua_unsafe});
   simulation.add(scripts);
 
-  int exit_code = run(options, simulation, bridge.get(), scripts);
+  int exit_code = kFine;
+  try {
+    exit_code = run(options, simulation, bridge.get(), scripts, *meter);
+  } catch (const Diverged& error) {
+    meter->fail(error.what());
+    if (bridge) bridge->publish_diagnostics();
+    throw;
+  }
   scripts.finish();
   guard.reset();
   if (options.strict && scripts.failures() > 0) exit_code = kScriptFailed;

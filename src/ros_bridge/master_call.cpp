@@ -38,12 +38,17 @@ RpcAnswer ask_master(const char* method, std::initializer_list<XmlRpcValue> argu
   return read(response);
 }
 
-RpcAnswer ask_own_node(const char* method, std::initializer_list<XmlRpcValue> arguments) {
+XmlRpcValue own_response(const char* method, std::initializer_list<XmlRpcValue> arguments) {
   const auto& manager = ros::XMLRPCManager::instance();
   XmlRpc::XmlRpcClient* client = manager->getXMLRPCClient("localhost", static_cast<int>(manager->getServerPort()), "/");
   XmlRpcValue response;
   if (!client->execute(method, with_caller(arguments), response)) response.clear();
   manager->releaseXMLRPCClient(client);
+  return response;
+}
+
+RpcAnswer ask_own_node(const char* method, std::initializer_list<XmlRpcValue> arguments) {
+  XmlRpcValue response = own_response(method, arguments);
   return read(response);
 }
 

@@ -21,6 +21,8 @@ RpcAnswer ask_master(const char* method, std::initializer_list<XmlRpc::XmlRpcVal
 
 /// A method of this node itself, for what roscpp tells others but not its own process.
 /// http://wiki.ros.org/ROS/Slave_API
+/// own_response() is what came, whatever its form: getBusStats of roscpp sends its value alone.
+XmlRpc::XmlRpcValue own_response(const char* method, std::initializer_list<XmlRpc::XmlRpcValue> arguments = {});
 RpcAnswer ask_own_node(const char* method, std::initializer_list<XmlRpc::XmlRpcValue> arguments = {});
 
 }  // namespace bubblesim

@@ -3,25 +3,17 @@
 
 #include <ros/init.h>
 #include <ros/master.h>
-#include <ros/names.h>
-#include <ros/subscribe_options.h>
 #include <ros/this_node.h>
-#include <ros/time.h>
-#include <ros/topic_manager.h>
-#include <rosgraph_msgs/Clock.h>
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "arrivals.hpp"
+#include "diagnostics.hpp"
 #include "endpoint_table.hpp"
 #include "endpoints.hpp"
-#include "master_call.hpp"
 #include "master_thread.hpp"
 #include "master_watch.hpp"
 #include "node_setup.hpp"
@@ -29,6 +21,7 @@
 #include "parameters.hpp"
 #include "publisher_check.hpp"
 #include "refused_peers.hpp"
+#include "ros_clock.hpp"
 #include "say.hpp"
 #include "services.hpp"
 #include "topics.hpp"
@@ -42,16 +35,10 @@ using messages::MessageType;
 using messages::ServiceType;
 using messages::WireBuffer;
 
-constexpr std::uint32_t kClockQueueSize = 10;
 constexpr std::chrono::milliseconds kAnswerTimeout{800};
 constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
 constexpr std::chrono::milliseconds kLastCalls{100};      // those given up, or held up by a master that is gone
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
-BridgeTime to_bridge_time(std::int64_t nanoseconds) {
-  return {static_cast<std::uint32_t>(nanoseconds / kNanosecondsPerSecond),
-          static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
-}
+constexpr std::chrono::milliseconds kLastWords{200};
 
 }  // namespace
 
@@ -59,9 +46,7 @@ struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
   void offer_pause_service(const std::string& name, bool paused);
-  void check_clock(const std::string& topic, const MessageType& type) const;
   void on_connected();
-  void read_use_sim_time();
 
   const RosBridgeOptions options;
   const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>();
@@ -71,19 +56,15 @@ struct RosBridge::Impl {
 
   EndpointId next_id = 1;
 
-  const std::shared_ptr<PublisherEndpoint> clock =
-      std::make_shared<PublisherEndpoint>(ros::names::resolve("/clock"), clock_type(), kClockQueueSize, false);
-  bool said_script_clock = false;
-  std::int64_t sim_time = 0;  // [ns]
-  std::atomic<bool> use_sim_time{false};
-  bool follows_clock = false;  // roscpp's own time does, from a subscription of ours; the master thread's
+  RosClock clock{queue};
 
   MasterWatch watch{[this] {
-    read_use_sim_time();
+    clock.read_use_sim_time();
     say("registered again at ROS master " + ros::master::getURI());
   }};
   PublisherCheck publisher_check;
   RefusedPeers refused_peers;
+  Diagnostics diagnostics{options.take_report};
   MasterThread master;
   Topics topics{master, publisher_check, queue, guard};
   Services services{master, watch, guard, arrivals, options.is_ending};
@@ -103,6 +84,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
               [this] {
                 publisher_check.look();
                 topics.look_for_publishers();
+                if (options.take_report) diagnostics.publish_when_due();
               }}) {
   if (options.on_pause) {
     offer_pause_service("~pause", true);
@@ -112,30 +94,9 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
 }
 
 void RosBridge::Impl::on_connected() {
-  use_sim_time = ros::Time::isSimTime();  // roscpp has just read the parameter
-  clock->register_at_master();
+  clock.register_at_master();
   for (const auto& server : own_servers) services.register_server(*server);
   say("load succeeded: node " + ros::this_node::getName() + " at ROS master " + ros::master::getURI());
-}
-
-/// As roscpp does when it starts. Once its own time follows /clock it cannot be told to stop: that is left as it is,
-/// for it only stamps log messages.
-void RosBridge::Impl::read_use_sim_time() {
-  RpcAnswer answer = ask_master("getParam", {"/use_sim_time"});
-  use_sim_time =
-      answer.succeeded && answer.value.getType() == XmlRpc::XmlRpcValue::TypeBoolean && static_cast<bool>(answer.value);
-  if (!use_sim_time || ros::Time::isSimTime() || std::exchange(follows_clock, true)) return;
-  ros::Time::setNow(ros::Time());
-  ros::SubscribeOptions clock_options;
-  clock_options.init<rosgraph_msgs::Clock>(
-      ros::names::resolve("/clock"), 1,
-      [](const rosgraph_msgs::Clock::ConstPtr& message) { ros::Time::setNow(message->clock); });
-  clock_options.callback_queue = &queue;
-  ros::TopicManager::instance()->subscribe(clock_options);
-}
-
-void RosBridge::Impl::check_clock(const std::string& topic, const MessageType& type) const {
-  if (topic == clock->topic()) check_same_type(topic, type, "advertised", clock->type());
 }
 
 void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
@@ -166,18 +127,16 @@ bool RosBridge::leave() { return impl_->master.stop(); }
 EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 bool latch) {
   const std::string resolved = resolve_name(topic, "topic");
-  impl_->check_clock(resolved, type);
+  impl_->clock.check_type(resolved, type);
   impl_->topics.advertise(impl_->next_id, resolved, type, queue_size, latch);
-  if (resolved == impl_->clock->topic() && !std::exchange(impl_->said_script_clock, true)) {
-    say("a script advertises " + resolved + ": the simulator leaves publishing it to the script");
-  }
+  if (resolved == impl_->clock.topic()) impl_->clock.say_left_to_script();
   return impl_->next_id++;
 }
 
 EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                                 messages::MessageCallback callback, bool tcp_no_delay) {
   const std::string resolved = resolve_name(topic, "topic");
-  impl_->check_clock(resolved, type);
+  impl_->clock.check_type(resolved, type);
   impl_->topics.subscribe(impl_->next_id, resolved, type, queue_size, std::move(callback), tcp_no_delay);
   return impl_->next_id++;
 }
@@ -251,21 +210,18 @@ void RosBridge::drain() {
 
 void RosBridge::wait_for_arrival(double timeout) { impl_->arrivals->wait(std::chrono::duration<double>(timeout)); }
 
-BridgeTime RosBridge::now() const {
-  // Before the master was asked, the wall clock is what any other node would use too.
-  if (impl_->use_sim_time) return to_bridge_time(impl_->sim_time);
-  const auto wall = std::chrono::system_clock::now().time_since_epoch();
-  return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
-}
+BridgeTime RosBridge::now() const { return impl_->clock.now(); }
 
 void RosBridge::publish_clock(double sim_time) {
-  impl_->sim_time = std::max<std::int64_t>(0, std::llround(sim_time * kNanosecondsPerSecond));
-  if (!impl_->clock->wants_messages() || impl_->topics.publishers_on(impl_->clock->topic()) > 0) return;
-  const BridgeTime time = to_bridge_time(impl_->sim_time);
-  WireBuffer message;
-  message.put(time.sec);
-  message.put(time.nanosec);
-  impl_->clock->publish(std::move(message));
+  impl_->clock.set(sim_time);
+  if (impl_->topics.publishers_on(impl_->clock.topic()) == 0) impl_->clock.publish();
+}
+
+void RosBridge::publish_diagnostics() {
+  if (!impl_->options.take_report) return;
+  if (impl_->master.run([impl = impl_.get()] { impl->diagnostics.publish(); }, kLastWords)) {
+    std::this_thread::sleep_for(kLastWords);  // roscpp sends on a thread of its own, and nobody can ask it when
+  }
 }
 
 bool RosBridge::connected() const {

@@ -62,6 +62,16 @@ struct ChildScripts::Python {
   bool finished = false;
 };
 
+/// As with_python(), and remembers how many scripts have failed.
+template <class Action>
+void ChildScripts::with_host(Action action) {
+  with_python([&] {
+    action();
+    failures_ = python_->host.attr("failures").cast<int>();
+    disabled_ = python_->host.attr("disabled").cast<int>();
+  });
+}
+
 ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options)
     : python_(std::make_unique<Python>()) {
   with_python([&] {
@@ -81,6 +91,7 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     python_->sense = python_->host.attr("sense");
     python_->finish = python_->host.attr("finish");
   });
+  with_host([] {});
 }
 
 ChildScripts::~ChildScripts() {
@@ -94,8 +105,11 @@ ChildScripts::~ChildScripts() {
       py::object();
 }
 
+/// Also where there is nothing to drain: what was delivered before may have failed in a script.
 void ChildScripts::drain() {
-  if (python_->drain) with_python([&] { python_->drain(); });
+  with_host([&] {
+    if (python_->drain) python_->drain();
+  });
 }
 
 void ChildScripts::publish(const World&, double) {
@@ -103,40 +117,36 @@ void ChildScripts::publish(const World&, double) {
 }
 
 void ChildScripts::actuate(World&, double) {
-  with_python([&] { python_->actuate(); });
+  with_host([&] { python_->actuate(); });
 }
 
 void ChildScripts::sense(const World&, double) {
-  with_python([&] { python_->sense(); });
+  with_host([&] { python_->sense(); });
 }
 
 void ChildScripts::stop() {
-  with_python([&] { python_->host.attr("stop")(); });
+  with_host([&] { python_->host.attr("stop")(); });
 }
 
 void ChildScripts::start() {
-  with_python([&] { python_->host.attr("start")(); });
+  with_host([&] { python_->host.attr("start")(); });
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {
   const std::filesystem::path& file = world.description(model).child_script;
   if (file.empty()) return;
-  with_python([&] { python_->host.attr("add_script")(world.tree().path(model), file); });
+  with_host([&] { python_->host.attr("add_script")(world.tree().path(model), file); });
 }
 
 void ChildScripts::model_removing(World&, ObjectId model) {
-  with_python([&] { python_->host.attr("end_scripts_of")(model); });
+  with_host([&] { python_->host.attr("end_scripts_of")(model); });
 }
 
 void ChildScripts::finish() {
   if (std::exchange(python_->finished, true)) return;
-  with_python([&] { python_->finish(); });
+  with_host([&] { python_->finish(); });
 }
 
 void interrupt_scripts() { scripting::interrupt(); }
-
-int ChildScripts::failures() const {
-  return with_python([&] { return python_->host.attr("failures").cast<int>(); });
-}
 
 }  // namespace bubblesim

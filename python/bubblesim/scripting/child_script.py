@@ -33,6 +33,7 @@ class ChildScript:
         self.object_handle = object_handle
         self.file = file
         self.alive = True
+        self.failed = False
         self.running = False  # its code is on the call stack
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
@@ -158,6 +159,7 @@ class ChildScript:
     def _fail(self, text: str) -> None:
         write_line(sys.stderr, text)
         self.host.failures += 1
+        self.failed = True
         self._end()
 
     def _end(self) -> None:

@@ -44,6 +44,11 @@ class ScriptHost:
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
 
+    @property
+    def disabled(self) -> int:
+        """How many of the scripts that are loaded now have failed."""
+        return sum(script.failed for script in self.scripts)
+
     def start(self) -> None:
         """Load the scripts, from their files as they are now."""
         self.scripts = [ChildScript(self, path, handle, file) for path, handle, file in self._placed]

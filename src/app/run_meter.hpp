@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "bubblesim/child_scripts.hpp"
+#include "bubblesim/run_report.hpp"
+#include "bubblesim/simulation.hpp"
+
+namespace bubblesim::app {
+
+/// Measures how the passes of a simulation go; another thread may take the reports.
+class RunMeter {
+ public:
+  RunMeter(const Simulation& simulation, double wanted_speed);
+
+  /// One pass.
+  void run_pass(Simulation& simulation);
+  /// To be called in each round of the loop that runs the passes, whether it runs one or not.
+  void note(const Simulation& simulation, const ChildScripts& scripts);
+  /// The simulation has ended for good.
+  void fail(const std::string& why);
+
+  /// What has happened since the last call. Any thread may call it.
+  RunReport take();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::mutex mutex_;
+  RunReport report_;
+  std::optional<Clock::time_point> last_end_;  // of a pass; none: the time until the next one does not count
+};
+
+}  // namespace bubblesim::app
