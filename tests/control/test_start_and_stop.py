@@ -66,6 +66,47 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
     assert node.end() == 0
 
 
+def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run) -> None:
+    port = free_port()
+    code = f"""
+        import socket
+        def sysCall_init(): print('init')
+        def sysCall_thread():
+            server = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+            server.bind(('127.0.0.1', {port}))
+            server.listen()
+            print('listens')
+            while True:
+                connection, _ = server.accept()
+                connection.send(str(sim.getSimulationTime()).encode())
+                connection.recv(1)
+                connection.close()  # the first to close: the system holds the port for a minute
+        def sysCall_sensing(): print('pass')
+        def sysCall_cleanup(): print('cleanup')
+    """
+    node, remote = run(code, "--paused")
+    baseline = descriptors(node)
+    for starts in range(1, RESTARTS + 1):
+        remote.press("start")
+        wait_until(lambda starts=starts: count(node, "listens") == starts, "the server")
+        for _ in range(2):  # one after the other
+            with socket.create_connection(("127.0.0.1", port), timeout=20) as client:
+                assert float(client.recv(100)) >= 0
+                client.send(b"x")
+                assert client.recv(1) == b""
+        with socket.create_connection(("127.0.0.1", port), timeout=20) as client:  # the server waits for it
+            assert float(client.recv(100)) >= 0
+            before = count(node, "pass")
+            wait_until(lambda before=before: count(node, "pass") >= before + 3, "passes meanwhile")
+            remote.press("stop")
+            wait_until(lambda starts=starts: count(node, "cleanup") == starts, "the script to end")
+            assert client.recv(1) == b""
+    wait_until(lambda: descriptors(node) <= baseline + MASTER_CONNECTIONS, "the descriptors to be closed")
+    assert "error" not in node.output
+    assert "warning" not in node.output
+    assert node.end() == 0
+
+
 def test_a_start_after_a_stop_reads_the_script_files_again(run: Run, tmp_path: Path) -> None:
     node, remote = run("def sysCall_init(): print('as it was')\ndef sysCall_cleanup(): print('cleanup')\n")
     node.wait_for_output("as it was")

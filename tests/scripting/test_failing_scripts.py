@@ -50,10 +50,10 @@ def test_a_syntax_error_names_file_line_and_text(tmp_path: Path) -> None:
     assert "def broken(:" in run.stderr
 
 
-def test_a_script_needs_an_init(tmp_path: Path) -> None:
+def test_a_script_needs_an_init_or_a_thread(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_actuation(): pass\n", "--strict")
     assert run.returncode == 3
-    assert f"{tmp_path}/script.py: defines no sysCall_init; a script needs that function" in run.stderr
+    assert f"{tmp_path}/script.py: defines no sysCall_init and no sysCall_thread; a script needs one" in run.stderr
 
 
 def test_a_missing_include_names_its_line_and_the_cure(tmp_path: Path) -> None:

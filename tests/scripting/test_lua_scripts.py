@@ -139,6 +139,7 @@ def test_scripts_keep_their_globals_to_themselves(tmp_path: Path) -> None:
         ("function sysCall_init()\n  sim.getObjct()\nend", "{file}:2: attempt to call a nil value (field 'getObjct')"),
         ("require('nothing')", "{file}:1: no file nothing.lua in {folder}"),
         ("function sysCall_actuation() end", "defines no sysCall_init"),
+        ("function sysCall_thread() end", "has a sysCall_thread, which is for scripts in Python"),
         ("local function f() return 1 + f() end\nfunction sysCall_init() f() end", "{file}:1: stack overflow"),
         ("function sysCall_init() t = 'x' while true do t = t .. t end end", "not enough memory"),
         ("error({code = 1})", "an error that is not a text"),

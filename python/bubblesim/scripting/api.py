@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, SupportsIndex, TypeVar
 
 from bubblesim.scripting.kinds import PLAIN, Kind, MismatchError, shown
+from bubblesim.scripting.script_thread import by_ident, current
 
 Module = TypeVar("Module", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -62,6 +63,12 @@ def value_first(function: Function) -> Function:
     return function
 
 
+def any_time(function: Function) -> Function:
+    """Let a script's thread call a function also when it has no turn to work on the simulation."""
+    function.any_time = True  # type: ignore[attr-defined]
+    return function
+
+
 def functions(module: type) -> list[ScriptFunction]:
     """All functions of a module, by name."""
     found = []
@@ -95,6 +102,7 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     kinds = [_kind(hints.get(parameter)) for parameter in signature.parameters]
     converters = [kind.convert if kind else _as_it_is for kind in kinds]
     reorder = getattr(function, "reorder", None)
+    at_any_time = hasattr(function, "any_time")
     most = len(converters)
     least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
 
@@ -108,6 +116,9 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
             taken = tuple(map(operator.call, converters, arguments))  # stops where defaults begin
         except (TypeError, ValueError, OverflowError):
             raise _argument_error(full_name, signature, kinds, arguments) from None
+        if by_ident and not at_any_time and (thread := current()):
+            with thread.turn():
+                return function(self, *taken)
         return function(self, *taken)
 
     return call

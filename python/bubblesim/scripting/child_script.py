@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption
+from bubblesim.scripting import interruption, script_sockets
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.script_code import load_code
+from bubblesim.scripting.script_thread import ScriptThread
 from bubblesim.scripting.source import ScriptSourceError
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 Hook = Callable[[], object]
 
 # The phases that a script may take part in, by the names it gives them.
-HOOKS = ("sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup")
+HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup")
 
 
 class ChildScript:
@@ -38,6 +39,8 @@ class ChildScript:
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
+        self._thread: ScriptThread | None = None
+        self._sockets = script_sockets.Sockets()
         self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
         self._load()
@@ -57,10 +60,15 @@ class ChildScript:
         if not self.run("loading", self._code.run):
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
-        if self._hooks["sysCall_init"] is None:
+        if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
             self._fail(
-                f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init; "
-                "a script needs that function"
+                f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
+                "sysCall_thread; a script needs one of these functions"
+            )
+        elif self._hooks["sysCall_thread"] is not None and not self._code.threads:
+            self._fail(
+                f"error: child script of {self.object_path} is disabled: {self.file}: has a sysCall_thread, which is "
+                "for scripts in Python"
             )
 
     def actuate(self) -> None:
@@ -68,9 +76,28 @@ class ChildScript:
         if not self._started:
             self._started = True
             self._call("sysCall_init")
+            self._start_thread()
         for hook in list(self.in_each_pass.values()):
             hook()
+        if self._thread and self.alive and not interruption.requested:
+            self.run("sysCall_thread", self._thread.give_turn)
         self._call("sysCall_actuation")
+
+    def _start_thread(self) -> None:
+        body = self._hooks["sysCall_thread"]
+        if body is None or not self.alive:
+            return
+
+        def run() -> None:
+            script_sockets.note_in(self._sockets)
+            body()
+
+        self._thread = ScriptThread(f"{self.object_path} sysCall_thread", run)
+
+    def _end_thread(self) -> None:
+        thread, self._thread = self._thread, None
+        if thread and not thread.end(lambda: script_sockets.shut_down(self._sockets)):
+            write_line(sys.stderr, f"warning: the thread of the child script of {self.object_path} does not end")
 
     def sense(self) -> None:
         """Run sysCall_sensing."""
@@ -78,6 +105,7 @@ class ChildScript:
 
     def finish(self) -> None:
         """Run sysCall_cleanup and take down what the script made."""
+        self._end_thread()
         if self._started:
             self._call("sysCall_cleanup")
         self._end()
@@ -92,11 +120,13 @@ class ChildScript:
         """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
         try:
             outer = interruption.allowed, self.running
+            sockets = script_sockets.note_in(self._sockets)
             try:
                 interruption.allowed = self.running = True
                 action()
             finally:
                 interruption.allowed, self.running = outer
+                script_sockets.note_in(sockets)
         except SystemExit:
             self._end()
         except BaseException as error:
@@ -164,6 +194,7 @@ class ChildScript:
 
     def _end(self) -> None:
         self.alive = False
+        self._end_thread()
         while self.at_end:
             _, undo = self.at_end.popitem()  # the last one first
             try:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption
+from bubblesim.scripting import interruption, script_sockets, script_thread
 from bubblesim.scripting.child_script import ChildScript
 from bubblesim.scripting.ros_api import SimRos, SimRos2
 from bubblesim.scripting.sim_api import SimApi
@@ -43,6 +43,8 @@ class ScriptHost:
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
+        script_sockets.install()
+        script_thread.install()
 
     @property
     def disabled(self) -> int:

@@ -23,6 +23,8 @@ _MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough 
 class LuaCode:
     """See ScriptCode."""
 
+    threads = False
+
     def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], *, unsafe: bool) -> None:
         """Compile ``file`` without running it.
 

@@ -18,6 +18,8 @@ _OUR_FOLDER = str(Path(__file__).parent)
 class PythonCode:
     """See ScriptCode."""
 
+    threads = True
+
     def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], name: str) -> None:
         """Compile ``file`` without running it.
 

@@ -14,6 +14,9 @@ from bubblesim.scripting.source import ScriptSourceError, is_lua
 class ScriptCode(Protocol):
     """Code with globals of its own."""
 
+    threads: bool
+    """Whether a second thread may run it."""
+
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
 

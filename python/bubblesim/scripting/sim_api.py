@@ -10,6 +10,7 @@ from bubblesim.scripting.pack_functions import PackFunctions
 from bubblesim.scripting.program_functions import ProgramFunctions
 from bubblesim.scripting.sensor_functions import SensorFunctions
 from bubblesim.scripting.signal_functions import SignalFunctions
+from bubblesim.scripting.thread_functions import ThreadFunctions
 from bubblesim.scripting.time_functions import TimeFunctions
 from bubblesim.scripting.vision_functions import VisionFunctions
 
@@ -23,6 +24,7 @@ class SimApi(
     SignalFunctions,
     PackFunctions,
     TimeFunctions,
+    ThreadFunctions,
     ProgramFunctions,
 ):
     """All functions and constants, grouped by what they are about."""
