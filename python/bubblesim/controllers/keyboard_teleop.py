@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Driving by keys: what is pressed goes in, the velocity to drive at comes out."""
+
+from dataclasses import dataclass
+
+STEP = 1.1  # of a speed key: ten per cent
+
+# Forward, to the left and turning to the left, as shares of the speeds.
+DIRECTIONS = {
+    "u": (1, 0, 1), "i": (1, 0, 0), "o": (1, 0, -1),
+    "j": (0, 0, 1), "k": (0, 0, 0), "l": (0, 0, -1),
+    "m": (-1, 0, -1), ",": (-1, 0, 0), ".": (-1, 0, 1),
+    # With shift, for what can move sideways.
+    "U": (1, 1, 0), "I": (1, 0, 0), "O": (1, -1, 0),
+    "J": (0, 1, 0), "K": (0, 0, 0), "L": (0, -1, 0),
+    "M": (-1, 1, 0), "<": (-1, 0, 0), ">": (-1, -1, 0),
+}  # fmt: skip
+
+# Factors of the linear and the angular speed.
+SPEEDS = {
+    "q": (STEP, STEP), "z": (1 / STEP, 1 / STEP),
+    "w": (STEP, 1.0), "x": (1 / STEP, 1.0),
+    "e": (1.0, STEP), "c": (1.0, 1 / STEP),
+}  # fmt: skip
+
+HELP = """\
+Drive:                    Sideways, with shift:
+    u    i    o               U    I    O
+    j    k    l               J    K    L
+    m    ,    .               M    <    >
+
+q z  faster, slower      w x  the same for driving      e c  the same for turning
+Any other key stops. Ctrl-C ends.
+"""
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """Of the robot's base, REP 103."""
+
+    forward: float = 0.0  # m/s
+    left: float = 0.0  # m/s
+    turning: float = 0.0  # rad/s, to the left
+
+
+STANDING = Velocity()
+
+
+@dataclass
+class KeyboardTeleop:
+    """Remembers the speeds, and how long ago a key was pressed. Times are in seconds, of any clock that never jumps."""
+
+    speed: float = 0.5  # m/s
+    turn: float = 1.0  # rad/s
+    speed_limit: float = 1000.0
+    turn_limit: float = 1000.0
+    patience: float | None = 0.6  # s without a key, after which it stops; None: it goes on
+
+    def __post_init__(self) -> None:
+        """Stands still."""
+        self._direction = (0, 0, 0)
+        self._pressed_at = 0.0
+
+    def press(self, key: str, now: float) -> bool:
+        """A key was pressed. Returns whether the speeds have changed."""
+        self._pressed_at = now
+        if key in SPEEDS:
+            linear, angular = SPEEDS[key]
+            before = self.speed, self.turn
+            self.speed = min(self.speed * linear, self.speed_limit)
+            self.turn = min(self.turn * angular, self.turn_limit)
+            return (self.speed, self.turn) != before
+        self._direction = DIRECTIONS.get(key, (0, 0, 0))
+        return False
+
+    def velocity(self, now: float) -> Velocity:
+        """What to drive at."""
+        if self.patience is not None and now - self._pressed_at > self.patience:
+            self._direction = (0, 0, 0)
+        forward, left, turning = self._direction
+        return Velocity(forward * self.speed, left * self.speed, turning * self.turn)

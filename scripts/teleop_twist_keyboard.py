@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives by the keys of a terminal: Twist on cmd_vel.
+
+Parameters: ~speed (m/s), ~turn (rad/s), ~speed_limit, ~turn_limit, ~rate (Hz of the commands while it drives),
+~key_timeout (s without a key after which it stops), ~stamped (TwistStamped instead), ~frame_id.
+"""
+
+import argparse
+import contextlib
+import os
+import select
+import sys
+import termios
+import threading
+import time
+import tty
+from collections.abc import Iterator
+
+import rospy
+from geometry_msgs.msg import Twist, TwistStamped
+
+from bubblesim.controllers.keyboard_teleop import HELP, STANDING, KeyboardTeleop, Velocity
+
+
+class Commands:
+    """Publishes velocities, and a last one to stand still when the node ends."""
+
+    def __init__(self) -> None:
+        """Connects the topic; the node must be initialised."""
+        self._stamped = bool(rospy.get_param("~stamped", False))
+        self._frame_id = str(rospy.get_param("~frame_id", ""))
+        self._publisher = rospy.Publisher("cmd_vel", TwistStamped if self._stamped else Twist, queue_size=1)
+        self._lock = threading.Lock()  # the end comes on another thread
+        self._ended = False
+        rospy.on_shutdown(self._end)
+
+    def publish(self, velocity: Velocity) -> None:
+        """Send one command."""
+        with self._lock:
+            if not self._ended:
+                self._send(velocity)
+
+    def _end(self) -> None:
+        with self._lock:
+            self._ended = True
+            self._send(STANDING)
+        time.sleep(0.1)  # rospy sends from another thread, which ends with the node
+
+    def _send(self, velocity: Velocity) -> None:
+        twist = Twist()
+        twist.linear.x = velocity.forward
+        twist.linear.y = velocity.left
+        twist.angular.z = velocity.turning
+        if self._stamped:
+            message = TwistStamped(twist=twist)
+            message.header.stamp = rospy.Time.now()
+            message.header.frame_id = self._frame_id
+            self._publisher.publish(message)
+        else:
+            self._publisher.publish(twist)
+
+
+@contextlib.contextmanager
+def keys_one_by_one() -> Iterator[None]:
+    """Let the terminal hand over each key at once and unseen; afterwards it is as it was."""
+    before = termios.tcgetattr(sys.stdin)
+    try:
+        tty.setcbreak(sys.stdin)
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
+
+
+def keys_within(seconds: float) -> str:
+    """The keys that are pressed within a time; it ends with the first."""
+    readable, _, _ = select.select([sys.stdin], [], [], seconds)
+    # Not through sys.stdin.read(), which would take more than it returns, and select() would not see the rest.
+    return os.read(sys.stdin.fileno(), 64).decode(errors="replace") if readable else ""
+
+
+def drive(teleop: KeyboardTeleop, commands: Commands, period: float) -> None:
+    """Until the node ends: commands at a steady rate while it drives, and one more to stop."""
+    print(f"{HELP}\n{speeds(teleop)}", flush=True)
+    standing = True
+    while not rospy.is_shutdown():
+        keys = keys_within(period)
+        changes = [teleop.press(key, time.monotonic()) for key in keys]
+        if any(changes):
+            print(speeds(teleop), flush=True)
+        velocity = teleop.velocity(time.monotonic())
+        if velocity != STANDING or not standing or keys:
+            commands.publish(velocity)
+        standing = velocity == STANDING
+
+
+def speeds(teleop: KeyboardTeleop) -> str:
+    """The speeds as a line to read."""
+    return f"speed {teleop.speed:.3g} m/s   turn {teleop.turn:.3g} rad/s"
+
+
+def main() -> int:
+    """Runs the node until it is told to stop; 2 when there is no terminal."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--latch", action="store_true", help="go on until another key is pressed")
+    options = parser.parse_args(rospy.myargv(sys.argv)[1:])
+    if not sys.stdin.isatty():
+        print(
+            "error: keys come from a terminal, and stdin is none: start this by rosrun in a terminal", file=sys.stderr
+        )
+        return 2
+    rospy.init_node("teleop_twist_keyboard")
+    teleop = KeyboardTeleop(
+        speed=float(rospy.get_param("~speed", 0.5)),
+        turn=float(rospy.get_param("~turn", 1.0)),
+        speed_limit=float(rospy.get_param("~speed_limit", 1000.0)),
+        turn_limit=float(rospy.get_param("~turn_limit", 1000.0)),
+        patience=None if options.latch else float(rospy.get_param("~key_timeout", 0.6)),
+    )
+    with keys_one_by_one():
+        drive(teleop, Commands(), 1.0 / float(rospy.get_param("~rate", 10.0)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What keys command."""
+
+import pytest
+
+from bubblesim.controllers.keyboard_teleop import STANDING, KeyboardTeleop, Velocity
+
+
+@pytest.mark.parametrize(
+    ("key", "velocity"),
+    [
+        ("i", Velocity(0.5, 0, 0)),
+        (",", Velocity(-0.5, 0, 0)),
+        ("j", Velocity(0, 0, 1)),
+        ("l", Velocity(0, 0, -1)),
+        ("u", Velocity(0.5, 0, 1)),
+        ("o", Velocity(0.5, 0, -1)),
+        ("m", Velocity(-0.5, 0, -1)),
+        (".", Velocity(-0.5, 0, 1)),
+        ("J", Velocity(0, 0.5, 0)),
+        (">", Velocity(-0.5, -0.5, 0)),
+        ("k", STANDING),
+        ("#", STANDING),
+    ],
+)
+def test_a_key_has_its_direction(key: str, velocity: Velocity) -> None:
+    teleop = KeyboardTeleop(speed=0.5, turn=1.0)
+    teleop.press("i", now=0.0)
+    teleop.press(key, now=0.0)
+    assert teleop.velocity(now=0.1) == velocity
+
+
+def test_stops_when_no_key_is_pressed_any_more() -> None:
+    teleop = KeyboardTeleop(patience=0.6)
+    teleop.press("i", now=10.0)
+    assert teleop.velocity(now=10.6) != STANDING
+    assert teleop.velocity(now=10.7) == STANDING
+
+
+def test_goes_on_without_patience_to_lose() -> None:
+    teleop = KeyboardTeleop(patience=None)
+    teleop.press("i", now=0.0)
+    assert teleop.velocity(now=1000.0) != STANDING
+
+
+@pytest.mark.parametrize(
+    ("key", "speed", "turn"),
+    [("q", 1.1, 1.1), ("z", 1 / 1.1, 1 / 1.1), ("w", 1.1, 1), ("x", 1 / 1.1, 1), ("e", 1, 1.1), ("c", 1, 1 / 1.1)],
+)
+def test_speed_keys_change_by_ten_per_cent_and_keep_the_direction(key: str, speed: float, turn: float) -> None:
+    teleop = KeyboardTeleop(speed=1.0, turn=1.0)
+    teleop.press("u", now=0.0)
+    assert teleop.press(key, now=0.0)
+    assert teleop.velocity(now=0.0) == Velocity(pytest.approx(speed), 0, pytest.approx(turn))
+
+
+def test_speeds_stay_below_their_limits() -> None:
+    teleop = KeyboardTeleop(speed=1.0, turn=1.0, speed_limit=1.05, turn_limit=2.0)
+    teleop.press("q", now=0.0)
+    assert (teleop.speed, teleop.turn) == (1.05, pytest.approx(1.1))
+    assert not teleop.press("w", now=0.0)

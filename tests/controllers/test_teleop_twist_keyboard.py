@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The keyboard's node in a terminal of its own."""
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+import termios
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+
+NODE = [sys.executable, str(REPOSITORY / "scripts" / "teleop_twist_keyboard.py")]
+
+
+class Terminal:
+    """A terminal with the node in it, and what the node commands."""
+
+    def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
+        self._keys, self.screen = pty.openpty()
+        self._heard = folder / "heard"
+        with self._heard.open("w") as output:
+            self._listener = start(["rostopic", "echo", "-p", "/cmd_vel"], core.env, stdout=output)
+        self._shown = folder / "shown"
+        with self._shown.open("w") as output:
+            self.process = start([*NODE, *arguments], core.env, stdin=self.screen, stdout=output)
+        wait_until(lambda: "speed" in self.shown, "the speeds to be shown")
+        wait_until(lambda: self._hears(), "somebody to listen")
+
+    def _hears(self) -> bool:
+        self.press("k")  # what is sent before the listener is connected is lost
+        return self.last() is not None
+
+    @property
+    def shown(self) -> str:
+        return self._shown.read_text()
+
+    def press(self, keys: str) -> None:
+        os.write(self._keys, keys.encode())
+
+    def last(self) -> tuple[float, float] | None:
+        """Forward and turning of the last command."""
+        lines = self._heard.read_text().splitlines()
+        if len(lines) < 2 or lines[-1].count(",") != lines[0].count(","):
+            return None
+        values = lines[-1].split(",")
+        return float(values[1]), float(values[6])
+
+    def close(self) -> None:
+        stop(self.process)
+        stop(self._listener)
+        os.close(self._keys)
+        os.close(self.screen)
+
+
+@pytest.fixture
+def terminal(roscore: RosCore, tmp_path: Path) -> Iterator[Terminal]:
+    terminal = Terminal(roscore, tmp_path, "_speed:=0.4")
+    yield terminal
+    terminal.close()
+
+
+def test_a_key_drives_for_a_moment(terminal: Terminal) -> None:
+    wait_until(lambda: terminal.press("u") or terminal.last() == (0.4, 1.0), "a command")
+    wait_until(lambda: terminal.last() == (0.0, 0.0), "a stop")
+
+
+def test_speeds_are_shown_when_they_change(terminal: Terminal) -> None:
+    terminal.press("w")
+    wait_until(lambda: "speed 0.44 m/s   turn 1 rad/s" in terminal.shown, "the new speed")
+
+
+def test_the_end_stops_the_robot_and_leaves_the_terminal_as_it_was(roscore: RosCore, tmp_path: Path) -> None:
+    terminal = Terminal(roscore, tmp_path, "--latch")
+    terminal.press("i")
+    wait_until(lambda: terminal.last() == (0.5, 0.0), "a command")
+    terminal.process.send_signal(signal.SIGINT)
+    assert terminal.process.wait(timeout=DEADLINE) == 0
+    wait_until(lambda: terminal.last() == (0.0, 0.0), "a stop")
+    assert termios.tcgetattr(terminal.screen)[3] & termios.ECHO
+    terminal.close()
+
+
+def test_without_a_terminal_it_says_so(roscore: RosCore) -> None:
+    run = subprocess.run(
+        NODE, env=roscore.env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert run.returncode == 2
+    assert "stdin is none" in run.stderr
