@@ -139,7 +139,7 @@ def test_scripts_keep_their_globals_to_themselves(tmp_path: Path) -> None:
         ("function sysCall_init()\n  sim.getObjct()\nend", "{file}:2: attempt to call a nil value (field 'getObjct')"),
         ("require('nothing')", "{file}:1: no file nothing.lua in {folder}"),
         ("function sysCall_actuation() end", "defines no sysCall_init"),
-        ("function sysCall_thread() end", "has a sysCall_thread, which is for scripts in Python"),
+        ("function sysCall_thread()\n  sim.step()\n  x.y = 1\nend", "sysCall_thread ({file}:3) and is disabled"),
         ("local function f() return 1 + f() end\nfunction sysCall_init() f() end", "{file}:1: stack overflow"),
         ("function sysCall_init() t = 'x' while true do t = t .. t end end", "not enough memory"),
         ("error({code = 1})", "an error that is not a text"),
@@ -161,6 +161,78 @@ def test_errors_of_functions_can_be_caught(tmp_path: Path) -> None:
         end
     """
     assert lines(tmp_path, code) == ["false\tscript.lua:3: no object matches '/nothing'"]
+
+
+def test_a_thread_steps_with_the_simulation(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            sim.setStepping(true)
+            for i = 1, 2 do
+                print('thread', sim.getSimulationTime())
+                sim.step()
+            end
+            print('late', sim.wait(0.06), sim.getSimulationTime())
+        end
+        function sysCall_sensing() print('sensing', sim.getSimulationTime()) end
+    """
+    assert lines(tmp_path, code, until=0.25) == [
+        "thread\t0.0",
+        "sensing\t0.0",
+        "thread\t0.05",
+        "sensing\t0.05",
+        "sensing\t0.1",
+        "sensing\t0.15",
+        "late\t0.04\t0.2",
+        "sensing\t0.2",
+    ]
+
+
+def test_a_thread_that_does_not_step_is_switched_away_where_it_calls(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            while sim.getSimulationTime() < 0.15 do end
+            print('end')
+        end
+    """
+    assert lines(tmp_path, code, until=0.25) == ["end"]
+
+
+def test_a_thread_sees_that_it_is_to_end(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            while not sim.getThreadExitRequest() do sim.step() end
+            print('told')
+        end
+        function sysCall_cleanup() print('cleanup') end
+    """
+    assert lines(tmp_path, code) == ["told", "cleanup"]
+
+
+def test_a_thread_that_steps_for_ever_is_left(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread() while true do sim.step() end end
+        function sysCall_cleanup() print('cleanup') end
+    """
+    assert lines(tmp_path, code) == ["cleanup"]
+
+
+def test_a_thread_that_will_not_end_is_broken_off(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            sim.setStepping(true)
+            while not sim.getThreadExitRequest() do sim.step() end
+            while true do end
+        end
+        function sysCall_cleanup() print('cleanup') end
+    """
+    run = run_lua(tmp_path, code)
+    assert run.stdout == "cleanup\n"
+    assert "the thread of the child script of /Ball does not end" in run.stderr
+
+
+def test_callbacks_cannot_step(tmp_path: Path) -> None:
+    run = run_lua(tmp_path, "function sysCall_init()\n  sim.step()\nend")
+    assert f"{tmp_path}/script.lua:2: sim.step is for sysCall_thread" in run.stderr
 
 
 OUTSIDE = ["os", "io", "package", "dofile", "loadfile", "python", "debug.getinfo", "debug.getregistry"]

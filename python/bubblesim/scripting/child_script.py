@@ -12,7 +12,7 @@ from bubblesim import _core
 from bubblesim.scripting import interruption, script_sockets
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.script_code import load_code
-from bubblesim.scripting.script_thread import ScriptThread
+from bubblesim.scripting.script_thread import AnyThread
 from bubblesim.scripting.source import ScriptSourceError
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class ChildScript:
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
-        self._thread: ScriptThread | None = None
+        self._thread: AnyThread | None = None
         self._sockets = script_sockets.Sockets()
         self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
@@ -65,11 +65,6 @@ class ChildScript:
                 f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
                 "sysCall_thread; a script needs one of these functions"
             )
-        elif self._hooks["sysCall_thread"] is not None and not self._code.threads:
-            self._fail(
-                f"error: child script of {self.object_path} is disabled: {self.file}: has a sysCall_thread, which is "
-                "for scripts in Python"
-            )
 
     def actuate(self) -> None:
         """Run sysCall_actuation, and sysCall_init before the first time."""
@@ -85,14 +80,9 @@ class ChildScript:
 
     def _start_thread(self) -> None:
         body = self._hooks["sysCall_thread"]
-        if body is None or not self.alive:
-            return
-
-        def run() -> None:
-            script_sockets.note_in(self._sockets)
-            body()
-
-        self._thread = ScriptThread(f"{self.object_path} sysCall_thread", run)
+        if body is not None and self.alive:
+            name = f"{self.object_path} sysCall_thread"
+            self._thread = self._code.make_thread(name, body, lambda: script_sockets.note_in(self._sockets))
 
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None

@@ -12,6 +12,7 @@ from typing import Any
 from lupa import lua54
 
 from bubblesim.scripting.api import functions
+from bubblesim.scripting.lua_thread import LuaThread
 from bubblesim.scripting.lua_values import BROKEN_OFF, LuaFunction, LuaValues
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.source import ScriptSourceError, find_file, read_text
@@ -23,8 +24,6 @@ _MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough 
 class LuaCode:
     """See ScriptCode."""
 
-    threads = False
-
     def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], *, unsafe: bool) -> None:
         """Compile ``file`` without running it.
 
@@ -33,6 +32,7 @@ class LuaCode:
         :raises ScriptSourceError: when it cannot be read or is no Lua.
         """
         self._folders = [file.parent, *search_paths]
+        self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by the names that Lua knows them by
         self._runtime = lua54.LuaRuntime(
             encoding=None,  # strings are bytes
@@ -59,6 +59,12 @@ class LuaCode:
         value = self._runtime.globals()[name.encode()]
         return LuaFunction(self._values, value, name) if lua54.lua_type(value) == "function" else None
 
+    def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> LuaThread:
+        """Make a coroutine that runs ``body``, a function of the script."""
+        assert isinstance(body, LuaFunction)
+        self._thread = LuaThread(self._new_thread(body.in_lua))
+        return self._thread
+
     def broken_off(self, error: BaseException) -> bool:
         """Whether the script failed for it was interrupted."""
         return isinstance(error, KeyboardInterrupt) or BROKEN_OFF.decode() in _message(error).partition("\n")[0]
@@ -81,9 +87,17 @@ class LuaCode:
         )
         host[b"write"] = lambda line: write_line(sys.stdout, line.decode(errors="backslashreplace"))
         host[b"find_source"] = callable_from_lua(self._find_source)
-        host[b"pulse"] = _pulse
+        host[b"pulse"] = self._pulse
         host[b"unsafe"] = to_lua(unsafe)
-        self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+        self._new_thread = self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+
+    def _turn_is_over(self) -> bool:
+        return self._thread is not None and self._thread.turn_is_over()
+
+    def _pulse(self) -> None:
+        """Let signals in: Python looks for them when it enters a function."""
+        if self._thread is not None:
+            self._thread.check_that_it_may_go_on()
 
     def _module(self, module: Any) -> Any:
         constants = {
@@ -95,7 +109,9 @@ class LuaCode:
         table[b"constants"] = self._values.to_lua(constants)
         table[b"functions"] = self._runtime.table_from(
             {
-                function.name.encode(): self._values.callable_from_lua(getattr(module, function.name))
+                function.name.encode(): self._values.callable_from_lua(
+                    getattr(module, function.name), self._turn_is_over
+                )
                 for function in functions(type(module))
             }
         )
@@ -130,10 +146,6 @@ def _message(error: BaseException) -> str:
     if isinstance(text, bytes):
         text = text.decode(errors="backslashreplace")
     return str(text).removeprefix("error loading code: ") or "an error that is not a text"
-
-
-def _pulse() -> None:
-    """Let signals in: Python looks for them when it enters a function."""
 
 
 def _no_attributes(_object: Any, name: Any, _setting: bool) -> Any:

@@ -79,8 +79,14 @@ class LuaValues:
             return value.in_lua
         raise TypeError(f"Lua has nothing like {type(value).__name__}")
 
-    def callable_from_lua(self, function: Callable[..., Any]) -> Callable[..., tuple[Any, ...]]:
-        """Let Lua call a function of Python: it returns true and the results, or false and what went wrong."""
+    def callable_from_lua(
+        self, function: Callable[..., Any], turn_is_over: Callable[[], bool] = lambda: False
+    ) -> Callable[..., tuple[Any, ...]]:
+        """Let Lua call a function of Python.
+
+        It returns true, whether the thread that called has to give its turn back, and the results; or false and what
+        went wrong.
+        """
 
         def call(*arguments: Any) -> tuple[Any, ...]:
             try:
@@ -90,7 +96,7 @@ class LuaValues:
                 results = function(*given)
                 if not isinstance(results, tuple):
                     results = (results,)
-                return (True, *map(self.to_lua, results))
+                return (True, turn_is_over(), *map(self.to_lua, results))
             except KeyboardInterrupt:  # Lua is to unwind as from any error
                 return False, BROKEN_OFF
             except Exception as error:

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import CodeType, ModuleType, SimpleNamespace
 from typing import Any
 
+from bubblesim.scripting.script_thread import ScriptThread
 from bubblesim.scripting.source import ScriptSourceError, find_file, read_text
 
 _OUR_FOLDER = str(Path(__file__).parent)
@@ -17,8 +18,6 @@ _OUR_FOLDER = str(Path(__file__).parent)
 
 class PythonCode:
     """See ScriptCode."""
-
-    threads = True
 
     def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], name: str) -> None:
         """Compile ``file`` without running it.
@@ -46,6 +45,15 @@ class PythonCode:
     def function(self, name: str) -> Callable[..., Any] | None:
         """Find a global of the script."""
         return self._globals.get(name)
+
+    def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> ScriptThread:
+        """Make a thread of the operating system that runs ``body``, a function of the script, after ``prepare``."""
+
+        def run() -> None:
+            prepare()
+            body()
+
+        return ScriptThread(name, run)
 
     def broken_off(self, error: BaseException) -> bool:
         """Whether the script failed for it was interrupted."""

@@ -8,20 +8,21 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bubblesim.scripting.python_code import PythonCode
+from bubblesim.scripting.script_thread import AnyThread
 from bubblesim.scripting.source import ScriptSourceError, is_lua
 
 
 class ScriptCode(Protocol):
     """Code with globals of its own."""
 
-    threads: bool
-    """Whether a second thread may run it."""
-
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
 
     def function(self, name: str) -> Callable[..., Any] | None:
         """Find what the script has under a global name."""
+
+    def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> AnyThread:
+        """Make the thread that runs ``body``, a function of the script, after ``prepare``, which is none."""
 
     def broken_off(self, error: BaseException) -> bool:
         """Whether the script failed for it was interrupted."""

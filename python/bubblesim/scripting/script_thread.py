@@ -13,16 +13,39 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import SupportsIndex
+from typing import Protocol, SupportsIndex
 
-_SLICE = 0.002  # s, of a turn in automatic mode
+SLICE = 0.002  # s, of a turn in automatic mode
 _SAMPLE = 0.001  # s between looks at what the thread does
 # A thread that has not run for so long sleeps. One that waits for Python's lock looks for it every 5 ms.
 _ASLEEP_AFTER = 0.007
 _SECONDS_TO_LEAVE = 0.2  # for a thread that looks whether it should end
 _SECONDS_TO_END = 0.8
 
-by_ident: dict[int, ScriptThread] = {}
+
+class AnyThread(Protocol):
+    """The thread of a script in any language; see ScriptThread."""
+
+    stepping: int
+    exit_requested: bool
+
+    def give_turn(self) -> None:
+        """Let the thread work in its turn; raise the error that it ended with."""
+
+    def turn(self) -> contextlib.AbstractContextManager[None]:
+        """Called by the thread around what it does to the simulation."""
+
+    def step(self) -> None:
+        """Called by the thread: gives its turn back."""
+
+    def sleep(self, seconds: float) -> None:
+        """Called by the thread: sleeps, unless it is to end."""
+
+    def end(self, wake: Callable[[], None]) -> bool:
+        """Ask the thread to end, and make it after a moment; whether it did."""
+
+
+by_ident: dict[int, AnyThread] = {}
 """The threads of scripts that run."""
 
 _plain_sleep = time.sleep
@@ -41,7 +64,7 @@ def _sleep(seconds: float | SupportsIndex) -> None:
         thread.sleep(float(seconds))
 
 
-def current() -> ScriptThread | None:
+def current() -> AnyThread | None:
     """The script's thread that calls; None for the simulation's own thread."""
     return by_ident.get(threading.get_ident())
 
@@ -97,7 +120,7 @@ class ScriptThread:
             raise error
 
     def _wait_while_it_has_its_turn(self) -> None:
-        over = time.monotonic() + _SLICE
+        over = time.monotonic() + SLICE
         runs = None
         seen_at = 0.0
         while self._turn and not self._done:

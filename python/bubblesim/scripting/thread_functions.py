@@ -8,7 +8,7 @@ import time
 from bubblesim._core import RunState
 from bubblesim.scripting.api import any_time
 from bubblesim.scripting.context import ApiContext
-from bubblesim.scripting.script_thread import ScriptThread, current
+from bubblesim.scripting.script_thread import AnyThread, current
 
 _TOLERANCE = 1e-6  # of a pass
 
@@ -80,7 +80,7 @@ class ThreadFunctions(ApiContext):
         """Whether this is the last pass, or the end after it."""
         return self.getThreadExitRequest() or bool(self._simulation.state == RunState.STOPPING)
 
-    def _thread(self, function: str) -> ScriptThread:
+    def _thread(self, function: str) -> AnyThread:
         thread = current()
         if thread is None:
             raise RuntimeError(f"sim.{function} is for sysCall_thread: a callback must not wait for the simulation")
