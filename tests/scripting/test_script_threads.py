@@ -69,7 +69,7 @@ def test_without_stepping_a_thread_that_never_waits_stops_nobody(tmp_path: Path)
 )
 def test_one_that_waits_stops_nobody_and_ends_with_the_simulation(tmp_path: Path, wait: str, stepping: bool) -> None:
     code = f"""
-        import socket, time
+        import socket, sys, time
         from time import sleep
         def sysCall_thread():
             sim.setStepping({stepping})
@@ -77,7 +77,7 @@ def test_one_that_waits_stops_nobody_and_ends_with_the_simulation(tmp_path: Path
             pair = socket.socketpair()
             datagrams = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
             datagrams.bind(('127.0.0.1', 0))
-            print('waits')
+            sys.stdout.write('waits\\n')  # at once: a turn may end within a print
             while True: {wait}
         def sysCall_actuation(): print('actuation')
         def sysCall_cleanup(): print('cleanup')
