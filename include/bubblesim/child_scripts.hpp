@@ -21,6 +21,8 @@ struct ScriptOptions {
   std::vector<std::filesystem::path> search_paths;
   /// Lets scripts in Lua use os, io, debug and package.
   bool lua_unsafe = false;
+  /// Offers Gazebo's services and topics beside the node's own.
+  bool gazebo_compat = false;
 };
 
 /// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and

@@ -72,6 +72,8 @@ class World {
   void set_pose(ObjectId object, const Pose& pose);
   /// Of a model (all its links move as one rigid body) or a single link.
   void set_velocity(ObjectId object, const Twist& velocity);
+  /// Both at once, or none.
+  void set_state(ObjectId object, const Pose& pose, const Twist& velocity);
 
   /// `axis` is 0, or 1 for the second axis of a revolute2 joint. Radians or metres. Positions of turning joints lie
   /// between -pi and pi, unless their limits reach beyond: then whole turns count.

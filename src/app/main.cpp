@@ -101,7 +101,8 @@ int run_scene(const Options& options, int& argc, char** argv) {
   auto guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge] {
     if (bridge) bridge->leave();
   });
-  ChildScripts scripts(simulation, bridge.get(), {options.child_scripts, options.script_paths, options.lua_unsafe});
+  ChildScripts scripts(simulation, bridge.get(),
+                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.gazebo_compat});
   simulation.add(scripts);
 
   int exit_code = kFine;

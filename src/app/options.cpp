@@ -70,6 +70,7 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--script-path", script_paths, "DIR in which scripts find what they include (repeatable)")
       ->allow_extra_args(false);
+  app.add_flag("--gazebo-compat", options.gazebo_compat, "offer Gazebo's services and topics below /gazebo, too");
   app.add_flag("--lua-unsafe", options.lua_unsafe, "let scripts in Lua use os, io, debug and package");
   app.add_flag("--strict", options.strict, "exit with 3 as soon as a script has failed");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");

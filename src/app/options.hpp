@@ -31,6 +31,7 @@ struct Options {
   bool state_hash = false;
   std::vector<std::pair<std::string, std::filesystem::path>> child_scripts;
   std::vector<std::filesystem::path> script_paths;
+  bool gazebo_compat = false;
   bool lua_unsafe = false;
 };
 

@@ -65,10 +65,13 @@ void bind_world(py::module_& module) {
           "pose_from",
           [](const World& w, const Pose7& pose, ObjectId frame) { return to_list(frame_of(w, frame) * to_pose(pose)); },
           "Pose in the world of what has this pose in the frame of an object; see `pose_in`.")
-      .def("set_velocity",
-           [](World& w, ObjectId id, const std::array<double, 3>& linear, const std::array<double, 3>& angular) {
-             w.set_velocity(id, {to_vector(linear), to_vector(angular)});
-           })
+      .def(
+          "set_state",
+          [](World& w, ObjectId id, const Pose7& pose, const std::array<double, 3>& linear,
+             const std::array<double, 3>& angular) {
+            w.set_state(id, to_pose(pose), {to_vector(linear), to_vector(angular)});
+          },
+          "Pose, linear and angular velocity at once.")
       .def("velocity",
            [](const World& w, ObjectId id) {
              const Twist v = w.velocity(id);

@@ -81,7 +81,8 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                                scripts_to_run(simulation, options), options.search_paths,
                                py::arg("lua_unsafe") = options.lua_unsafe);
     if (bridge != nullptr) {
-      const py::object control = py::module_::import("bubblesim.control.offered").attr("Control")(python_->host);
+      const py::object control = py::module_::import("bubblesim.control.offered")
+                                     .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
       python_->drain = control.attr("drain");
       python_->publish = control.attr("publish");
     }

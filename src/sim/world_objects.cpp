@@ -43,6 +43,12 @@ ObjectId carrier(const World::State& state, const Object& object) {
   return kNoObject;
 }
 
+void check_velocity(const World::State& state, ObjectId object, const Twist& velocity) {
+  if (within(velocity.linear, kMaxSpeed) && within(velocity.angular, kMaxSpeed)) return;
+  throw InvalidInput(state.shown(object) + ": the velocity " + text(velocity.linear) + " m/s, " +
+                     text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
+}
+
 }  // namespace
 
 Vector3 to_vector(const dReal* values) { return {values[0], values[1], values[2]}; }
@@ -109,10 +115,7 @@ void World::set_pose(ObjectId object, const Pose& pose) {
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
   const std::vector<const Link*> links = moving_links(*state_, object);
-  if (!within(velocity.linear, kMaxSpeed) || !within(velocity.angular, kMaxSpeed)) {
-    throw InvalidInput(state_->shown(object) + ": the velocity " + text(velocity.linear) + " m/s, " +
-                       text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
-  }
+  check_velocity(*state_, object, velocity);
   const Vector3 origin = pose(object).Pos();
   for (const Link* link : links) {
     dBodyID body = link->body.get();
@@ -120,6 +123,12 @@ void World::set_velocity(ObjectId object, const Twist& velocity) {
     dBodySetLinearVel(body, linear.X(), linear.Y(), linear.Z());
     dBodySetAngularVel(body, velocity.angular.X(), velocity.angular.Y(), velocity.angular.Z());
   }
+}
+
+void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) {
+  check_velocity(*state_, object, velocity);
+  set_pose(object, pose);
+  set_velocity(object, velocity);
 }
 
 }  // namespace bubblesim

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bubblesim import _core
+
 Message = dict[str, Any]
 
 
@@ -19,3 +21,15 @@ def telling_errors(answer: Callable[[Message], Message]) -> Callable[[Message], 
             return {"success": False, "status_message": str(error)}
 
     return guarded
+
+
+def answering_empty(action: Callable[[], None]) -> Callable[[object], None]:
+    """Make the answer of a std_srvs/Empty, which has no place to report errors in: the call fails then."""
+
+    def answer(request: object) -> None:
+        try:
+            action()
+        except RuntimeError as error:  # a script asks for it in the middle of a pass
+            raise _core.ServiceError(str(error)) from None
+
+    return answer

@@ -28,6 +28,24 @@ def state_in(world: Any, handle: int, reference: int | None) -> tuple[list[float
     return world.pose_in(handle, reference), _into(frame, relative), _into(frame, turning)
 
 
+def state_from(
+    world: Any, pose: Sequence[float], linear: Sequence[float], angular: Sequence[float], reference: int | None
+) -> tuple[Sequence[float], Sequence[float], Sequence[float]]:
+    """Pose, linear and angular velocity in the world, from those as seen from `reference`: the inverse of state_in."""
+    if reference is None:
+        return pose, linear, angular
+    frame = world.pose(reference)
+    frame_linear, frame_angular = world.velocity(reference)
+    placed: list[float] = world.pose_from(pose, reference)
+    carried = _cross(frame_angular, _difference(placed[:3], frame[:3]))
+    moving = _sum(_sum(frame_linear, carried), _out_of(frame, linear))
+    return placed, moving, _sum(frame_angular, _out_of(frame, angular))
+
+
+def _sum(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return [x + y for x, y in zip(a, b, strict=True)]
+
+
 def _difference(a: Sequence[float], b: Sequence[float]) -> Vector:
     return [x - y for x, y in zip(a, b, strict=True)]
 
@@ -42,9 +60,14 @@ def _into(frame: Sequence[float], vector: Sequence[float]) -> Vector:
     return [sum(x * y for x, y in zip(column, vector, strict=True)) for column in columns]
 
 
+def _out_of(frame: Sequence[float], vector: Sequence[float]) -> Vector:
+    """A vector in the axes of a frame as one in world axes."""
+    return [sum(x * y for x, y in zip(row, vector, strict=True)) for row in matrix(frame[3:])]
+
+
 def pose_values(message: dict[str, Any]) -> list[float]:
     """A geometry_msgs/Pose as seven numbers."""
-    return [*(message["position"][axis] for axis in "xyz"), *(message["orientation"][axis] for axis in "xyzw")]
+    return [*vector_values(message["position"]), *(message["orientation"][axis] for axis in "xyzw")]
 
 
 def pose_message(pose: Sequence[float]) -> dict[str, Any]:
@@ -53,6 +76,11 @@ def pose_message(pose: Sequence[float]) -> dict[str, Any]:
         "position": vector_message(pose[:3]),
         "orientation": dict(zip("xyzw", pose[3:], strict=True)),
     }
+
+
+def vector_values(message: dict[str, Any]) -> list[float]:
+    """A geometry_msgs/Vector3 or Point as three numbers."""
+    return [message[axis] for axis in "xyz"]
 
 
 def vector_message(vector: Sequence[float]) -> dict[str, float]:

@@ -3,24 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.control.answers import answering_empty
 from bubblesim.scripting.host import ScriptHost
 
 
 def offer_reset_services(bridge: Any, host: ScriptHost) -> None:
     """Offer both, as std_srvs/Empty, under the node's name; they are done when they answer."""
     for name, action in (("~reset", host.simulation.reset_world), ("~reset_simulation", host.restart)):
-        bridge.advertise_service(name, "std_srvs/Empty", _answering(action), _core.messages.TimeForm.FLOAT)
-
-
-def _answering(action: Callable[[], None]) -> Callable[[object], None]:
-    def answer(request: object) -> None:
-        try:
-            action()
-        except RuntimeError as error:  # a script asks for it in the middle of a pass
-            raise _core.ServiceError(str(error)) from None
-
-    return answer
+        bridge.advertise_service(name, "std_srvs/Empty", answering_empty(action), _core.messages.TimeForm.FLOAT)
