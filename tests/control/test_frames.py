@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import bubblesim
-from bubblesim.control.frames import state_in
+from bubblesim.control.frames import state_from, state_in
 
 # The table turns about its z axis and looks along y; both others are 3 m ahead of it.
 SCENE = """\
@@ -56,3 +56,19 @@ def test_the_world_sees_velocities_as_they_are(turntable: Any) -> None:
     _, linear, angular = state_in(turntable.world, turntable.object("/Rider").handle, None)
     assert linear == pytest.approx([-6, 0, 0])
     assert angular == pytest.approx([0, 0, 2])
+
+
+def test_what_rests_on_a_turning_table_moves_with_it(turntable: Any) -> None:
+    table = turntable.object("/Table").handle
+    pose, linear, angular = state_from(turntable.world, [3, 0, 0, 0, 0, 0, 1], [0, 0, 0], [0, 0, 0], table)
+    assert pose == pytest.approx(turntable.world.pose(turntable.object("/Rider").handle))
+    assert linear == pytest.approx([-6, 0, 0])
+    assert angular == pytest.approx([0, 0, 2])
+
+
+def test_velocities_along_the_axes_of_a_frame_turn_with_it(turntable: Any) -> None:
+    # At the table's centre nothing is carried along, and the table looks along y.
+    table = turntable.object("/Table").handle
+    _, linear, angular = state_from(turntable.world, [0, 0, 0, 0, 0, 0, 1], [5, 0, 0], [0, 1, 0], table)
+    assert linear == pytest.approx([0, 5, 0])
+    assert angular == pytest.approx([-1, 0, 2])

@@ -35,10 +35,10 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
     code = f"""
         import socket, tempfile
         def sysCall_init():
+            self.server = socket.create_server(('127.0.0.1', {port}))  # left open, as are those below
             print('init', sim.getSimulationTime(), sim.getSimulationState(), sim.getInt32Signal('left over'))
             sim.setInt32Signal('left over', 1)
             sim.setObjectPosition(sim.getObject('.'), [5, 5, 5])
-            self.server = socket.create_server(('127.0.0.1', {port}))  # left open, as are those below
             self.files = [tempfile.TemporaryFile() for _ in range(5)]
             self.heard_at = simROS.advertise('/of_the_script', 'std_msgs/Float32')
             simROS.subscribe('/clock', 'rosgraph_msgs/Clock', lambda message: print('heard'))

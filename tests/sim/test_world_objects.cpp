@@ -66,6 +66,16 @@ TEST_F(RobotWorld, VelocityOfEachObjectIsThatOfItsOrigin) {
   EXPECT_EQ(world.velocity(find("/Wall")).linear.Length(), 0);
 }
 
+TEST_F(RobotWorld, StateIsPoseAndVelocityAtOnceOrNone) {
+  world.set_state(find("/Robot"), at(7, 8, 9), {{1, 2, 3}, {}});
+  EXPECT_LT(world.pose(find("/Robot")).Pos().Distance({7, 8, 9}), 1e-12);
+  EXPECT_LT(world.velocity(find("/arm")).linear.Distance({1, 2, 3}), 1e-12);
+  const std::uint64_t before = world.state_hash();
+  EXPECT_THROW(world.set_state(find("/Robot"), at(1, 2, 3), {{kNaN, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.set_state(find("/Robot"), at(1, kNaN, 3), {{1, 0, 0}, {}}), InvalidInput);
+  EXPECT_EQ(world.state_hash(), before);
+}
+
 TEST_F(RobotWorld, VelocityOfALinkIsSetForItAlone) {
   world.set_velocity(find("/arm"), {{1, 2, 3}, {4, 5, 6}});
   EXPECT_LT(world.velocity(find("/arm")).linear.Distance({1, 2, 3}), 1e-12);
