@@ -3,7 +3,7 @@
 
 A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->, which takes a topic when its
 scene has no /tf: <!-- in another terminal: COMMAND, until there is TOPIC -->. Blocks marked console are for
-the reader only.
+the reader only. Python blocks that are parts of a child script are run as one where the page says SCRIPTS_RUN.
 """
 
 import re
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import run_script
+from node_support import run_script, run_sim, write
 from ros_support import REPOSITORY, RosCore, start, stop, wait_until
 
 PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
@@ -22,6 +22,7 @@ BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
 CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
+SCRIPTS_RUN = "<!-- the child scripts of this page run by themselves -->"
 
 PYTHON_ENDS_ALONE = [
     (page, code)
@@ -75,6 +76,16 @@ def test_python_blocks_run(page: Path, code: str) -> None:
 def test_lua_blocks_run(tmp_path: Path, page: Path, code: str) -> None:
     run = run_script(tmp_path, code, "--strict", name="script.lua")
     assert (run.stderr, run.returncode) == ("", 0)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if SCRIPTS_RUN in page.read_text()], ids=name)
+def test_child_scripts_run(roscore: RosCore, tmp_path: Path, page: Path) -> None:
+    scripts = [code for language, code in BLOCK.findall(page.read_text()) if language == "python"]
+    assert scripts
+    for code in scripts:
+        script = write(tmp_path / "script.py", code)
+        run = run_sim("ball", "--strict", "--until", 0.5, "--child-script", f"/Ball={script}", env=roscore.env)
+        assert (run.returncode, "warning" in run.stderr) == (0, False), f"{code}\n{run.stderr}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)

@@ -103,6 +103,33 @@ rospy.spin()
 """
 
 
+def test_the_quality_of_jpeg_is_that_of_the_parameter_and_arrays_are_images(script: Script, roscore: RosCore) -> None:
+    roscore.set_param("/coarse/compressed/jpeg_quality", 1)
+    node = script("""\
+        import numpy as np
+        NOISE = np.random.default_rng(0).integers(0, 256, (32, 64, 3), np.uint8)
+        def sysCall_init():
+            self.cameras = [simROS2.imageTransportCreatePublisher(topic) for topic in ('/fine', '/coarse')]
+            for topic in ('/fine', '/coarse'):
+                simROS.subscribe(topic + '/compressed', 'sensor_msgs/CompressedImage', hear_size(topic))
+            simROS2.imageTransportCreateSubscription('/fine', hear, 1, 'compressed')
+        def sysCall_sensing():
+            for camera in self.cameras:
+                simROS2.imageTransportPublish(camera, NOISE, 64, 32, 'lens')
+        def hear_size(topic):
+            return lambda message: print(topic, len(message['data']))
+        def hear(data, width, height):
+            error = np.abs(np.frombuffer(data, np.uint8).reshape(32, 64, 3).mean() - NOISE.mean())
+            print('heard', width, height, error < 5)
+        """)
+    node.wait_for_output("heard 64 32 True")
+    sizes: dict[str, int] = {}
+    for topic in ("/fine", "/coarse"):
+        node.wait_for_output(f"\n{topic} ")
+        sizes[topic] = int(node.output.split(f"\n{topic} ")[1].split()[0])
+    assert sizes["/coarse"] < sizes["/fine"] / 2
+
+
 def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script: Script, roscore: RosCore) -> None:
     node = script("""\
         def hear(name):
@@ -127,6 +154,7 @@ def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script
 
 def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
     node = script("""\
+        import numpy as np
         def told(call, *arguments):
             try:
                 call(*arguments)
@@ -136,6 +164,7 @@ def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
             camera = simROS.imageTransportAdvertise('/camera')
             told(simROS.imageTransportPublish, camera, bytes(11), 2, 2, 'lens')
             told(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 5)
+            told(simROS.imageTransportPublish, camera, np.zeros(12), 2, 2, 'lens')
             told(simROS.imageTransportSubscribe, '/camera', print, 1, 'theora')
             simROS.imageTransportShutdownPublisher(camera)
             told(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 'lens')
@@ -147,7 +176,8 @@ def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
         """)
     node.wait_for_output("done")
     assert "takes 2 * 2 * 3 = 12 bytes of rgb8, and at least one pixel; found 11 bytes" in node.output
-    assert "frame_id takes a string, found 5" in node.output
+    assert "argument 5, frame_id: expected a text, found int 5" in node.output
+    assert "argument 2, data: expected bytes or a numpy array of uint8, found an array of float64" in node.output
     assert "transport takes 'raw' or 'compressed', found 'theora'" in node.output
     assert node.output.count("told: invalid object handle") == 3
 

@@ -11,11 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bubblesim.scripting import kinds
-from bubblesim.scripting.api import ArgumentError, functions, script_module, value_first
+from bubblesim.scripting.api import ArgumentError, checked_on_failure, functions, script_module, value_first
 from bubblesim.scripting.reference import page
+from bubblesim.scripting.ros_api import SimRos, SimRos2
 from bubblesim.scripting.sim_api import SimApi
-from node_support import run_script
-from ros_support import REPOSITORY
+from node_support import run_script, run_sim, write
+from ros_support import REPOSITORY, free_port, ros_environment
 
 ANYTHING = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary(),
@@ -31,6 +32,11 @@ class Sample:
     def number(self, value: float) -> float:
         """Any number."""
         return value
+
+    @checked_on_failure
+    def next(self, value: float) -> float:
+        """The number after it."""
+        return value + 1.0
 
     def text(self, value: str, count: int = 1) -> str:
         """A text, several times."""
@@ -101,31 +107,58 @@ def test_arguments_may_be_named() -> None:
     assert Sample().text(count=3, value="ab") == "ababab"
 
 
-@pytest.mark.parametrize("function", functions(SimApi), ids=lambda function: function.name)
+MODULES = {"sim": SimApi, "simROS": SimRos, "simROS2": SimRos2}
+
+
+@pytest.mark.parametrize(
+    "function",
+    [pytest.param(f, id=f"{name}.{f.name}") for name, module in MODULES.items() for f in functions(module)],
+)
 def test_every_function_says_what_it_does(function: object) -> None:
     assert function.doc.strip()  # type: ignore[attr-defined]
     assert all(p.annotation is not inspect.Parameter.empty for p in function.signature.parameters.values())  # type: ignore[attr-defined]
 
 
-def test_the_reference_page_is_that_of_the_functions() -> None:
-    file = REPOSITORY / "docs" / "scripts" / "sim.md"
-    assert file.read_text() == page("sim"), f"write it anew: python -m bubblesim.scripting.reference sim > {file}"
+@pytest.mark.parametrize("name", MODULES)
+def test_the_reference_page_is_that_of_the_functions(name: str) -> None:
+    file = REPOSITORY / "docs" / "scripts" / f"{name}.md"
+    assert file.read_text() == page(name), f"write it anew: python -m bubblesim.scripting.reference {name} > {file}"
 
 
-def test_no_function_of_sim_falls_over_odd_arguments(tmp_path: Path) -> None:
-    code = """
-        ODD = [None, True, -5, 10**30, float('nan'), 'text', b'bytes', [], [None], [1, 2, 3], {}, {'a': 1}, print]
-        EXCEPT = ('stopSimulation', 'pauseSimulation', 'launchExecutable')
-        def sysCall_init():
-            names = [n for n in dir(sim) if callable(getattr(sim, n)) and not n.startswith('_') and n not in EXCEPT]
+SWEEP = """
+    ODD = [None, True, -5, 10**30, float('nan'), 'text', b'bytes', [], [None], [1, 2, 3], {}, {'a': 1}, print]
+    EXCEPT = ('stopSimulation', 'pauseSimulation', 'launchExecutable', 'waitForService')
+    def sysCall_init():
+        for module in MODULES:
+            names = [n for n in dir(module) if callable(getattr(module, n)) and n[0] != '_' and n not in EXCEPT]
+            assert len(names) > 30
             for name in names:
                 for arguments in [(), *((a,) for a in ODD), *((a, b) for a in ODD for b in ODD)]:
                     try:
-                        getattr(sim, name)(*arguments)
+                        getattr(module, name)(*arguments)
                     except (TypeError, ValueError, LookupError, RuntimeError) as error:
                         assert str(error) and 'incompatible function arguments' not in str(error), (name, arguments)
-            print(len(names) > 30)
-    """
-    run = run_script(tmp_path, code, "--strict", until=0.05)
+        print('swept')
+"""
+
+
+def test_no_function_of_sim_falls_over_odd_arguments(tmp_path: Path) -> None:
+    run = run_script(tmp_path, SWEEP.replace("MODULES", "[sim]"), "--strict", until=0.05)
     assert run.returncode == 0, run.stderr
-    assert run.stdout.endswith("True\n")
+    assert run.stdout.endswith("swept\n")
+
+
+def test_no_function_of_simros_falls_over_odd_arguments(tmp_path: Path) -> None:
+    script = write(tmp_path / "script.py", SWEEP.replace("MODULES", "[simROS, simROS2]"))
+    options = ["--strict", "--speed", "max", "--until", 0.05, "--child-script", f"/Ball={script}"]
+    run = run_sim("ball", *options, env=ros_environment(free_port(), tmp_path))  # no master: nothing waits for one
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.endswith("swept\n")
+
+
+def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
+    assert Sample().next(1.5) == 2.5
+    with pytest.raises(ArgumentError, match=r"sample\.next: argument 1, value: expected a number, found str 'one'"):
+        Sample().next("one")  # type: ignore[arg-type]
+    with pytest.raises(ArgumentError, match=r"sample\.next\(value\): missing a required argument: 'value'"):
+        Sample().next()  # type: ignore[call-arg]

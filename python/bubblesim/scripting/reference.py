@@ -7,7 +7,7 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from bubblesim.scripting import sim_api  # noqa: F401  # registers its module
+from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
 from bubblesim.scripting.api import MODULES, ScriptFunction, functions
 
 _INTRODUCTION = """\
@@ -26,13 +26,15 @@ def page(name: str) -> str:
     found = functions(module)
     parts = [_INTRODUCTION.format(name=name)]
     for group in dict.fromkeys(base for base in module.__mro__ if any(f.group is base for f in found)):
-        parts.append(f"## {_title(group)}\n\n{inspect.getdoc(group)}\n")
+        parts.append(f"## {_title(group, module)}\n\n{inspect.getdoc(group)}\n")
         parts.append("\n".join(_entry(name, function) for function in found if function.group is group) + "\n")
     return "\n".join(parts)
 
 
-def _title(group: type) -> str:
-    return group.__name__.removesuffix("Functions")
+def _title(group: type, module: type) -> str:
+    if group is module:
+        return "Names of its own"
+    return group.__name__.removesuffix("Functions").removeprefix("Ros")
 
 
 def _entry(module: str, function: ScriptFunction) -> str:

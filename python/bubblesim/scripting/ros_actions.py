@@ -3,23 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from bubblesim.scripting.action_client import ActionClient, ResultCode
 from bubblesim.scripting.action_server import ACCEPT, DEFER, REJECT, ActionServer
 from bubblesim.scripting.action_topics import ActionTopics, GoalStatus
 from bubblesim.scripting.ros_context import RosContext
+from bubblesim.scripting.ros_kinds import CallbackOrName, RosHandle
 from bubblesim.scripting.ros_stamps import Message
 
 if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
-
-GoalResponseCallback = Callable[[str, bool], object] | str
-FeedbackCallback = Callable[[str, dict[str, Any]], object] | str
-ResultCallback = Callable[[str, int, dict[str, Any]], object] | str
-AnsweringGoalCallback = Callable[[str, dict[str, Any]], int] | str
-GoalCallback = Callable[[str, dict[str, Any]], object] | str
 
 
 class RosActions(RosContext):
@@ -49,9 +43,9 @@ class RosActions(RosContext):
         self,
         name: str,
         action_type: str,
-        goal_response_callback: GoalResponseCallback,
-        feedback_callback: FeedbackCallback,
-        result_callback: ResultCallback,
+        goal_response_callback: CallbackOrName,
+        feedback_callback: CallbackOrName,
+        result_callback: CallbackOrName,
     ) -> int:
         """Make a client of an action and return its handle.
 
@@ -69,15 +63,15 @@ class RosActions(RosContext):
         self._script.at_end["action client", client.handle] = lambda: self.shutdownActionClient(client.handle)
         return client.handle
 
-    def sendGoal(self, client: int, goal: Message) -> str:
+    def sendGoal(self, client: RosHandle, goal: Message) -> str:
         """Send a goal and return its id. While no server is there the goal waits for one; the call never does."""
         return self._action_client(client).send_goal(goal)
 
-    def cancelLastGoal(self, client: int) -> bool:
+    def cancelLastGoal(self, client: RosHandle) -> bool:
         """Ask the server to cancel the goal sent last; False when none was sent or it is over."""
         return self._action_client(client).cancel_last_goal()
 
-    def shutdownActionClient(self, client: int) -> None:
+    def shutdownActionClient(self, client: RosHandle) -> None:
         """Drop a client; its goals go on, its handle cannot be used any more."""
         self._action_client(client).close()
         del self._action_clients[client]
@@ -87,9 +81,9 @@ class RosActions(RosContext):
         self,
         name: str,
         action_type: str,
-        handle_goal_callback: AnsweringGoalCallback,
-        handle_cancel_callback: AnsweringGoalCallback,
-        handle_accepted_callback: GoalCallback,
+        handle_goal_callback: CallbackOrName,
+        handle_cancel_callback: CallbackOrName,
+        handle_accepted_callback: CallbackOrName,
     ) -> int:
         """Offer an action and return the server's handle.
 
@@ -110,49 +104,49 @@ class RosActions(RosContext):
         self._script.at_end["action server", server.handle] = lambda: self.shutdownActionServer(server.handle)
         return server.handle
 
-    def shutdownActionServer(self, server: int) -> None:
+    def shutdownActionServer(self, server: RosHandle) -> None:
         """Stop offering an action; the handle cannot be used any more."""
         self._action_server(server).close()
         del self._action_servers[server]
         self._forget("action server", server)
 
-    def actionServerPublishFeedback(self, server: int, goal_id: str, feedback: Message) -> None:
+    def actionServerPublishFeedback(self, server: RosHandle, goal_id: str, feedback: Message) -> None:
         """Tell the client of a goal how far it is."""
         self._action_server(server).publish_feedback(goal_id, feedback)
 
-    def actionServerActionExecute(self, server: int, goal_id: str) -> None:
+    def actionServerActionExecute(self, server: RosHandle, goal_id: str) -> None:
         """Start a goal that was accepted with simROS2.goal_response_accept_and_defer."""
         self._action_server(server).execute(goal_id)
 
-    def actionServerActionSucceed(self, server: int, goal_id: str, result: Message) -> None:
+    def actionServerActionSucceed(self, server: RosHandle, goal_id: str, result: Message) -> None:
         """End a goal that is being executed: it has been reached."""
         self._action_server(server).finish(goal_id, "succeed", result)
 
-    def actionServerActionAbort(self, server: int, goal_id: str, result: Message) -> None:
+    def actionServerActionAbort(self, server: RosHandle, goal_id: str, result: Message) -> None:
         """End a goal that is being executed: it cannot be reached."""
         self._action_server(server).finish(goal_id, "abort", result)
 
-    def actionServerActionCanceled(self, server: int, goal_id: str, result: Message) -> None:
+    def actionServerActionCanceled(self, server: RosHandle, goal_id: str, result: Message) -> None:
         """End a goal that is pending or being executed: it was cancelled."""
         self._action_server(server).finish(goal_id, "be canceled", result)
 
-    def actionServerActionIsCanceling(self, server: int, goal_id: str) -> bool:
+    def actionServerActionIsCanceling(self, server: RosHandle, goal_id: str) -> bool:
         """Whether cancelling was requested and accepted, and the goal is not over."""
         return self._action_server(server).is_in(goal_id, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
 
-    def actionServerActionIsActive(self, server: int, goal_id: str) -> bool:
+    def actionServerActionIsActive(self, server: RosHandle, goal_id: str) -> bool:
         """Whether the goal is pending, being executed or being cancelled; False when over or not known."""
         active = (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
         return self._action_server(server).is_in(goal_id, *active)
 
-    def actionServerActionIsExecuting(self, server: int, goal_id: str) -> bool:
+    def actionServerActionIsExecuting(self, server: RosHandle, goal_id: str) -> bool:
         """Whether the goal is being executed and not being cancelled."""
         return self._action_server(server).is_in(goal_id, GoalStatus.ACTIVE)
 
-    def actionClientTreatUInt8ArrayAsString(self, client: int) -> None:
+    def actionClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
-    def actionServerTreatUInt8ArrayAsString(self, server: int) -> None:
+    def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
     def _action_client(self, handle: int) -> ActionClient:

@@ -7,21 +7,23 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.api import script_module
 from bubblesim.scripting.ros_actions import RosActions
 from bubblesim.scripting.ros_images import RosImages
+from bubblesim.scripting.ros_kinds import CallbackOrName, QueueSize, RosHandle, Seconds, Stamp
 from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_qos import read_qos
-from bubblesim.scripting.ros_services import RosServices, ServiceCallback
+from bubblesim.scripting.ros_services import RosServices
 from bubblesim.scripting.ros_stamps import now
-from bubblesim.scripting.ros_topics import Callback
 from bubblesim.scripting.ros_transforms import RosTransforms
 from bubblesim.scripting.ros_transport import read_transport_hints
 
 
-class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
+@script_module("simROS")
+class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
     """`simROS`: times in messages are float seconds."""
 
-    def advertise(self, topic: str, message_type: str, queue_size: int = 1, latch: bool = False) -> int:
+    def advertise(self, topic: str, message_type: str, queue_size: QueueSize = 1, latch: bool = False) -> int:
         """Make a publisher and return its handle."""
         return self._advertise(topic, message_type, queue_size, latch=latch)
 
@@ -29,8 +31,8 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         self,
         topic: str,
         message_type: str,
-        callback: Callback,
-        queue_size: int = 1,
+        callback: CallbackOrName,
+        queue_size: QueueSize = 1,
         transport_hints: Mapping[str, Any] | None = None,
     ) -> int:
         """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
@@ -45,7 +47,7 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         guarded = self._script.callback(callback)
         return self._listen(topic, message_type, guarded, queue_size, tcp_no_delay=hints.tcp_no_delay)
 
-    def shutdownSubscriber(self, subscriber: int) -> None:
+    def shutdownSubscriber(self, subscriber: RosHandle) -> None:
         """Stop listening; the handle cannot be used any more."""
         self._shutdown_subscriber(subscriber)
 
@@ -53,23 +55,41 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         """Make a client of a service and return its handle."""
         return self._client(name, service_type)
 
-    def advertiseService(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+    def advertiseService(self, name: str, service_type: str, callback: CallbackOrName) -> int:
         """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
         return self._server(name, service_type, callback)
 
-    def shutdownServiceClient(self, client: int) -> None:
+    def shutdownServiceClient(self, client: RosHandle) -> None:
         """Drop a client; the handle cannot be used any more."""
         self._shutdown_client(client)
 
-    def shutdownServiceServer(self, server: int) -> None:
+    def shutdownServiceServer(self, server: RosHandle) -> None:
         """Stop offering a service; the handle cannot be used any more."""
         self._shutdown_server(server)
 
-    def serviceClientTreatUInt8ArrayAsString(self, client: int) -> None:
+    def serviceClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
-    def serviceServerTreatUInt8ArrayAsString(self, server: int) -> None:
+    def serviceServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def imageTransportAdvertise(self, topic: str, queue_size: QueueSize = 1) -> int:
+        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle."""
+        return self._advertise_images(topic, queue_size)
+
+    def imageTransportSubscribe(
+        self, topic: str, callback: CallbackOrName, queue_size: QueueSize = 1, transport: str = "raw"
+    ) -> int:
+        """Call ``callback`` with each image as (data, width, height); return a handle.
+
+        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
+        out with a warning.
+        """
+        return self._subscribe_images(topic, callback, queue_size, transport)
+
+    def imageTransportShutdownSubscriber(self, subscriber: RosHandle) -> None:
+        """Stop listening to images; the handle cannot be used any more."""
+        self._shutdown_subscriber(subscriber)
 
     def getTime(self, flag: int = 0) -> float:
         """ROS time in seconds: the simulation's under /use_sim_time, else the wall clock's."""
@@ -77,7 +97,8 @@ class SimRos(RosImages, RosTransforms, RosServices, RosParameters):
         return float(sec + nanosec * 1e-9)
 
 
-class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
+@script_module("simROS2")
+class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
     """`simROS2`: the names of the ROS 2 tutorials; times in messages are {sec, nanosec}."""
 
     _module = "simROS2"
@@ -91,7 +112,7 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
         return self._advertise(topic, message_type, wanted.depth, latch=latch or wanted.latch)
 
     def createSubscription(
-        self, topic: str, message_type: str, callback: Callback, qos: int | Mapping[str, Any] = 1
+        self, topic: str, message_type: str, callback: CallbackOrName, qos: int | Mapping[str, Any] = 1
     ) -> int:
         """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
 
@@ -100,7 +121,7 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
         """
         return self._listen(topic, message_type, self._script.callback(callback), read_qos(qos).depth)
 
-    def shutdownSubscription(self, subscriber: int) -> None:
+    def shutdownSubscription(self, subscriber: RosHandle) -> None:
         """Stop listening; the handle cannot be used any more."""
         self._shutdown_subscriber(subscriber)
 
@@ -108,26 +129,44 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
         """Make a client of a service and return its handle."""
         return self._client(name, service_type)
 
-    def createService(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+    def createService(self, name: str, service_type: str, callback: CallbackOrName) -> int:
         """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
         return self._server(name, service_type, callback)
 
-    def shutdownClient(self, client: int) -> None:
+    def shutdownClient(self, client: RosHandle) -> None:
         """Drop a client; the handle cannot be used any more."""
         self._shutdown_client(client)
 
-    def shutdownService(self, server: int) -> None:
+    def shutdownService(self, server: RosHandle) -> None:
         """Stop offering a service; the handle cannot be used any more."""
         self._shutdown_server(server)
 
-    def subscriptionTreatUInt8ArrayAsString(self, subscriber: int) -> None:
+    def subscriptionTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
-    def clientTreatUInt8ArrayAsString(self, client: int) -> None:
+    def clientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
-    def serviceTreatUInt8ArrayAsString(self, server: int) -> None:
+    def serviceTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def imageTransportCreatePublisher(self, topic: str, queue_size: QueueSize = 1) -> int:
+        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle."""
+        return self._advertise_images(topic, queue_size)
+
+    def imageTransportCreateSubscription(
+        self, topic: str, callback: CallbackOrName, queue_size: QueueSize = 1, transport: str = "raw"
+    ) -> int:
+        """Call ``callback`` with each image as (data, width, height); return a handle.
+
+        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
+        out with a warning.
+        """
+        return self._subscribe_images(topic, callback, queue_size, transport)
+
+    def imageTransportShutdownSubscription(self, subscriber: RosHandle) -> None:
+        """Stop listening to images; the handle cannot be used any more."""
+        self._shutdown_subscriber(subscriber)
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
         """A message with all fields at their defaults."""
@@ -143,11 +182,11 @@ class SimRos2(RosTransforms, RosServices, RosParameters, RosActions):
         """Names of all message and service types of this build."""
         return [*_core.messages.message_names(), *_core.messages.service_names()]
 
-    def timeFromFloat(self, seconds: float) -> dict[str, int]:
+    def timeFromFloat(self, seconds: Seconds) -> dict[str, int]:
         """Seconds as {sec, nanosec}."""
         return _sec_nanosec(round(seconds * 1e9))
 
-    def timeToFloat(self, time: Mapping[str, int]) -> float:
+    def timeToFloat(self, time: Stamp) -> float:
         """{sec, nanosec} as seconds."""
         return time["sec"] + time["nanosec"] * 1e-9
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bubblesim.scripting.image_codec import COMPRESSIONS, compress, decode, decompress, opencv
+from bubblesim.scripting.image_codec import COMPRESSIONS, Image, compress, decode, decompress, opencv
+from bubblesim.scripting.ros_kinds import Pixels, RosHandle
 from bubblesim.scripting.ros_parameters import RosParameters
 from bubblesim.scripting.ros_stamps import now
 from bubblesim.scripting.ros_topics import RosTopics
@@ -22,38 +23,25 @@ ImageCallback = Callable[[bytes, int, int], object] | str
 
 
 class RosImages(RosTopics, RosParameters):
-    """Images in scripts are rgb8 bytes without padding whose rows go from the bottom up, as those of `sim` do."""
+    """Images in scripts are rgb8 bytes without padding whose rows go from the bottom up, as those of `sim` do.
+
+    They are published raw on their topic, and compressed on topic/compressed while somebody listens there. The
+    parameters topic/compressed/format ('jpeg' or 'png'), .../jpeg_quality (1 to 100) and .../png_level (1 to 9), which
+    compressed_image_transport has, too, are read when the publisher is made.
+    """
 
     def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, script)
         self._compressed: dict[int, tuple[int, str, int]] = {}  # by raw publisher: publisher, format, level
 
-    def imageTransportAdvertise(self, topic: str, queue_size: int = 1) -> int:
-        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle.
-
-        The parameters ``topic``/compressed/format ('jpeg' or 'png'), .../jpeg_quality (1 to 100) and .../png_level
-        (1 to 9) are read now, and name what compressed_image_transport's do.
-        """
-        publisher = self._advertise(topic, _RAW, queue_size, latch=False)
-        beside = f"{topic.rstrip('/')}/compressed"
-        image_format, level = self._compression(beside)
-        self._compressed[publisher] = (
-            self._advertise(beside, _COMPRESSED, queue_size, latch=False),
-            image_format,
-            level,
-        )
-        return publisher
-
-    def imageTransportPublish(self, publisher: int, data: Any, width: int, height: int, frame_id: str) -> None:
+    def imageTransportPublish(self, publisher: RosHandle, data: Pixels, width: int, height: int, frame_id: str) -> None:
         """Publish an image given as bytes or a numpy array of uint8, stamped with ROS time.
 
         Raises a ValueError when it does not hold width * height * 3 bytes.
         """
         compressed, image_format, level = self._compressed_beside(publisher)
         rows = _rows(data, width, height)
-        if not isinstance(frame_id, str):
-            raise TypeError(f"frame_id takes a string, found {frame_id!r}")
         raw_wanted = self._bridge.wants_messages(publisher)
         compressed_wanted = self._bridge.wants_messages(compressed)
         if not raw_wanted and not compressed_wanted:
@@ -69,14 +57,25 @@ class RosImages(RosTopics, RosParameters):
             message = {"header": header, "format": f"rgb8; {image_format} compressed bgr8"}
             self._bridge.publish(compressed, message | {"data": compress(top_down, image_format, level)})
 
-    def imageTransportSubscribe(
-        self, topic: str, callback: ImageCallback, queue_size: int = 1, transport: str = "raw"
-    ) -> int:
-        """Call ``callback`` with each image as (data, width, height); return a handle.
+    def imageTransportShutdownPublisher(self, publisher: RosHandle) -> None:
+        """Stop publishing images; the handle cannot be used any more."""
+        compressed, _, _ = self._compressed_beside(publisher)
+        del self._compressed[publisher]
+        self.shutdownPublisher(compressed)
+        self.shutdownPublisher(publisher)
 
-        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
-        out with a warning.
-        """
+    def _advertise_images(self, topic: str, queue_size: int) -> int:
+        publisher = self._advertise(topic, _RAW, queue_size, latch=False)
+        beside = f"{topic.rstrip('/')}/compressed"
+        image_format, level = self._compression(beside)
+        self._compressed[publisher] = (
+            self._advertise(beside, _COMPRESSED, queue_size, latch=False),
+            image_format,
+            level,
+        )
+        return publisher
+
+    def _subscribe_images(self, topic: str, callback: ImageCallback, queue_size: int, transport: str) -> int:
         guarded = self._script.callback(callback)
         if transport == "raw":
             return self._listen(topic, _RAW, self._deliver(topic, decode, guarded), queue_size)
@@ -85,17 +84,6 @@ class RosImages(RosTopics, RosParameters):
             topic = f"{topic.rstrip('/')}/compressed"
             return self._listen(topic, _COMPRESSED, self._deliver(topic, decompress, guarded), queue_size)
         raise ValueError(f"transport takes 'raw' or 'compressed', found {transport!r}")
-
-    def imageTransportShutdownPublisher(self, publisher: int) -> None:
-        """Stop publishing images; the handle cannot be used any more."""
-        compressed, _, _ = self._compressed_beside(publisher)
-        del self._compressed[publisher]
-        self.shutdownPublisher(compressed)
-        self.shutdownPublisher(publisher)
-
-    def imageTransportShutdownSubscriber(self, subscriber: int) -> None:
-        """Stop listening to images; the handle cannot be used any more."""
-        self._shutdown_subscriber(subscriber)
 
     def _compression(self, beside: str) -> tuple[str, int]:
         image_format = self.getParamString(f"{beside}/format", "jpeg")[1]
@@ -117,7 +105,7 @@ class RosImages(RosTopics, RosParameters):
         return self._compressed[publisher]
 
     def _deliver(
-        self, topic: str, read: Callable[[dict[str, Any]], np.ndarray[Any, Any]], guarded: Callable[..., None]
+        self, topic: str, read: Callable[[dict[str, Any]], Image], guarded: Callable[..., None]
     ) -> Callable[[dict[str, Any]], None]:
         def deliver(message: dict[str, Any]) -> None:
             try:
@@ -131,14 +119,11 @@ class RosImages(RosTopics, RosParameters):
         return deliver
 
 
-def _rows(data: Any, width: int, height: int) -> np.ndarray[Any, Any]:
+def _rows(data: Image, width: int, height: int) -> Image:
     """The image as an array of height x width x 3, without a copy."""
-    pixels = data if isinstance(data, np.ndarray) else np.frombuffer(data, np.uint8)
-    if pixels.dtype != np.uint8:
-        raise TypeError(f"an image takes bytes or a numpy array of uint8, found an array of {pixels.dtype}")
-    if width < 1 or height < 1 or pixels.size != width * height * 3:
+    if width < 1 or height < 1 or data.size != width * height * 3:
         raise ValueError(
             f"an image of {width} x {height} pixels takes {width} * {height} * 3 = {width * height * 3} bytes of rgb8, "
-            f"and at least one pixel; found {pixels.size} bytes"
+            f"and at least one pixel; found {data.size} bytes"
         )
-    return pixels.reshape(height, width, 3)
+    return data.reshape(height, width, 3)

@@ -8,6 +8,7 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.scripting.ros_context import RosContext
+from bubblesim.scripting.ros_kinds import Int32
 
 _INT32 = range(-(2**31), 2**31)
 _KIND = {bool: "a bool", int: "an int", float: "a double", str: "a string", type(None): "a list or a dictionary"}
@@ -32,31 +33,25 @@ class RosParameters(RosContext):
         """Whether the parameter is a number, and its value or ``default``."""
         return self._get(name, float, default)
 
-    def getParamInt(self, name: str, default: int = 0) -> tuple[bool, int]:
+    def getParamInt(self, name: str, default: Int32 = 0) -> tuple[bool, int]:
         """Whether the parameter is a number, and its value, rounded if need be, or ``default``."""
         return self._get(name, int, default)
 
     def setParamString(self, name: str, value: str) -> None:
         """Set a parameter to a string."""
-        if not isinstance(value, str):
-            raise TypeError(f"parameter '{name}' takes a string, found {value!r}")
         self._bridge.set_parameter(name, value)
 
     def setParamBool(self, name: str, value: bool) -> None:
         """Set a parameter to a bool."""
-        self._bridge.set_parameter(name, bool(value))
+        self._bridge.set_parameter(name, value)
 
     def setParamDouble(self, name: str, value: float) -> None:
         """Set a parameter to a number."""
-        if isinstance(value, str):
-            raise TypeError(f"parameter '{name}' takes a number, found {value!r}")
-        self._bridge.set_parameter(name, float(value))
+        self._bridge.set_parameter(name, value)
 
-    def setParamInt(self, name: str, value: int) -> None:
+    def setParamInt(self, name: str, value: Int32) -> None:
         """Set a parameter to a whole number of 32 bits."""
-        if isinstance(value, str) or int(value) != value or int(value) not in _INT32:
-            raise ValueError(f"parameter '{name}' takes a whole number of 32 bits, found {value!r}")
-        self._bridge.set_parameter(name, int(value))
+        self._bridge.set_parameter(name, value)
 
     def hasParam(self, name: str) -> bool:
         """Whether the parameter is set."""

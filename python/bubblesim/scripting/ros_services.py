@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
 from bubblesim.scripting.ros_context import RosContext
+from bubblesim.scripting.ros_kinds import RosHandle, ServiceOrClient
 
 if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
@@ -26,7 +27,7 @@ class RosServices(RosContext):
         super().__init__(bridge, simulation, script)
         self._clients: dict[int, str] = {}  # the services that they call
 
-    def call(self, client: int, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
+    def call(self, client: RosHandle, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
         """Call a service, one's own included, and return its response as a dict.
 
         Raises a RuntimeError when nobody offers the service, it fails, or does not answer within ``timeout`` seconds.
@@ -34,7 +35,7 @@ class RosServices(RosContext):
         response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
         return response
 
-    def waitForService(self, service: str | int, timeout: float = _CALL_TIMEOUT) -> bool:
+    def waitForService(self, service: ServiceOrClient, timeout: float = _CALL_TIMEOUT) -> bool:
         """Whether somebody offers a service (its name, or a client of it); waits ``timeout`` seconds at most."""
         if isinstance(service, str):
             return bool(self._bridge.wait_for_service(service, timeout))

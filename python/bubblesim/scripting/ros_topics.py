@@ -7,8 +7,10 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from bubblesim.scripting.api import checked_on_failure
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.ros_context import RosContext
+from bubblesim.scripting.ros_kinds import RosHandle
 from bubblesim.scripting.ros_stamps import Message, stamps
 
 if TYPE_CHECKING:
@@ -27,7 +29,8 @@ class RosTopics(RosContext):
         super().__init__(bridge, simulation, script)
         self._unchecked: dict[int, str] = {}  # topics of publishers that have published nothing yet
 
-    def publish(self, publisher: int, message: Message) -> None:
+    @checked_on_failure
+    def publish(self, publisher: RosHandle, message: Message) -> None:
         """Publish a message given as a dict; fields left out have their defaults."""
         if publisher in self._unchecked:
             # Messages are converted only while somebody listens. A first message that is wrong should be told at
@@ -36,16 +39,16 @@ class RosTopics(RosContext):
             self._warn_of_another_clock(self._unchecked.pop(publisher), message)
         self._bridge.publish(publisher, message)
 
-    def shutdownPublisher(self, publisher: int) -> None:
+    def shutdownPublisher(self, publisher: RosHandle) -> None:
         """Stop publishing; the handle cannot be used any more."""
         self._bridge.shutdown_publisher(publisher)
         self._unchecked.pop(publisher, None)
         self._script.at_end.pop(("publisher", publisher), None)
 
-    def publisherTreatUInt8ArrayAsString(self, publisher: int) -> None:
+    def publisherTreatUInt8ArrayAsString(self, publisher: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
-    def subscriberTreatUInt8ArrayAsString(self, subscriber: int) -> None:
+    def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
         """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
 
     def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from bubblesim.scripting.ros_kinds import Transforms
 from bubblesim.scripting.ros_stamps import Message
 from bubblesim.scripting.ros_topics import RosTopics
 
@@ -33,7 +34,7 @@ class RosTransforms(RosTopics):
         """Send a transform on /tf."""
         self.sendTransforms([transform])
 
-    def sendTransforms(self, transforms: Iterable[Message]) -> None:
+    def sendTransforms(self, transforms: Transforms) -> None:
         """Send several transforms in one message.
 
         Raises a ValueError, and sends none, when one has no unit quaternion or a number that is not finite.
@@ -47,7 +48,7 @@ class RosTransforms(RosTopics):
         """Send a transform that stays, on /tf_static: whoever comes later gets it, too."""
         self.sendStaticTransforms([transform])
 
-    def sendStaticTransforms(self, transforms: Iterable[Message]) -> None:
+    def sendStaticTransforms(self, transforms: Transforms) -> None:
         """Send several transforms that stay; a new one replaces the one before of the same child frame."""
         # All of them each time, for a latched topic keeps only its last message.
         all_transforms = self._static_transforms | {_child_frame(each): each for each in _checked(transforms)}
