@@ -26,22 +26,22 @@ MessageType describe() {
 }  // namespace
 
 const MessageType& clock_type() {
-  static const MessageType type = describe<rosgraph_msgs::Clock>();
-  return type;
+  static const MessageType kType = describe<rosgraph_msgs::Clock>();
+  return kType;
 }
 
 const ServiceType& empty_service() {
-  static const MessageType request = describe<std_srvs::Empty::Request>();
-  static const MessageType response = describe<std_srvs::Empty::Response>();
-  static const ServiceType type = [] {
+  static const MessageType kRequest = describe<std_srvs::Empty::Request>();
+  static const MessageType kResponse = describe<std_srvs::Empty::Response>();
+  static const ServiceType kType = [] {
     ServiceType empty;
     empty.name = ros::service_traits::datatype<std_srvs::Empty>();
     empty.md5 = ros::service_traits::md5sum<std_srvs::Empty>();
-    empty.request = &request;
-    empty.response = &response;
+    empty.request = &kRequest;
+    empty.response = &kResponse;
     return empty;
   }();
-  return type;
+  return kType;
 }
 
 }  // namespace bubblesim

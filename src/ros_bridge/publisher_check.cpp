@@ -18,8 +18,8 @@ namespace {
 constexpr std::chrono::seconds kLookInterval{1};
 
 std::vector<std::string> others(XmlRpc::XmlRpcValue& nodes) {
-  std::vector<std::string> names;
-  for (int i = 0; i < nodes.size(); ++i) names.push_back(nodes[i]);
+  std::vector<std::string> names(static_cast<std::size_t>(nodes.size()));
+  for (int i = 0; i < nodes.size(); ++i) names[static_cast<std::size_t>(i)] = static_cast<std::string>(nodes[i]);
   names.erase(std::remove(names.begin(), names.end(), ros::this_node::getName()), names.end());
   return names;
 }

@@ -32,10 +32,10 @@ void print_unless_taken(void* logger, ros::console::Level level, const char* tex
 
 /// From ros::Publication::validateHeader().
 std::optional<std::string> subscriber_refused(const std::string& line) {
-  static const std::regex pattern(
+  static const std::regex kPattern(
       R"(Client \[(.*)\] wants topic (.*) to have datatype/md5sum \[(.*)/(.*)\], but our version has \[(.*)/(.*)\]\..*)");
   std::smatch part;
-  if (!std::regex_match(line, part, pattern)) return std::nullopt;
+  if (!std::regex_match(line, part, kPattern)) return std::nullopt;
   const TypeVersion theirs{part[3], part[4]};
   const TypeVersion ours{part[5], part[6]};
   return "topic '" + part[2].str() + "': node " + part[1].str() + " subscribes to it as " + shown(theirs) +
@@ -44,9 +44,9 @@ std::optional<std::string> subscriber_refused(const std::string& line) {
 
 /// From ros::ServiceClientLink::handleHeader(), which tells neither the client's name nor what it takes the type for.
 std::optional<std::string> client_refused(const std::string& line) {
-  static const std::regex pattern(R"(client wants service (.*) to have md5sum (.*), but it has (.*)\. Dropping.*)");
+  static const std::regex kPattern(R"(client wants service (.*) to have md5sum (.*), but it has (.*)\. Dropping.*)");
   std::smatch part;
-  if (!std::regex_match(line, part, pattern)) return std::nullopt;
+  if (!std::regex_match(line, part, kPattern)) return std::nullopt;
   const auto service = ros::ServiceManager::instance()->lookupServicePublication(part[1]);
   const TypeVersion ours{service ? service->getDataType() : "another type", part[3]};
   return "service '" + part[1].str() + "': a client calls it with a type of md5 " + part[2].str() +

@@ -64,7 +64,7 @@ std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::st
     throw std::invalid_argument("service '" + resolved + "' is already offered here");
   }
   take_off_leaving();  // before one of the same name is registered
-  const auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
+  auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
   servers_.emplace(id, server);
   return server;
 }
