@@ -41,8 +41,9 @@ bool narrow(From from, To& to) {
     to = static_cast<To>(from);
     if constexpr (std::is_floating_point_v<From>) return !std::isinf(to) || std::isinf(from);
   } else if constexpr (std::is_floating_point_v<From>) {
-    // Both limits are exact as doubles: a power of two, or one below it.
-    constexpr From kEnd = static_cast<From>(std::numeric_limits<To>::max() / 2 + 1) * 2;
+    // All are exact as doubles: powers of two, or 0.
+    constexpr To kHalf = std::numeric_limits<To>::max() / 2 + 1;
+    constexpr From kEnd = static_cast<From>(kHalf) * 2;
     constexpr From kFirst = static_cast<From>(std::numeric_limits<To>::min());
     if (!(from >= kFirst && from < kEnd) || from != std::floor(from)) return false;
     to = static_cast<To>(from);
