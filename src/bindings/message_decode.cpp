@@ -129,8 +129,8 @@ class Decoder {
     const auto secs = bytes_.get<T>();
     const auto nsecs = bytes_.get<T>();
     if (options_.time == TimeForm::kFloat) return Ref::steal(PyFloat_FromDouble(secs + 1e-9 * nsecs));
-    static const Field names[2][2] = {{part("secs"), part("nsecs")}, {part("sec"), part("nanosec")}};
-    const Field* parts = names[options_.time == TimeForm::kSecNanosec ? 1 : 0];
+    static const Field kNames[2][2] = {{part("secs"), part("nsecs")}, {part("sec"), part("nanosec")}};
+    const Field* parts = kNames[options_.time == TimeForm::kSecNanosec ? 1 : 0];
     Ref dict = Ref::steal(PyDict_New());
     const Ref whole = Ref::steal(PyLong_FromLongLong(secs));
     const Ref rest = Ref::steal(PyLong_FromLongLong(nsecs));
