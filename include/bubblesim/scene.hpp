@@ -3,6 +3,7 @@
 // SI units, angles in radians, poses in the frame that each comment names.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -143,11 +144,17 @@ struct CameraDescription {
   NoiseDescription noise;         ///< of each colour value, from 0 to 1, or of the depth in m when there is no colour
 };
 
+/// An inertial measurement unit; noise along x, y, z.
+struct ImuDescription {
+  std::array<NoiseDescription, 3> angular_velocity_noise;     ///< rad/s
+  std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
+};
+
 struct SensorDescription {
   std::string name;
   Pose pose;               ///< in the link's frame; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
-  std::variant<SonarDescription, LidarDescription, CameraDescription> kind;
+  std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription> kind;
   Source source;
 };
 

@@ -49,7 +49,14 @@ struct CameraImage {
   std::vector<ObjectId> objects;  ///< the link seen, or kNoObject
 };
 
-using Measurement = std::variant<ProximityReading, LidarScan, CameraImage>;
+/// What an inertial measurement unit felt, in its own frame (REP 145).
+struct ImuReading {
+  Quaternion orientation;       ///< of the sensor in the world, exact
+  Vector3 angular_velocity;     ///< rad/s
+  Vector3 linear_acceleration;  ///< m/s^2, the mean over the last pass, with what holds it against gravity: g at rest
+};
+
+using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading>;
 
 struct Reading {
   double time = 0;  ///< s of simulation time at which it was measured

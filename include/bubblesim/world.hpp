@@ -68,6 +68,10 @@ class World {
   Pose joint_moving_pose(ObjectId joint) const;
   /// Velocity of the object's origin.
   Twist velocity(ObjectId object) const;
+  /// Acceleration of the object's origin, world axes: the mean over the last advance(), which may have changed its
+  /// velocity in jumps.
+  Vector3 acceleration(ObjectId object) const;
+  Vector3 gravity() const;
   /// Puts a model (with all its links) or a single link somewhere else; velocities are kept.
   void set_pose(ObjectId object, const Pose& pose);
   /// Of a model (all its links move as one rigid body) or a single link.

@@ -80,7 +80,7 @@ void bind_objects(py::module_& module) {
           "Of the joint's motor, N m or N.")
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
-          "What a sensor measured last: a ProximityReading, LidarScan or CameraImage.")
+          "What a sensor measured last: a ProximityReading, LidarScan, CameraImage or ImuReading.")
       .def("__repr__", [](const View& v) {
         if (v.tree().objects().count(v.id()) == 0) {
           return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";

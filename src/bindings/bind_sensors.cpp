@@ -29,6 +29,7 @@ struct Held {
 
 using HeldScan = Held<LidarScan>;
 using HeldImage = Held<CameraImage>;
+using HeldImu = Held<ImuReading>;
 
 /// Throws NoSuchObject when the sensor measures something else.
 template <class Kind>
@@ -69,6 +70,7 @@ struct ToPython {
   py::object operator()(const ProximityReading& proximity) const { return py::cast(proximity); }
   py::object operator()(const LidarScan&) const { return py::cast(HeldScan{reading}); }
   py::object operator()(const CameraImage&) const { return py::cast(HeldImage{reading}); }
+  py::object operator()(const ImuReading&) const { return py::cast(HeldImu{reading}); }
 };
 
 std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
@@ -135,6 +137,20 @@ void bind_image(py::module_& module) {
           "far", [](const HeldImage& i) { return i->far; }, "Metres along the axis.");
 }
 
+void bind_imu(py::module_& module) {
+  py::class_<HeldImu>(module, "ImuReading", "What an inertial measurement unit felt, in its own frame (REP 145).")
+      .def_property_readonly(
+          "time", [](const HeldImu& i) { return i.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "orientation", [](const HeldImu& i) { return to_numpy(i->orientation); },
+          "Of the sensor in the world, exact; quaternion x, y, z, w.")
+      .def_property_readonly(
+          "angular_velocity", [](const HeldImu& i) { return to_numpy(i->angular_velocity); }, "rad/s.")
+      .def_property_readonly(
+          "linear_acceleration", [](const HeldImu& i) { return to_numpy(i->linear_acceleration); },
+          "m/s^2, the mean over the last pass; at rest what holds it against gravity, upwards.");
+}
+
 }  // namespace
 
 py::object last_reading(Simulation& simulation, ObjectId sensor) {
@@ -146,6 +162,7 @@ void bind_sensors(py::module_& module) {
   bind_proximity(module);
   bind_scan(module);
   bind_image(module);
+  bind_imu(module);
 
   module.def(
       "read_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.read_proximity(sensor)); },
@@ -160,6 +177,9 @@ void bind_sensors(py::module_& module) {
       "measure_lidar",
       [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.measure(sensor), "lidar"); },
       "The lidar's scan of now.");
+  module.def(
+      "read_imu", [](Simulation& s, ObjectId sensor) { return hold<ImuReading>(s, sensor, s.read(sensor), "IMU"); },
+      "The IMU's last reading.");
   module.def(
       "read_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },

@@ -220,6 +220,11 @@ class SceneChecker {
     check_noise(camera.noise);
   }
 
+  void check_sensor(const ImuDescription& imu) {
+    for (const NoiseDescription& noise : imu.angular_velocity_noise) check_noise(noise);
+    for (const NoiseDescription& noise : imu.linear_acceleration_noise) check_noise(noise);
+  }
+
   void check_sensor(const SonarDescription& sonar) {
     check_ranges(sonar.min_range, sonar.max_range);
     require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",

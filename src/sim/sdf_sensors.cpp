@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <sdf/Camera.hh>
+#include <sdf/Imu.hh>
 #include <sdf/Lidar.hh>
 #include <sdf/Noise.hh>
 #include <string>
@@ -52,6 +53,17 @@ LidarDescription read_lidar(const sdf::Lidar& lidar) {
   description.max_range = lidar.RangeMax();
   description.resolution = lidar.RangeResolution();
   description.noise = read_noise(lidar.LidarNoise());
+  return description;
+}
+
+ImuDescription read_imu(const sdf::Imu& imu) {
+  ImuDescription description;
+  description.angular_velocity_noise = {read_noise(imu.AngularVelocityXNoise()),
+                                        read_noise(imu.AngularVelocityYNoise()),
+                                        read_noise(imu.AngularVelocityZNoise())};
+  description.linear_acceleration_noise = {read_noise(imu.LinearAccelerationXNoise()),
+                                           read_noise(imu.LinearAccelerationYNoise()),
+                                           read_noise(imu.LinearAccelerationZNoise())};
   return description;
 }
 
@@ -106,6 +118,9 @@ bool read_sensor_kind(const sdf::Sensor& sensor, SensorDescription& description,
   switch (sensor.Type()) {
     case sdf::SensorType::SONAR:
       return read_sonar(sensor, description, report);
+    case sdf::SensorType::IMU:
+      description.kind = sensor.ImuSensor() != nullptr ? read_imu(*sensor.ImuSensor()) : ImuDescription{};
+      return true;
     case sdf::SensorType::LIDAR:
     case sdf::SensorType::GPU_LIDAR:
       if (const sdf::Lidar* lidar = sensor.LidarSensor()) {
@@ -128,7 +143,7 @@ bool read_sensor_kind(const sdf::Sensor& sensor, SensorDescription& description,
     default:
       report(description.source, "sensors of type '" + sensor.TypeStr() +
                                      "' are not supported; supported are sonar, ray or lidar, gpu_ray or gpu_lidar, "
-                                     "camera, depth_camera, rgbd_camera, segmentation_camera");
+                                     "camera, depth_camera, rgbd_camera, segmentation_camera, imu");
       return false;
   }
 }

@@ -121,6 +121,12 @@ void World::advance(double duration, double step) {
   }
   check_not_diverged(*state_);
   ode::prepare_this_thread();
+  for (auto& [id, model] : state_->models) {
+    for (Link& link : model.links) {
+      if (link.body != nullptr) link.before = body_velocity(link.body.get());
+    }
+  }
+  state_->last_duration = duration;
   for (long left = std::lround(duration / step); left > 0; --left) {
     try {
       find_contacts(*state_);

@@ -58,6 +58,8 @@ Pose body_pose(dBodyID body) {
   return {to_vector(dBodyGetPosition(body)), Quaternion(q[0], q[1], q[2], q[3])};
 }
 
+Twist body_velocity(dBodyID body) { return {to_vector(dBodyGetLinearVel(body)), to_vector(dBodyGetAngularVel(body))}; }
+
 Pose link_pose(const Link& link) {
   if (link.body == nullptr) return link.pose;
   Pose pose = body_pose(link.body.get());
@@ -87,9 +89,25 @@ Twist World::velocity(ObjectId object) const {
   dBodyID body = link == kNoObject ? nullptr : state_->link(link).body.get();
   if (body == nullptr) return {};
   const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
-  const Vector3 angular = to_vector(dBodyGetAngularVel(body));
-  return {to_vector(dBodyGetLinearVel(body)) + angular.Cross(lever), angular};
+  const Twist of_body = body_velocity(body);
+  return {of_body.linear + of_body.angular.Cross(lever), of_body.angular};
 }
+
+Vector3 World::acceleration(ObjectId object) const {
+  const ObjectId id = carrier(*state_, state_->tree.at(object));
+  if (id == kNoObject || state_->last_duration == 0) return {};
+  const Link& link = state_->link(id);
+  dBodyID body = link.body.get();
+  if (body == nullptr) return {};
+  const Twist now = body_velocity(body);
+  const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
+  const Vector3 of_centre = (now.linear - link.before.linear) / state_->last_duration;
+  const Vector3 angular = (now.angular - link.before.angular) / state_->last_duration;
+  // A rigid body's point: what its centre has, Euler's and the centripetal acceleration.
+  return of_centre + angular.Cross(lever) + now.angular.Cross(now.angular.Cross(lever));
+}
+
+Vector3 World::gravity() const { return state_->gravity; }
 
 void World::set_pose(ObjectId object, const Pose& pose) {
   const std::vector<const Link*> links = moving_links(*state_, object);

@@ -25,6 +25,7 @@ struct Link {
   Vector3 centre_of_mass;  // body's origin, in the link's frame
   Pose pose;               // of static links, in the world
   ObjectId object = kNoObject;
+  Twist before;  // the body's, when the last advance() began
 };
 
 /// A collision shape. ODE's geom points back at it.
@@ -62,7 +63,8 @@ struct World::State {
   /// Without any model.
   State(const Vector3& gravity, std::uint64_t seed);
 
-  Vector3 gravity;  // m/s^2
+  Vector3 gravity;           // m/s^2
+  double last_duration = 0;  // s, of the last advance()
   std::uint64_t seed;
   SceneTree tree;
 
@@ -98,6 +100,8 @@ Vector3 to_vector(const dReal* values);
 
 /// Pose of an ODE body, whose origin is its centre of mass.
 Pose body_pose(dBodyID body);
+/// Of its centre of mass.
+Twist body_velocity(dBodyID body);
 
 /// In the world.
 Pose link_pose(const Link& link);

@@ -96,3 +96,12 @@ def test_noise_follows_from_the_seed() -> None:
 def test_what_is_no_sensor_has_no_reading(room: bubblesim.Simulation) -> None:
     with pytest.raises(bubblesim.NoSuchObject, match="/Mast is a model, not a sensor"):
         _ = room.object("/Mast").reading
+
+
+def test_an_imu_reads_in_its_own_frame(room: bubblesim.Simulation) -> None:
+    room.step()
+    reading = room.object("/Imu").reading
+    assert isinstance(reading, bubblesim.ImuReading)
+    np.testing.assert_allclose(reading.linear_acceleration, [0, 0, 9.8], atol=1e-9)
+    np.testing.assert_allclose(reading.angular_velocity, 0, atol=1e-9)
+    np.testing.assert_allclose(reading.orientation, [0, 0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-9)

@@ -104,6 +104,16 @@ assert abs(ranges[0, 270] - 3) < 1e-4
     assert run(tmp_path, body) == ""
 
 
+def test_an_imu_gives_lists(tmp_path: Path) -> None:
+    body = """
+orientation, angular_velocity, acceleration = sim.readImu(sim.getObject('/Imu'))
+np.testing.assert_allclose(orientation, [0, 0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-9)
+assert angular_velocity == [0, 0, 0]
+np.testing.assert_allclose(acceleration, [0, 0, 9.8], atol=1e-9)
+"""
+    assert run(tmp_path, body) == ""
+
+
 @pytest.mark.parametrize(
     ("call", "complaint"),
     [

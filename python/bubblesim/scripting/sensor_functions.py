@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim._core import measure_proximity, read_proximity
+from bubblesim._core import measure_proximity, read_imu, read_proximity
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Handle
 
@@ -22,3 +22,8 @@ class SensorFunctions(ApiContext):
         """Measure now."""
         reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
         return reading
+
+    def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:
+        """Orientation (x, y, z, w), angular velocity (rad/s) and linear acceleration (m/s^2), in the sensor's frame."""
+        reading = read_imu(self._simulation, self._resolve(sensor))
+        return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()

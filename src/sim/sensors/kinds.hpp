@@ -9,6 +9,7 @@
 namespace bubblesim {
 
 std::unique_ptr<Sensor> make_sonar(const SonarDescription&, ObjectId, const World&);
+std::unique_ptr<Sensor> make_imu(const ImuDescription&, ObjectId);
 std::unique_ptr<Sensor> make_lidar(const LidarDescription&, ObjectId);
 std::unique_ptr<Sensor> make_camera(const CameraDescription&, const Environment&, ObjectId);
 

@@ -11,6 +11,7 @@ struct SensorMaker {
   const Environment& environment;
 
   std::unique_ptr<Sensor> operator()(const SonarDescription& sonar) const { return make_sonar(sonar, id, world); }
+  std::unique_ptr<Sensor> operator()(const ImuDescription& imu) const { return make_imu(imu, id); }
   std::unique_ptr<Sensor> operator()(const LidarDescription& lidar) const { return make_lidar(lidar, id); }
   std::unique_ptr<Sensor> operator()(const CameraDescription& camera) const {
     return make_camera(camera, environment, id);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inertial measurement unit: angular velocity and specific force.
+#include "kinds.hpp"
+#include "noise.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Imu final : public Sensor {
+ public:
+  Imu(const ImuDescription& description, ObjectId id) : Sensor(ImuReading{}), description_(description), id_(id) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    const World& world = moment.world;
+    ImuReading reading;
+    reading.orientation = world.pose(id_).Rot();
+    reading.angular_velocity = reading.orientation.RotateVectorReverse(world.velocity(id_).angular);
+    reading.linear_acceleration = reading.orientation.RotateVectorReverse(world.acceleration(id_) - world.gravity());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      distort(reading.angular_velocity[axis], description_.angular_velocity_noise[axis], moment, axis);
+      distort(reading.linear_acceleration[axis], description_.linear_acceleration_noise[axis], moment, 3 + axis);
+    }
+    measurement = reading;
+  }
+
+  void distort(double& value, const NoiseDescription& description, const Moment& moment, std::uint64_t channel) const {
+    Noise noise(description, moment, id_, channel);
+    if (noise.active()) value = noise(value);
+  }
+
+  ImuDescription description_;
+  ObjectId id_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_imu(const ImuDescription& description, ObjectId id) {
+  return std::make_unique<Imu>(description, id);
+}
+
+}  // namespace bubblesim
