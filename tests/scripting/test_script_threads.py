@@ -69,15 +69,16 @@ def test_without_stepping_a_thread_that_never_waits_stops_nobody(tmp_path: Path)
 )
 def test_one_that_waits_stops_nobody_and_ends_with_the_simulation(tmp_path: Path, wait: str, stepping: bool) -> None:
     code = f"""
-        import socket, sys, time
+        import socket, time
         from time import sleep
         def sysCall_thread():
-            sim.setStepping({stepping})
+            sim.setStepping(True)
             server = socket.create_server(('127.0.0.1', 0))
             pair = socket.socketpair()
             datagrams = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
             datagrams.bind(('127.0.0.1', 0))
-            sys.stdout.write('waits\\n')  # at once: a turn may end within a print
+            print('waits')
+            sim.setStepping({stepping})
             while True: {wait}
         def sysCall_actuation(): print('actuation')
         def sysCall_cleanup(): print('cleanup')
@@ -117,8 +118,9 @@ def test_wait_takes_simulation_time_or_that_of_the_machine(tmp_path: Path) -> No
             before = time.perf_counter()
             sim.wait(0.02, False)
             print(time.perf_counter() - before >= 0.02)
+            sim.quitSimulator()
     """
-    assert lines(tmp_path, code, until=50) == [
+    assert lines(tmp_path, code, until=1e6) == [
         "0.15 0.03 0.30",
         "True",
     ]
