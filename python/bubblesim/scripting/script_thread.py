@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Protocol, SupportsIndex
 
-SLICE = 0.002  # s, of a turn in automatic mode
+SLICE = 0.002  # s of computing, in a turn in automatic mode
 _SAMPLE = 0.001  # s between looks at what the thread does
 # A thread that has not run for so long sleeps. One that waits for Python's lock looks for it every 5 ms.
 _ASLEEP_AFTER = 0.007
@@ -82,11 +83,13 @@ class ScriptThread:
         self._calling = False  # works on the simulation
         self._steps_to_end = 0
         self._done = False
+        self._clock: int | None = None  # of the thread's computing
         self._error: BaseException | None = None
         self._slept_at: int | None = None  # _runs() when it was last found asleep
 
     def _run(self, body: Callable[[], object]) -> None:
         by_ident[threading.get_ident()] = self
+        self._clock = time.pthread_getcpuclockid(threading.get_ident())
         try:
             self._wait_for_turn()
             body()
@@ -120,22 +123,31 @@ class ScriptThread:
             raise error
 
     def _wait_while_it_has_its_turn(self) -> None:
-        over = time.monotonic() + SLICE
+        begin = self._computed()
         runs = None
         seen_at = 0.0
         while self._turn and not self._done:
             notified = self._changed.wait(_SAMPLE)
-            now = time.monotonic()
-            if not self.stepping and now >= over:
+            if not self.stepping and self._computed() - begin >= SLICE:
                 return
             if notified or self._calling:
                 continue
+            now = time.monotonic()
             before, runs = runs, self._runs()
             if runs is None or runs != before:
                 seen_at = now
             elif now - seen_at >= _ASLEEP_AFTER:
                 self._slept_at = runs
                 return
+
+    def _computed(self) -> float:
+        """Seconds for which a processor has worked on the thread: one that waits for a processor loses nothing."""
+        if self._clock is None:
+            return 0.0
+        try:
+            return time.clock_gettime(self._clock)
+        except OSError:  # it has ended
+            return math.inf
 
     def _runs(self) -> int | None:
         """How often the thread has run, when it sleeps now."""
