@@ -162,3 +162,6 @@ def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
         Sample().next("one")  # type: ignore[arg-type]
     with pytest.raises(ArgumentError, match=r"sample\.next\(value\): missing a required argument: 'value'"):
         Sample().next()  # type: ignore[call-arg]
+    with pytest.raises(ArgumentError, match="unexpected keyword argument 'number'"):
+        Sample().next(1.5, number=2)  # type: ignore[call-arg]
+    assert Sample().next(value=1.5) == 2.5

@@ -113,14 +113,16 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
 
     @functools.wraps(function)
-    def call_first(self: Any, /, *arguments: Any, **named: Any) -> Any:
+    def call_first(*arguments: Any, **named: Any) -> Any:  # self among them: taking them apart takes time
+        if named:
+            arguments = (arguments[0], *_bound(full_name, signature, arguments[1:], named))
         try:
             if by_ident and (thread := current()):
                 with thread.turn():
-                    return function(self, *arguments, **named)
-            return function(self, *arguments, **named)
+                    return function(*arguments)
+            return function(*arguments)
         except TypeError:
-            arguments = _bound(full_name, signature, arguments, named)
+            arguments = _bound(full_name, signature, arguments[1:], {})
             if not _fit(kinds, arguments):
                 raise _argument_error(full_name, signature, kinds, arguments) from None
             raise
