@@ -77,7 +77,9 @@ void PublisherEndpoint::send(ros::SerializedMessage message) {
 }
 
 void PublisherEndpoint::register_at_master() {
-  ros::AdvertiseOptions options(topic_, queue_size_, type_.md5, type_.name, type_.definition);
+  // roscpp warns of empty definitions; what gencpp writes for such a type, std_msgs/Empty for one, is an empty line.
+  const std::string definition = type_.definition.empty() ? "\n" : type_.definition;
+  ros::AdvertiseOptions options(topic_, queue_size_, type_.md5, type_.name, definition);
   options.latch = latch_ != nullptr;
   options.has_header = type_.has_header;
   callbacks_ = boost::make_shared<ros::SubscriberCallbacks>();

@@ -43,6 +43,13 @@ def test_an_unlisted_type_is_told_with_the_list_to_add_it_to(script: Script) -> 
     assert "std_msgs/Float32" in node.output.splitlines()[-1]
 
 
+def test_a_type_without_fields_is_nothing_to_warn_of(script: Script, roscore: RosCore) -> None:
+    node = script("def sysCall_init(): simROS.advertise('/t', 'std_msgs/Empty')\n")
+    wait_until(lambda: "/t" in roscore.state()["publishers"], "the topic")
+    assert node.end() == 0
+    assert "empty message definition" not in node.output
+
+
 def test_an_unusable_topic_name_is_told(script: Script) -> None:
     node = script("def sysCall_init(): simROS.advertise('/a b', 'std_msgs/Float32')\n")
     node.wait_for_output("ValueError: unusable topic name '/a b'")
