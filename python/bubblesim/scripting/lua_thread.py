@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
-from bubblesim.scripting.script_thread import SLICE, by_ident
+from bubblesim.scripting.script_thread import SLICE, by_ident, plain_sleep
 
 _SECONDS_TO_END = 0.8
 
@@ -59,8 +59,8 @@ class LuaThread:
         self._turn_ends = 0.0
 
     def sleep(self, seconds: float) -> None:
-        """Called by the thread, but for real time, which Lua waits for pass by pass."""
-        raise AssertionError("a thread in Lua does not sleep")
+        """What Python does for the thread may sleep; the simulation's own thread is what sleeps then."""
+        plain_sleep(seconds)
 
     def check_that_it_may_go_on(self) -> None:
         """Called while Lua runs.

@@ -49,7 +49,7 @@ class AnyThread(Protocol):
 by_ident: dict[int, AnyThread] = {}
 """The threads of scripts that run."""
 
-_plain_sleep = time.sleep
+plain_sleep = time.sleep
 
 
 def install() -> None:
@@ -60,7 +60,7 @@ def install() -> None:
 def _sleep(seconds: float | SupportsIndex) -> None:
     thread = current()
     if thread is None:
-        _plain_sleep(seconds)
+        plain_sleep(seconds)
     else:
         thread.sleep(float(seconds))
 
