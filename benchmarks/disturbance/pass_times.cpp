@@ -15,6 +15,7 @@
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/ros_bridge.hpp"
+#include "bubblesim/ros_participant.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 
@@ -22,20 +23,6 @@ namespace {
 
 using namespace bubblesim;
 using Clock = std::chrono::steady_clock;
-
-class RosParticipant final : public Participant {
- public:
-  RosParticipant(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
-
-  void drain() override {
-    bridge_.publish_clock(simulation_.time());
-    bridge_.drain();
-  }
-
- private:
-  RosBridge& bridge_;
-  const Simulation& simulation_;
-};
 
 double percentile(std::vector<double>& values, double part) {
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));

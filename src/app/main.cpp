@@ -13,6 +13,7 @@
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/ros_bridge.hpp"
+#include "bubblesim/ros_participant.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "options.hpp"
@@ -32,21 +33,6 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
   mallopt(M_TRIM_THRESHOLD, 64 * kMegabyte);
 }
-
-/// Gives the bridge its place in the pass: messages in first, all of them under the pass's time.
-class RosParticipant final : public Participant {
- public:
-  RosParticipant(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
-
-  void drain() override {
-    bridge_.publish_clock(simulation_.time());
-    bridge_.drain();
-  }
-
- private:
-  RosBridge& bridge_;
-  const Simulation& simulation_;
-};
 
 bool time_is_up(const Options& options, const Simulation& simulation) {
   // With a little tolerance, so that rounding does not add a pass.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model_folders.hpp"
 
-#include <cstdlib>
-#include <sstream>
+#include <utility>
 
 #include "bubblesim/scene_loader.hpp"
+#include "scene_folders.hpp"
 
 namespace bubblesim {
 namespace {
@@ -14,15 +14,6 @@ namespace fs = std::filesystem;
 constexpr const char* kModelScheme = "model://";
 constexpr const char* kFileScheme = "file://";
 
-void add_folders_of(const char* variable, std::vector<fs::path>& folders) {
-  const char* path = std::getenv(variable);
-  if (path == nullptr) return;
-  std::istringstream entries(path);
-  for (std::string entry; std::getline(entries, entry, ':');) {
-    if (!entry.empty()) folders.emplace_back(entry);
-  }
-}
-
 std::string without(const std::string& scheme, const std::string& uri) {
   return uri.rfind(scheme, 0) == 0 ? uri.substr(scheme.size()) : uri;
 }
@@ -31,8 +22,9 @@ std::string without(const std::string& scheme, const std::string& uri) {
 
 std::vector<fs::path> model_folders(const fs::path& scene_folder) {
   std::vector<fs::path> folders = {scene_folder, scene_folder / "models"};
-  add_folders_of("BUBBLESIM_MODEL_PATH", folders);
-  add_folders_of("GAZEBO_MODEL_PATH", folders);
+  for (const char* variable : {"BUBBLESIM_MODEL_PATH", "GAZEBO_MODEL_PATH"}) {
+    for (fs::path& folder : folders_of(variable)) folders.push_back(std::move(folder));
+  }
   for (const fs::path& folder : scene_folders()) folders.push_back(folder / "models");
   return folders;
 }

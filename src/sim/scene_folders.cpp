@@ -27,14 +27,18 @@ fs::path library_folder() {
 
 }  // namespace
 
-std::vector<fs::path> scene_folders() {
+std::vector<fs::path> folders_of(const char* variable) {
   std::vector<fs::path> folders;
-  if (const char* path = std::getenv("BUBBLESIM_SCENE_PATH")) {
-    std::istringstream entries(path);
-    for (std::string entry; std::getline(entries, entry, ':');) {
-      if (!entry.empty()) folders.emplace_back(entry);
-    }
+  const char* path = std::getenv(variable);
+  std::istringstream entries(path != nullptr ? path : "");
+  for (std::string entry; std::getline(entries, entry, ':');) {
+    if (!entry.empty()) folders.emplace_back(entry);
   }
+  return folders;
+}
+
+std::vector<fs::path> scene_folders() {
+  std::vector<fs::path> folders = folders_of("BUBBLESIM_SCENE_PATH");
   // In an install space the scenes lie in share/; in a development space they are still in the source tree.
   for (fs::path up = library_folder(); up.has_relative_path(); up = up.parent_path()) {
     const fs::path installed = up / "share" / "bubblesim" / "scenes";

@@ -4,10 +4,14 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace bubblesim {
 
 /// The file of a scene by name, looked for in scene_folders(), or by path. Throws SceneError when there is none.
 std::filesystem::path find_scene(const std::string& name_or_path);
+
+/// The folders that an environment variable names, between colons; none when it is not set.
+std::vector<std::filesystem::path> folders_of(const char* variable);
 
 }  // namespace bubblesim

@@ -85,6 +85,19 @@ inline SceneDescription scene(std::vector<ModelDescription> models, const Vector
   return scene;
 }
 
+/// A model that stands at `pose` with one sensor looking along its x, after `others`; without gravity.
+template <class Kind>
+SceneDescription with_sensor(const std::string& name, const Kind& kind, std::vector<ModelDescription> others,
+                             const Pose& pose = {}) {
+  ModelDescription eye = still(model("Eye", link("link"), pose));
+  SensorDescription sensor;
+  sensor.name = name;
+  sensor.kind = kind;
+  eye.links[0].sensors.push_back(sensor);
+  others.push_back(eye);
+  return scene(std::move(others), Vector3::Zero);
+}
+
 /// Two links, `base` and `arm`, and `joint` between them, without gravity and without shapes.
 inline SceneDescription jointed(JointDescription joint) {
   ModelDescription robot = model("Robot", link("base"));

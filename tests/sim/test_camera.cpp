@@ -31,13 +31,7 @@ ModelDescription thing(const std::string& name, const VisualDescription& visual,
 /// Looks along x from the origin unless the camera's model is moved.
 SceneDescription with_camera(const CameraDescription& camera, std::vector<ModelDescription> others,
                              const Pose& pose = {}) {
-  ModelDescription eye = still(model("Eye", link("link"), pose));
-  SensorDescription sensor;
-  sensor.name = "Camera";
-  sensor.kind = camera;
-  eye.links[0].sensors.push_back(sensor);
-  others.push_back(eye);
-  return scene(others, Vector3::Zero);
+  return with_sensor("Camera", camera, std::move(others), pose);
 }
 
 CameraDescription camera(bool color = true) {

@@ -13,13 +13,7 @@ constexpr double kExact = 1e-4;  // m
 /// A lidar at `pose` among `others`.
 SceneDescription with_lidar(const LidarDescription& lidar, std::vector<ModelDescription> others,
                             const Pose& pose = {}) {
-  ModelDescription eye = still(model("Eye", link("link"), pose));
-  SensorDescription sensor;
-  sensor.name = "Lidar";
-  sensor.kind = lidar;
-  eye.links[0].sensors.push_back(sensor);
-  others.push_back(eye);
-  return scene(others, Vector3::Zero);
+  return with_sensor("Lidar", lidar, std::move(others), pose);
 }
 
 /// What it measures; holds the reading.
