@@ -150,11 +150,27 @@ struct ImuDescription {
   std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
 };
 
+/// One element in a <plugin>: its name and text, or what stands in it.
+struct PluginParameter {
+  std::string name;
+  std::string text;
+  std::vector<PluginParameter> children;
+};
+
+/// What a file asks other simulators to load; the core hands it on as it stands.
+struct PluginDescription {
+  std::string name;
+  std::string filename;  ///< of the library, such as libgazebo_ros_diff_drive.so
+  std::vector<PluginParameter> parameters;
+  Source source;
+};
+
 struct SensorDescription {
   std::string name;
   Pose pose;               ///< in the link's frame; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription> kind;
+  std::vector<PluginDescription> plugins;
   Source source;
 };
 
@@ -208,6 +224,7 @@ struct ModelDescription {
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
   std::filesystem::path child_script;  ///< empty when it has none
+  std::vector<PluginDescription> plugins;
   Source source;
 };
 
@@ -219,6 +236,7 @@ struct SceneDescription {
   double physics_step = 0.005;   ///< s, of one physics substep; divides time_step
   Environment environment;
   std::vector<ModelDescription> models;
+  std::vector<PluginDescription> plugins;
   Source source;
 };
 

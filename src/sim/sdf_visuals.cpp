@@ -2,11 +2,7 @@
 #include "sdf_visuals.hpp"
 
 #include <algorithm>
-#include <sdf/Box.hh>
-#include <sdf/Cylinder.hh>
 #include <sdf/Material.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Sphere.hh>
 
 #include "named_materials.hpp"
 #include "own_elements.hpp"
@@ -22,14 +18,6 @@ Color brightened(const ignition::math::Color& color, double factor) {
 }
 
 }  // namespace
-
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry) {
-  if (const auto* box = geometry.BoxShape()) return Box{box->Size()};
-  if (const auto* sphere = geometry.SphereShape()) return Sphere{sphere->Radius()};
-  if (const auto* cylinder = geometry.CylinderShape()) return Cylinder{cylinder->Radius(), cylinder->Length()};
-  if (const auto* plane = geometry.PlaneShape()) return Plane{plane->Normal()};
-  return std::nullopt;
-}
 
 Material read_material(const sdf::Visual& visual, std::vector<Problem>& problems) {
   Material material;

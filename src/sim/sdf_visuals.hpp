@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDFormat's <geometry>, <material>, <scene> and <light>: what a scene looks like.
+// SDFormat's <material>, <scene> and <light>: what a scene looks like.
 #pragma once
 
 #include <optional>
-#include <sdf/Geometry.hh>
 #include <sdf/Light.hh>
 #include <sdf/Scene.hh>
 #include <sdf/Visual.hh>
@@ -13,9 +12,6 @@
 #include "bubblesim/scene.hpp"
 
 namespace bubblesim {
-
-/// Nothing for shapes that are not supported.
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry);
 
 /// The colour that a visual gives by values or by the name of a material script; grey without either.
 Material read_material(const sdf::Visual& visual, std::vector<Problem>& problems);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sdf_links.hpp"
+
+#include <optional>
+#include <sdf/Collision.hh>
+#include <sdf/Plane.hh>
+#include <sdf/Visual.hh>
+#include <utility>
+
+#include "sdf_geometry.hpp"
+#include "sdf_plugins.hpp"
+#include "sdf_sensors.hpp"
+#include "sdf_source.hpp"
+#include "sdf_surface.hpp"
+#include "sdf_visuals.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
+
+Quaternion turn_from_z(const Vector3& direction) {
+  Quaternion turn;
+  turn.From2Axes(Vector3::UnitZ, direction);
+  return turn;
+}
+
+std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const std::string& link_path,
+                                                   SceneReading& reading) {
+  CollisionDescription description;
+  description.name = collision.Name();
+  description.source = source_of(collision.Element());
+  const std::string path = link_path + "/" + collision.Name();
+  description.pose = reading.resolved(collision, path);
+  if (const auto geometry = read_geometry(*collision.Geom())) {
+    description.geometry = *geometry;
+  } else {
+    reading.report(source_of(collision.Element(), "geometry"), path,
+                   "this geometry is not supported; supported are box, sphere, cylinder, plane");
+    return std::nullopt;
+  }
+  description.surface = read_surface(collision.Element(), path, reading);
+  return description;
+}
+
+/// A visual of a shape that is not supported is replaced by the link's collision shapes, in its colour.
+void read_visual(const sdf::Visual& visual, const std::string& link_path, bool is_static, LinkDescription& link,
+                 SceneReading& reading) {
+  VisualDescription description;
+  description.name = visual.Name();
+  description.source = source_of(visual.Element());
+  description.material = read_material(visual, reading.problems());
+  description.laser_retro = visual.LaserRetro();
+  if (const auto geometry = read_geometry(*visual.Geom())) {
+    description.pose = reading.resolved(visual, link_path + "/" + visual.Name());
+    description.geometry = *geometry;
+    if (const auto* plane = visual.Geom()->PlaneShape(); plane != nullptr && !is_static) {
+      description.geometry = Box{{plane->Size().X(), plane->Size().Y(), kThin}};
+      description.pose.Rot() = description.pose.Rot() * turn_from_z(plane->Normal());
+    }
+    link.visuals.push_back(std::move(description));
+    return;
+  }
+  for (const CollisionDescription& collision : link.collisions) {
+    description.pose = collision.pose;
+    description.geometry = collision.geometry;
+    link.visuals.push_back(description);
+  }
+}
+
+std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& link_path,
+                                             SceneReading& reading) {
+  const std::string path = link_path + "/" + sensor.Name();
+  SensorDescription description;
+  description.name = sensor.Name();
+  description.source = source_of(sensor.Element());
+  description.pose = reading.resolved(sensor, path);
+  description.update_rate = sensor.UpdateRate();
+  description.plugins = read_plugins(sensor.Element());
+  const Report report_here = [&](const Source& source, std::string message) {
+    reading.report(source, path, std::move(message));
+  };
+  if (!read_sensor_kind(sensor, description, report_here)) return std::nullopt;
+  return description;
+}
+
+}  // namespace
+
+LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading) {
+  const std::string path = model_path + "/" + link.Name();
+  LinkDescription description;
+  description.name = link.Name();
+  description.pose = reading.resolved(link, path);
+  description.source = source_of(link.Element());
+  const auto& inertial = link.Inertial();
+  const ignition::math::Matrix3d inertia = inertial.Moi();
+  description.mass = inertial.MassMatrix().Mass();
+  description.centre_of_mass = inertial.Pose().Pos();
+  description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
+  description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+  for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
+    const sdf::Collision& collision = *link.CollisionByIndex(i);
+    if (auto read = read_collision(collision, path, reading)) description.collisions.push_back(std::move(*read));
+  }
+  for (std::uint64_t i = 0; i < link.VisualCount(); ++i)
+    read_visual(*link.VisualByIndex(i), path, is_static, description, reading);
+  for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
+    const sdf::Sensor& sensor = *link.SensorByIndex(i);
+    if (auto read = read_sensor(sensor, path, reading)) description.sensors.push_back(std::move(*read));
+  }
+  return description;
+}
+
+}  // namespace bubblesim
