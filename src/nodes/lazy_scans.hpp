@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include <functional>
+#include <utility>
+
+namespace bubblesim {
+
+/// The topic scan, whose source is switched on while somebody listens to it, by the thread that spins.
+class LazyScans {
+ public:
+  LazyScans(ros::NodeHandle& node, std::function<void()> start, std::function<void()> stop)
+      : start_(std::move(start)), stop_(std::move(stop)) {
+    const ros::SubscriberStatusCallback changed = [this](const auto&) { follow_listeners(); };
+    publisher_ = node.advertise<sensor_msgs::LaserScan>("scan", 10, changed, changed);
+  }
+
+  void publish(const sensor_msgs::LaserScan& scan) { publisher_.publish(scan); }
+
+ private:
+  void follow_listeners() {
+    const bool heard = publisher_.getNumSubscribers() > 0;
+    if (heard == running_) return;
+    running_ = heard;
+    heard ? start_() : stop_();
+  }
+
+  std::function<void()> start_;
+  std::function<void()> stop_;
+  ros::Publisher publisher_;
+  bool running_ = false;
+};
+
+}  // namespace bubblesim
