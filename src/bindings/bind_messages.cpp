@@ -60,7 +60,7 @@ py::dict constants(const std::string& name) {
 
 /// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]".
 std::string spelling(const messages::Field& field) {
-  const std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
+  std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
   switch (field.array) {
     case messages::ArrayKind::kFixed:
       return base + "[" + std::to_string(field.fixed_length) + "]";

@@ -99,6 +99,7 @@ void bind_errors(py::module_& module) {
   for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(diverged)}) {
     error.attr("__module__") = "bubblesim";  // where users import it from
   }
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
   py::register_exception_translator([](std::exception_ptr raised) {
     try {
       if (raised) std::rethrow_exception(raised);

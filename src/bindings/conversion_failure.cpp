@@ -25,7 +25,7 @@ std::string repr(PyObject* value) {
 
 std::string describe(PyObject* value) {
   if (value == Py_None) return "None";
-  const std::string type = Py_TYPE(value)->tp_name;
+  std::string type = Py_TYPE(value)->tp_name;
   if (PyUnicode_Check(value)) {
     if (PyUnicode_GetLength(value) <= kShownLetters) return type + " " + repr(value);
     const Ref start = Ref::steal(PyUnicode_Substring(value, 0, kShownLetters));

@@ -18,7 +18,7 @@ struct Rows {
   std::size_t count = 0;
 
   constexpr Rows() = default;
-  template <std::size_t N>
+  template <std::size_t N>  // NOLINTNEXTLINE(google-explicit-constructor): a list of rows is one
   constexpr Rows(const T (&rows)[N]) : first(rows), count(N) {}
 
   constexpr const T* begin() const { return first; }

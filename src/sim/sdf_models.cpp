@@ -25,7 +25,7 @@ std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std:
   const auto name = own_text(giver, kChildScript);
   if (!name) return {};
   const bool of_included_file = include != nullptr && !given_by_include;
-  const std::filesystem::path file =
+  std::filesystem::path file =
       (of_included_file ? std::filesystem::path(model->FilePath()).parent_path() : reading.folder()) / *name;
   const Source source = given_by_include ? reading.xml().place_of(kChildScript, *name) : source_of(model, kChildScript);
   if (name->empty()) {

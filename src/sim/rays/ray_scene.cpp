@@ -214,7 +214,7 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
     const int on_static = (packet.mask.use[i] != 0) & (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) &
                           (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID);
     moving |= (packet.mask.use[i] != 0) & (hit.instID[0][i] < kPlaneInstance);
-    inside.use[i] = on_static & (along > 0) ? kUsed : 0;
+    inside.use[i] = (on_static & (along > 0)) != 0 ? kUsed : 0;
     any |= inside.use[i];
   }
   if (moving == 0) return any != 0;
