@@ -4,7 +4,8 @@
 # tricycle.py tells: /front_sonar and tf.
 include tricycle
 
-from bubblesim.controllers.tricycle_drive import Tricycle, Velocity, front_wheel
+from bubblesim.controllers.planar_motion import Velocity
+from bubblesim.controllers.tricycle_drive import Tricycle, front_wheel
 
 PATIENCE = 0.6  # s without a command, after which it stops
 

@@ -18,7 +18,8 @@ from geometry_msgs.msg import TransformStamped, Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Float32
 
-from bubblesim.controllers.tricycle_drive import FrontWheel, Pose2D, Tricycle, Velocity, front_wheel, moved, velocity
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
+from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
 
 RATE = 20.0  # Hz, of the odometry
 

@@ -3,6 +3,7 @@
 // SI units; sensors look along their x axis, y to the left, z up.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -36,6 +37,12 @@ struct LidarScan {
   std::vector<float> ranges;       ///< m; +Inf for nothing within max_range, -Inf for nearer than min_range (REP 117)
   std::vector<float> intensities;  ///< laser_retro of what was hit, 0 for nothing
 };
+
+/// Metres, in the sensor's frame.
+using Point = std::array<float, 3>;
+
+/// Where a lidar's rays met something, ring by ring; rays that met nothing, or something too near, are left out.
+std::vector<Point> points_of(const LidarScan& scan);
 
 /// What a camera saw, row by row, the uppermost first, each from left to right.
 struct CameraImage {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "bubblesim/urdf.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
 
@@ -81,6 +82,10 @@ void bind_objects(py::module_& module) {
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
           "What a sensor measured last: a ProximityReading, LidarScan, CameraImage or ImuReading.")
+      .def_property_readonly(
+          "urdf", [](const View& v) { return to_urdf(v.world().description(v.id())); },
+          "The model that the object belongs to as the text of a URDF file, for robot_state_publisher and RViz; each\n"
+          "sensor is a link of its own. ValueError for what URDF cannot tell.")
       .def("__repr__", [](const View& v) {
         if (v.tree().objects().count(v.id()) == 0) {
           return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <variant>
@@ -101,6 +102,15 @@ void bind_scan(py::module_& module) {
           "intensities", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->intensities, s); },
           "The laser_retro of what was hit, 0 for nothing; rings x samples of float32.")
       .def_property_readonly(
+          "points",
+          [](const HeldScan& s) {
+            const std::vector<Point> points = points_of(*s);
+            py::array_t<float> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+            std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
+            return array;
+          },
+          "What was met: x, y, z in metres in the sensor's frame; count x 3 of float32, ring by ring. A new array.")
+      .def_property_readonly(
           "angles", [](const HeldScan& s) { return angles(s->horizontal); }, "Of the samples, radians to the left.")
       .def_property_readonly(
           "elevations", [](const HeldScan& s) { return angles(s->vertical); }, "Of the rings, radians upwards.")
@@ -170,6 +180,9 @@ void bind_sensors(py::module_& module) {
   module.def(
       "measure_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.measure_proximity(sensor)); },
       "The same, measured now.");
+  module.def(
+      "reading_time", [](Simulation& s, ObjectId sensor) { return s.read(sensor)->time; },
+      "Simulated seconds at which the sensor last measured.");
   module.def(
       "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor), "lidar"); },
       "The lidar's last scan.");

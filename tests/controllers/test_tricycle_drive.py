@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bubblesim.controllers.tricycle_drive import FrontWheel, Pose2D, Tricycle, Velocity, front_wheel, moved, velocity
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
+from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
 
 TRICYCLE = Tricycle(wheelbase=1.0, wheel_radius=0.3, max_steering=1.5, max_speed=100.0)
 

@@ -8,6 +8,8 @@ it (K. Lynch, F. Park, Modern Robotics, section 13.3.1: a car with a steered fro
 import math
 from dataclasses import dataclass
 
+from bubblesim.controllers.planar_motion import Velocity
+
 
 @dataclass(frozen=True)
 class Tricycle:
@@ -28,14 +30,6 @@ class Tricycle:
 
 
 @dataclass(frozen=True)
-class Velocity:
-    """Of the point between the rear wheels."""
-
-    linear: float  # m/s, forward
-    angular: float  # rad/s, to the left
-
-
-@dataclass(frozen=True)
 class FrontWheel:
     """What the front wheel does."""
 
@@ -50,8 +44,7 @@ def front_wheel(tricycle: Tricycle, wanted: Velocity, steering_now: float = 0.0)
 
     :raises ValueError: when the velocity is not finite.
     """
-    if not (math.isfinite(wanted.linear) and math.isfinite(wanted.angular)):
-        raise ValueError(f"a velocity of {wanted.linear} m/s and {wanted.angular} rad/s is not finite")
+    wanted.require_finite()
     sideways = wanted.angular * tricycle.wheelbase  # m/s, of the front wheel's centre
     if wanted.linear == 0.0 and sideways == 0.0:
         return FrontWheel(steering_now, 0.0)
@@ -67,24 +60,3 @@ def velocity(tricycle: Tricycle, wheel: FrontWheel) -> Velocity:
     """Velocity of the tricycle when its front wheel rolls without slipping."""
     along = wheel.speed * tricycle.wheel_radius
     return Velocity(along * math.cos(wheel.steering), along * math.sin(wheel.steering) / tricycle.wheelbase)
-
-
-@dataclass(frozen=True)
-class Pose2D:
-    """Where the point between the rear wheels is, in the odometry's frame."""
-
-    x: float = 0.0  # m
-    y: float = 0.0  # m
-    heading: float = 0.0  # rad
-
-
-def moved(pose: Pose2D, velocity: Velocity, dt: float) -> Pose2D:
-    """Pose after ``dt`` seconds at a constant velocity: along an arc, exactly."""
-    turned = velocity.angular * dt
-    half = turned / 2
-    chord = velocity.linear * dt * (math.sin(half) / half if half else 1.0)
-    return Pose2D(
-        pose.x + chord * math.cos(pose.heading + half),
-        pose.y + chord * math.sin(pose.heading + half),
-        math.remainder(pose.heading + turned, math.tau),
-    )

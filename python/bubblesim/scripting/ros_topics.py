@@ -39,6 +39,10 @@ class RosTopics(RosContext):
             self._warn_of_another_clock(self._unchecked.pop(publisher), message)
         self._bridge.publish(publisher, message)
 
+    def wantsMessages(self, publisher: RosHandle) -> bool:
+        """Whether somebody listens, so that a message is worth making; always for a latched topic."""
+        return bool(self._bridge.wants_messages(publisher))
+
     def shutdownPublisher(self, publisher: RosHandle) -> None:
         """Stop publishing; the handle cannot be used any more."""
         self._bridge.shutdown_publisher(publisher)

@@ -8,6 +8,7 @@ from bubblesim.scripting.joint_functions import JointFunctions
 from bubblesim.scripting.object_functions import ObjectFunctions
 from bubblesim.scripting.pack_functions import PackFunctions
 from bubblesim.scripting.program_functions import ProgramFunctions
+from bubblesim.scripting.random_functions import RandomFunctions
 from bubblesim.scripting.sensor_functions import SensorFunctions
 from bubblesim.scripting.signal_functions import SignalFunctions
 from bubblesim.scripting.thread_functions import ThreadFunctions
@@ -25,6 +26,7 @@ class SimApi(
     PackFunctions,
     TimeFunctions,
     ThreadFunctions,
+    RandomFunctions,
     ProgramFunctions,
 ):
     """All functions and constants, grouped by what they are about."""

@@ -113,6 +113,11 @@ class VisionFunctions(ApiContext):
         ranges: Array = read_lidar(self._simulation, self._resolve(sensor)).ranges
         return ranges
 
+    def readLidarPoints(self, sensor: Handle) -> Array:
+        """What the lidar met, as an array of count x 3 of float32: x, y, z in metres in the sensor's frame."""
+        points: Array = read_lidar(self._simulation, self._resolve(sensor)).points
+        return points
+
     def _picture(self, image: Any, sensor: int) -> Array:
         if image.rgb is None:
             path = self._world.short_path(self._resolve(sensor))

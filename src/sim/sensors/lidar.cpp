@@ -103,6 +103,32 @@ class Lidar final : public Sensor {
 
 }  // namespace
 
+std::vector<Point> points_of(const LidarScan& scan) {
+  struct Turn {
+    double cosine;
+    double sine;
+  };
+  std::vector<Turn> turns;
+  for (int i = 0; i < scan.horizontal.samples; ++i) {
+    turns.push_back({std::cos(scan.horizontal.at(i)), std::sin(scan.horizontal.at(i))});
+  }
+  std::vector<Point> points;
+  points.reserve(scan.ranges.size());
+  auto range = scan.ranges.begin();
+  for (int ring = 0; ring < scan.vertical.samples; ++ring) {
+    const double up = scan.vertical.at(ring);
+    const Turn lift{std::cos(up), std::sin(up)};
+    for (const Turn& turn : turns) {
+      const double distance = *range++;
+      if (!std::isfinite(distance)) continue;
+      const double across = distance * lift.cosine;
+      points.push_back({static_cast<float>(across * turn.cosine), static_cast<float>(across * turn.sine),
+                        static_cast<float>(distance * lift.sine)});
+    }
+  }
+  return points;
+}
+
 std::unique_ptr<Sensor> make_lidar(const LidarDescription& description, ObjectId id) {
   return std::make_unique<Lidar>(description, id);
 }

@@ -1,0 +1,93 @@
+#python
+# SPDX-License-Identifier: BSD-3-Clause
+# A Pioneer P3DX over topics: Twist on /cmd_vel in; /odom and its transform from the wheels' encoders, /joint_states and
+# the lidar's points on /lidarPC out; /ground_truth tells where it really is. The lidar's points are also in the string
+# signal Pioneer_p3dx_lidar_data, as float32 x, y, z in the lidar's frame.
+# Parameter odometry_noise: standard deviation of each step that an encoder measures, as a part of that step.
+import random
+
+from bubblesim import ros_messages
+from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels, wheel_speeds
+from bubblesim.controllers.planar_motion import Velocity
+
+DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33, max_speed=12.5)
+PATIENCE = 0.6  # s without a command, after which it stops
+LIDAR = 'Pioneer_p3dx_lidar'  # also the name of its frame
+
+
+def sysCall_init():
+    self.body = sim.getObject('.')
+    self.motors = [sim.getObject(f'./Pioneer_p3dx_{side}Motor') for side in ('left', 'right')]
+    joints = [f'Pioneer_p3dx_caster_freeJoint{i}' for i in (1, 2)]
+    self.joints = self.motors + [sim.getObject(f'./{name}') for name in joints]
+    self.lidar = sim.getObject(f'./{LIDAR}')
+    self.last_scan = None  # when it was measured
+    self.last_command = None  # when it came; None while it stands
+    noise = 0.0
+    if simROS:
+        noise = simROS.getParamDouble('odometry_noise')[1]
+        simROS.subscribe('/cmd_vel', 'geometry_msgs/Twist', on_velocity)
+        self.odometry_topic = simROS.advertise('/odom', 'nav_msgs/Odometry')
+        self.truth_topic = simROS.advertise('/ground_truth', 'nav_msgs/Odometry')
+        self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
+        self.cloud_topic = simROS.advertise('/lidarPC', 'sensor_msgs/PointCloud2')
+    numbers = random.Random(sim.getRandom())
+    self.odometry = WheelOdometry(DRIVE, encoders(), lambda: numbers.gauss(0.0, noise))
+
+
+def on_velocity(twist):
+    try:
+        speeds = wheel_speeds(DRIVE, Velocity(twist['linear']['x'], twist['angular']['z']))
+    except ValueError as error:
+        sim.addLog(sim.verbosity_scriptwarnings, f'/cmd_vel: {error}; ignored')
+        return
+    self.last_command = sim.getSimulationTime()
+    drive(speeds)
+
+
+def drive(speeds):
+    sim.setJointTargetVelocity(self.motors[0], speeds.left)
+    sim.setJointTargetVelocity(self.motors[1], speeds.right)
+
+
+def encoders():
+    return Wheels(*map(sim.getJointPosition, self.motors))
+
+
+def sysCall_actuation():
+    if self.last_command is not None and sim.getSimulationTime() - self.last_command > PATIENCE:
+        self.last_command = None
+        drive(Wheels(0.0, 0.0))
+
+
+def sysCall_sensing():
+    self.odometry.update(encoders(), sim.getSimulationTimeStep())
+    scan_is_new = sim.getReadingTime(self.lidar) != self.last_scan
+    if scan_is_new:
+        self.last_scan = sim.getReadingTime(self.lidar)
+        points = sim.readLidarPoints(self.lidar)
+        sim.setStringSignal(f'{LIDAR}_data', points.tobytes())
+    if not simROS:
+        return
+    now = simROS.getTime()
+    publish_motion(now)
+    if scan_is_new and simROS.wantsMessages(self.cloud_topic):
+        simROS.publish(self.cloud_topic, ros_messages.point_cloud(now, LIDAR, points))
+
+
+def publish_motion(now):
+    pose, velocity = self.odometry.pose, self.odometry.velocity
+    simROS.sendTransform(ros_messages.planar_transform(now, 'odom', 'base_link', pose))
+    simROS.publish(self.odometry_topic, ros_messages.planar_odometry(now, 'odom', 'base_link', pose, velocity))
+    names = [sim.getObjectAlias(joint) for joint in self.joints]
+    positions = [sim.getJointPosition(joint) for joint in self.joints]
+    velocities = [sim.getJointVelocity(joint) for joint in self.joints]
+    simROS.publish(self.joints_topic, ros_messages.joint_state(now, names, positions, velocities))
+    if simROS.wantsMessages(self.truth_topic):
+        simROS.publish(self.truth_topic, truth(now))
+
+
+def truth(now):
+    pose = sim.getObjectPose(self.body)
+    linear, angular = (ros_messages.turned_back(pose[3:], v) for v in sim.getObjectVelocity(self.body))
+    return ros_messages.odometry(now, 'map', 'base_link', pose=pose, linear=linear, angular=angular)

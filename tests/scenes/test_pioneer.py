@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Pioneer P3DX: how it drives, and what its script tells."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bubblesim
+from bubblesim.controllers.differential_drive import DifferentialDrive, wheel_speeds
+from bubblesim.controllers.planar_motion import Velocity
+from node_support import Node, run_sim, write
+from ros_support import RosCore, start, stop, wait_until
+
+DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33)
+FURNITURE = ("Table", "Chair", "Shelf", "Sofa", "CoffeeTable", "Plant", "FloorLamp")
+
+
+class Pioneer:
+    """In its room, without its script."""
+
+    def __init__(self) -> None:
+        self.simulation = bubblesim.Simulation("pioneer")
+        self.body, self.left, self.right = (
+            self.simulation.object(f"/Pioneer_p3dx{part}") for part in ("", "_leftMotor", "_rightMotor")
+        )
+
+    def command(self, linear: float, angular: float) -> None:
+        wheels = wheel_speeds(DRIVE, Velocity(linear, angular))
+        self.left.target_velocity, self.right.target_velocity = wheels.left, wheels.right
+
+    def places(self, passes: int) -> Any:
+        """x, y after each pass."""
+        found = []
+        for _ in range(passes):
+            self.simulation.step()
+            found.append(self.body.position[:2].copy())
+        return np.array(found)
+
+
+def test_it_has_the_parts_by_which_scripts_know_it() -> None:
+    names = {thing.name for thing in Pioneer().simulation.objects}
+    parts = ("leftMotor", "rightMotor", "leftWheel", "rightWheel", "caster_link", "caster_wheel", "lidar")
+    assert {f"Pioneer_p3dx_{part}" for part in parts} <= names
+    assert all(any(name.startswith(thing) for name in names) for thing in FURNITURE)
+
+
+def test_it_drives_straight_as_fast_as_told() -> None:
+    pioneer = Pioneer()
+    pioneer.command(0.5, 0.0)
+    places = pioneer.places(60)
+    assert np.linalg.norm(places[-1] - places[-21]) == pytest.approx(0.5, rel=0.001)
+    assert abs(places[-1, 1]) < 1e-3
+
+
+@pytest.mark.parametrize(("linear", "angular"), [(0.3, 0.6), (0.2, -0.8), (-0.3, 0.6)])
+def test_its_circles_have_the_radius_of_the_theory(linear: float, angular: float) -> None:
+    pioneer = Pioneer()
+    pioneer.command(linear, angular)
+    pioneer.places(40)  # the caster comes round
+    places = pioneer.places(round(math.tau / abs(angular) / 0.05))
+    centre = (places.max(axis=0) + places.min(axis=0)) / 2
+    radii = np.linalg.norm(places - centre, axis=1)
+    assert radii == pytest.approx(abs(linear / angular), rel=0.01)
+
+
+def test_its_lidar_sees_the_room_and_not_itself() -> None:
+    simulation = bubblesim.Simulation("pioneer")
+    points = simulation.object("/Pioneer_p3dx_lidar").reading.points
+    assert len(points) > 0.9 * 16 * 720
+    distances = np.hypot(points[:, 0], points[:, 1])
+    assert distances.min() > 0.25  # m: the robot is smaller
+    # Nothing lies behind the walls, 4 and 3 m from the middle of the room; noise has a deviation of 1 cm.
+    assert np.abs(points[:, 0] - 0.0325).max() < 4.0 + 0.06
+    assert np.abs(points[:, 1]).max() < 3.0 + 0.06
+    assert points[:, 2].min() > -0.31 - 0.06
+
+
+def test_the_points_are_in_a_signal(tmp_path: Path) -> None:
+    listener = write(
+        tmp_path / "listener.py",
+        """\
+        import numpy as np
+
+        def sysCall_init():
+            self.lidar = sim.getObject('/Pioneer_p3dx_lidar')
+            self.seen = None
+
+        def sysCall_sensing():
+            data = sim.getStringSignal('Pioneer_p3dx_lidar_data')  # of the pass before: the robot's script comes later
+            if data is not None:
+                np.testing.assert_array_equal(np.frombuffer(data, np.float32).reshape(-1, 3), self.seen)
+                print('equal')
+            self.seen = sim.readLidarPoints(self.lidar)
+            assert sim.getReadingTime(self.lidar) <= sim.getSimulationTime()
+        """,
+    )
+    options = ["--no-ros", "--strict", "--speed", "max", "--until", "0.5"]
+    run = run_sim("pioneer", *options, "--child-script", f"/Table={listener}")
+    assert (run.stderr, run.returncode) == ("", 0)
+    assert "equal" in run.stdout
+
+
+PROBE = """\
+import json
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState, PointCloud2
+
+rospy.init_node('probe')
+drive = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
+command = Twist()
+command.linear.x, command.angular.z = 0.4, 0.5
+rospy.Timer(rospy.Duration(0.1), lambda event: drive.publish(command))
+before = rospy.wait_for_message('/odom', Odometry)
+while rospy.wait_for_message('/odom', Odometry).pose.pose.position.y < 0.3:
+    pass
+cloud = rospy.wait_for_message('/lidarPC', PointCloud2)
+joints = rospy.wait_for_message('/joint_states', JointState)
+truths = {}
+rospy.Subscriber('/ground_truth', Odometry, lambda m: truths.setdefault(m.header.stamp, m))
+while True:
+    odom = rospy.wait_for_message('/odom', Odometry)
+    if odom.header.stamp in truths:
+        break
+truth = truths[odom.header.stamp]
+place = lambda m: [m.pose.pose.position.x, m.pose.pose.position.y, m.pose.pose.orientation.z]
+print(json.dumps({'odom': place(odom), 'truth': place(truth), 'frames': [odom.header.frame_id, odom.child_frame_id],
+    'speeds': [odom.twist.twist.linear.x, odom.twist.twist.angular.z],
+    'true_speeds': [truth.twist.twist.linear.x, truth.twist.twist.angular.z],
+    'cloud': [cloud.header.frame_id, cloud.width * cloud.height, cloud.point_step, len(cloud.data)],
+    'joints': list(joints.name)}))
+"""
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.2])
+def test_it_follows_velocities_and_tells_where_it_is(roscore: RosCore, tmp_path: Path, noise: float) -> None:
+    roscore.set_param("/use_sim_time", True)
+    roscore.set_param("/sim_ros_interface/odometry_noise", noise)
+    with Node(roscore.env, tmp_path / "log", "pioneer", "--speed", "2") as node:
+        told = tmp_path / "told"
+        with told.open("w") as output:
+            probe = start(["/usr/bin/python3", str(write(tmp_path / "probe.py", PROBE))], roscore.env, stdout=output)
+        try:
+            wait_until(lambda: told.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
+        finally:
+            stop(probe)
+        assert node.end() == 0
+    found = json.loads(told.read_text())
+    assert found["frames"] == ["odom", "base_link"]
+    assert found["true_speeds"] == pytest.approx([0.4, 0.5], rel=0.01)
+    error = math.dist(found["odom"], found["truth"])
+    if noise:
+        assert 1e-3 < error < 0.3
+    else:
+        assert error < 5e-3
+        assert found["speeds"] == pytest.approx([0.4, 0.5], rel=0.01)
+    frame, points, size, length = found["cloud"]
+    assert (frame, size, length) == ("Pioneer_p3dx_lidar", 12, 12 * points)
+    assert points > 9000
+    assert found["joints"][:2] == ["Pioneer_p3dx_leftMotor", "Pioneer_p3dx_rightMotor"]

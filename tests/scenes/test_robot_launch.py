@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The robots' launch files: all frames from map to the last wheel and sensor are there."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ros_support import DEADLINE, RosCore, start, stop
+
+# Heights at which the frames are by the robots' measures, metres.
+FRAMES = {
+    "pioneer": {
+        "odom": 0.0,
+        "base_link": 0.0,
+        "Pioneer_p3dx_leftWheel": 0.0975,
+        "Pioneer_p3dx_rightWheel": 0.0975,
+        "Pioneer_p3dx_caster_link": 0.0375,
+        "Pioneer_p3dx_caster_wheel": 0.0375,
+        "Pioneer_p3dx_lidar": 0.31,
+    },
+}
+
+
+@pytest.mark.parametrize("robot", FRAMES)
+def test_all_frames_of_a_robot_hang_together(roscore: RosCore, tmp_path: Path, robot: str) -> None:
+    launched = start(["roslaunch", "bubblesim", f"{robot}.launch"], roscore.env, stdout=subprocess.DEVNULL)
+    try:
+        probe = subprocess.run(
+            [sys.executable, str(Path(__file__).with_name("frames_probe.py")), "map", *FRAMES[robot]],
+            env=roscore.env,
+            stdout=subprocess.PIPE,
+            text=True,
+            timeout=3 * DEADLINE,
+            check=True,
+        )
+    finally:
+        stop(launched)
+    heights = {frame: float(z) for frame, _, _, z in (line.split() for line in probe.stdout.splitlines())}
+    assert heights == pytest.approx(FRAMES[robot], abs=1e-3)
