@@ -6,6 +6,8 @@ from setuptools import find_packages, setup
 
 setup(
     **generate_distutils_setup(
-        packages=find_packages("python"), package_dir={"": "python"}, package_data={"bubblesim.scripting": ["*.lua"]}
+        packages=find_packages("python"),
+        package_dir={"": "python"},
+        package_data={"bubblesim.scripting": ["*.lua"], "bubblesim.cli": ["templates/*.in"]},
     )
 )

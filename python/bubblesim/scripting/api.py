@@ -84,6 +84,12 @@ def functions(module: type) -> list[ScriptFunction]:
     return found
 
 
+def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
+    """What the parameters of a function take, by name; None for anything."""
+    hints = typing.get_type_hints(getattr(module, function), include_extras=True)
+    return {name: _kind(hint) for name, hint in hints.items() if name != "return"}
+
+
 def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:
     members = inspect.getmembers(module, inspect.isfunction)
     return [(name, function) for name, function in members if not name.startswith("_")]

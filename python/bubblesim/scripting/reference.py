@@ -38,12 +38,21 @@ def _title(group: type, module: type) -> str:
 
 
 def _entry(module: str, function: ScriptFunction) -> str:
+    return f"- `{call(f'{module}.{function.name}', function)}`: {text(function)}"
+
+
+def call(name: str, function: ScriptFunction) -> str:
+    """How a function is called, defaults included."""
     arguments = ", ".join(
         name if parameter.default is inspect.Parameter.empty else f"{name}={_shown(parameter.default)}"
         for name, parameter in function.signature.parameters.items()
     )
-    text = " ".join(function.doc.split()).replace("``", "`")
-    return f"- `{module}.{function.name}({arguments})`: {text}"
+    return f"{name}({arguments})"
+
+
+def text(function: ScriptFunction) -> str:
+    """What a function does, in one line."""
+    return " ".join(function.doc.split()).replace("``", "`")
 
 
 def _shown(default: object) -> str:

@@ -10,7 +10,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float32
 from tf2_msgs.msg import TFMessage
 
-from bubblesim.demo.recording import Pose, Recording, Sample, heading_of
+from bubblesim.running.recording import Pose, Recording, Sample, heading_of
 
 
 class Observer:
@@ -21,7 +21,7 @@ class Observer:
         self._recording = recording
         self._sim_time: float | None = None
         self._frames: tuple[str, str] | None = None
-        rospy.init_node("bubblesim_demo", anonymous=True, disable_signals=True)
+        rospy.init_node("bubblesim_observer", anonymous=True, disable_signals=True)
         rospy.Subscriber("/clock", Clock, self._on_clock)
         rospy.Subscriber("/tf", TFMessage, self._on_tf)
         rospy.Subscriber("/front_sonar", Float32, self._on_sonar)
@@ -43,4 +43,4 @@ class Observer:
 
     def close(self) -> None:
         """Leaves the master before it goes."""
-        rospy.signal_shutdown("the demo is over")
+        rospy.signal_shutdown("the run is over")

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bubblesim
-from bubblesim.demo.recording import Pose, Recording
+from bubblesim.running.recording import Pose, Recording
 
 mpl.use("Agg")  # no display needed
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the demo has seen: poses over time, sonar readings, and the figures drawn from them. Knows no ROS."""
+"""What was seen of a run: poses over time, sonar readings, and the figures drawn from them. Knows no ROS."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Sample:
 
 @dataclass
 class Recording:
-    """Grows while the demo runs."""
+    """Grows while it lasts."""
 
     samples: list[Sample] = field(default_factory=list)
     sonar: float | None = None  # last reading, m; +Inf without an echo, None when there is no sonar

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from bubblesim.demo.recording import Pose, Recording, Sample, heading_of
+from bubblesim.running.recording import Pose, Recording, Sample, heading_of
 
 
 def recording(*points: tuple[float, float, float, float]) -> Recording:

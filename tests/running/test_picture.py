@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bubblesim.demo.picture import convex_hull, moved, outline
-from bubblesim.demo.recording import Pose
+from bubblesim.running.picture import convex_hull, moved, outline
+from bubblesim.running.recording import Pose
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 ON_ITS_SIDE = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))  # a quarter turn about x: the axis lies along -y

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim api: the functions that child scripts may call, as their reference pages have them."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import inspect
+import sys
+import textwrap
+from typing import Any
+
+from bubblesim.cli.terminal import painted
+from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
+from bubblesim.scripting.api import MODULES, ScriptFunction, functions, kinds_of
+from bubblesim.scripting.reference import call, text
+
+_WIDTH = 100
+
+
+def add_parser(commands: Any) -> None:
+    """How the command is called."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "api",
+        help="show what child scripts may call",
+        description="Shows a function of child scripts: its arguments, what they take, what it does. A part of a name "
+        "shows all functions that have it; without a name, or with that of a module, a line for each.",
+        epilog="examples: bubblesim api getObject; bubblesim api simROS; bubblesim api simROS2.createClient",
+    )
+    parser.add_argument(
+        "function", nargs="?", default="", help="a function, part of its name, or a module: sim, simROS"
+    )
+    parser.set_defaults(command=_show, parser=parser)
+
+
+def _show(options: argparse.Namespace) -> int:
+    wanted: str = options.function
+    known = {f"{module}.{function.name}": function for module in MODULES for function in functions(MODULES[module])}
+    if not wanted or wanted in MODULES:
+        for name, function in known.items():
+            if name.startswith(f"{wanted}." if wanted else ""):
+                print(f"{call(name, function)}: {_first_sentence(function)}")
+        return 0
+    chosen = {name: f for name, f in known.items() if wanted in (name, f.name)} or {
+        name: f for name, f in known.items() if wanted.lower() in name.lower()
+    }
+    if not chosen:
+        near = difflib.get_close_matches(wanted.rpartition(".")[2], {f.name for f in known.values()}, n=5)
+        hint = f"; did you mean {', '.join(near)}?" if near else "; `bubblesim api` lists them all"
+        print(f"error: scripts have no function '{wanted}'{hint}", file=sys.stderr)
+        return 2
+    print("\n\n".join(_described(name, function) for name, function in chosen.items()))
+    return 0
+
+
+def _first_sentence(function: ScriptFunction) -> str:
+    return text(function).partition(". ")[0].removesuffix(".")
+
+
+def _described(name: str, function: ScriptFunction) -> str:
+    lines = [painted(call(name, function), "bold", sys.stdout)]
+    kinds = kinds_of(MODULES[name.partition(".")[0]], function.name)
+    width = max(map(len, kinds), default=0)
+    for parameter in function.signature.parameters.values():
+        kind = kinds[parameter.name]
+        optional = "" if parameter.default is inspect.Parameter.empty else ", optional"
+        lines.append(f"  {parameter.name:{width}}  {kind.words if kind else 'anything'}{optional}")
+    lines.append(textwrap.fill(text(function), _WIDTH, initial_indent="  ", subsequent_indent="  "))
+    return "\n".join(lines)

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim doctor: why something will not work, and the cure."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import sys
+from typing import Any
+
+from bubblesim.cli.terminal import painted
+
+_ABOUT = ("build", "messages", "ros", "ports")
+_COLORS = {"ok": "green", "warning": "yellow", "problem": "red"}
+
+
+def add_parser(commands: Any) -> None:
+    """How the command is called."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "doctor",
+        help="find out why something will not work",
+        description="Looks at this machine as this terminal sees it: Python, the build, message types, the ROS master, "
+        "network names, ports. Says what is wrong, and the command that cures it; about all, or what is named.",
+        epilog="exit codes: 0 nothing is wrong, or only what many do not need (warning); 1 there is a problem",
+    )
+    parser.add_argument("about", nargs="*", metavar="ABOUT", help=", ".join(_ABOUT))
+    parser.set_defaults(command=_examine, parser=parser)
+
+
+def _examine(options: argparse.Namespace) -> int:
+    from bubblesim.doctor import build_checks, message_checks, port_checks, ros_checks
+    from bubblesim.doctor.finding import Level
+
+    checks = {
+        "build": (build_checks.check_python, build_checks.check_package, build_checks.check_node),
+        "messages": (message_checks.check_messages,),
+        "ros": (ros_checks.check_names, ros_checks.check_master),
+        "ports": (port_checks.check_ports,),
+    }
+    unknown = [about for about in options.about if about not in checks]
+    if unknown:
+        raise ValueError(f"doctor knows nothing about '{unknown[0]}', but about {', '.join(checks)}")
+    problems = False
+    for check in itertools.chain.from_iterable(checks[about] for about in options.about or _ABOUT):
+        for finding in check():
+            level = finding.level.value
+            print(f"{painted(f'{level:8}', _COLORS[level], sys.stdout)} {finding.text}")
+            if finding.cure:
+                print(f"{'':8} cure: {finding.cure}")
+            problems = problems or finding.level is Level.PROBLEM
+            sys.stdout.flush()
+    return int(problems)

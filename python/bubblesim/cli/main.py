@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program bubblesim: finds the command that is meant and runs it."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from bubblesim._core import SceneError
+from bubblesim.cli import api, doctor, new_scene, run, scenes
+from bubblesim.running.processes import RunError
+
+_COMMANDS = (run, scenes, new_scene, api, doctor)
+_FINE, _FAILED, _BAD_INPUT = 0, 1, 2
+
+_DESCRIPTION = """\
+Runs robot scenes and helps to write them. Begin with:
+
+  bubblesim scenes                       the scenes that are there
+  bubblesim run tricycle --roscore       run one, with a ROS master
+  bubblesim new-scene mine               make one of your own
+  bubblesim api getObject                what a script may call
+  bubblesim doctor                       why ROS or Python will not work"""
+_EPILOG = """\
+exit codes: 0 fine, 1 a check or a run failed, 2 bad input; `run` ends with those of the node.
+Data goes to stdout, everything else to stderr. NO_COLOR=1 switches colours off."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command that the arguments (default: those of the process) name; its exit code."""
+    parser = argparse.ArgumentParser(
+        prog="bubblesim",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in _COMMANDS:
+        command.add_parser(commands)
+    options, others = parser.parse_known_args(arguments)
+    if others and "node_options" not in options:
+        options.parser.error(f"unrecognized arguments: {' '.join(others)}")
+    options.node_options = others
+    options.all_arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code: int = options.command(options)
+        sys.stdout.flush()
+    except (SceneError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return _BAD_INPUT
+    except RunError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return _FAILED
+    except BrokenPipeError:  # the reader has seen enough, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _FINE
+    return code

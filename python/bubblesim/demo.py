@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a scene with its controller, shows how it is going, and leaves a picture and no process behind."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from bubblesim.running.master import provide_master, simulated_time
+from bubblesim.running.processes import Programs, RunError
+from bubblesim.running.recording import Recording
+from bubblesim.running.stop import Stop, wait_for
+
+_CONTROLLERS = {"tricycle": "tricycle_avoid.py"}  # the other scenes start their own, or need none
+_LEAST_DISTANCE = 0.01  # m: less is standing still
+
+
+def watch(recording: Recording, seconds: float, programs: Programs, stop: Stop) -> None:
+    """Prints how it is going until the time is over or a stop is requested: on a terminal in one line, updated."""
+    on_terminal = sys.stdout.isatty()
+    end = time.monotonic() + seconds
+    next_line = 0.0
+    while not stop.requested and time.monotonic() < end:
+        programs.check()
+        if time.monotonic() >= next_line:
+            next_line = time.monotonic() + (0.5 if on_terminal else 2.0)
+            print(f"\r\033[K{recording.live_line()}" if on_terminal else recording.live_line(), end="", flush=True)
+            print(end="" if on_terminal else "\n", flush=True)
+        time.sleep(0.05)
+    if on_terminal:
+        print()
+
+
+def run(scene: str, seconds: float, picture: Path) -> None:
+    """The whole demonstration."""
+    stop = Stop()
+    recording = Recording()
+    with tempfile.TemporaryDirectory(prefix="bubblesim-demo-") as logs, Programs(Path(logs)) as programs:
+        provide_master(programs, stop)
+        if stop.requested:
+            return
+        with simulated_time():
+            from bubblesim.running.observer import Observer  # a ROS node: only once there is a master
+
+            observer = Observer(recording)
+            programs.start("simulator", "rosrun", "bubblesim", "sim", scene)
+            controller = _CONTROLLERS.get(Path(scene).stem)
+            if controller:
+                programs.start("controller", "rosrun", "bubblesim", controller)
+            wait_for(lambda: len(recording.samples) > 1, "the robot's pose on /tf", programs, stop)
+            if recording.samples:
+                watch(recording, seconds, programs, stop)
+            observer.close()
+    if len(recording.samples) < 2:
+        raise RunError("stopped before the robot's pose was known")
+    from bubblesim.running.picture import draw  # matplotlib takes its time: not while something is to be seen
+
+    draw(scene, recording, picture)
+    print(f"{recording.summary()}\npicture            {picture}", flush=True)
+    if recording.distance() < _LEAST_DISTANCE and not stop.requested:
+        raise RunError("nothing moved")
+
+
+def main() -> int:
+    """Runs the demonstration; 0 when it went well, 1 when not."""
+    parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__)
+    parser.add_argument("scene", nargs="?", default="tricycle", help="name of a scene or path of an .sdf file")
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so many seconds")
+    arguments = parser.parse_args()
+    os.environ.setdefault("ROS_HOSTNAME", "localhost")  # a machine's own name need not resolve
+    try:
+        run(arguments.scene, arguments.seconds, Path.cwd() / f"demo-{Path(arguments.scene).stem}.png")
+    except RunError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

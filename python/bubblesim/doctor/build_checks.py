@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether Python and the node that was built work, by running them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import rospkg
+
+from bubblesim.doctor.finding import Finding, ok, problem, warning
+from bubblesim.running.places import node_program
+from bubblesim.running.processes import RunError
+
+_SOURCE = "source the setup.bash of the workspace that bubblesim was built in"
+_PATIENCE = 30.0  # s
+_IN_LUA = "function sysCall_init() end"
+
+
+def check_python() -> Iterator[Finding]:
+    """ROS is built for Debian's Python, and its numpy."""
+    version = ".".join(map(str, sys.version_info[:3]))
+    if sys.base_prefix != "/usr":
+        yield problem(f"Python {version} is {sys.executable}, not Debian's", "PATH=/usr/bin:$PATH bubblesim doctor")
+    else:
+        yield ok(f"Python {version}, {sys.executable}")
+    if int(np.__version__.partition(".")[0]) >= 2:
+        yield problem(
+            f"numpy {np.__version__} in {Path(np.__file__).parent} breaks what Debian has built for numpy 1: cv_bridge",
+            f"{sys.executable} -m pip install 'numpy<2'",
+        )
+    else:
+        yield ok(f"numpy {np.__version__}")
+
+
+def check_package() -> Iterator[Finding]:
+    """Rosrun and roslaunch look for the package."""
+    try:
+        yield ok(f"rosrun finds bubblesim in {rospkg.RosPack().get_path('bubblesim')}")
+    except rospkg.ResourceNotFound:
+        yield problem("rosrun and roslaunch do not find bubblesim: ROS_PACKAGE_PATH does not lead to it", _SOURCE)
+
+
+def check_node() -> Iterator[Finding]:
+    """The node runs, and a script in each language."""
+    try:
+        node = str(node_program())
+    except RunError as error:
+        yield problem(str(error), "scripts/setup in a clone, or `catkin build` in your workspace")
+        return
+    failure = _run([node, "ball", "--no-ros", "--speed", "max", "--until", "0.1", "--strict"])
+    if failure:
+        yield problem(
+            f"{node} does not run: {failure}", "scripts/setup in a clone, or `catkin build` in your workspace"
+        )
+        return
+    yield ok(f"the node runs: {node}")
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / "script.lua"
+        script.write_text(_IN_LUA)
+        options = ["--no-ros", "--speed", "max", "--until", "0.1", "--strict", "--child-script", f"/Ball={script}"]
+        failure = _run([node, "ball", *options])
+    if failure:
+        yield warning(
+            f"scripts in Lua do not run: {failure}", "pip install lupa==2.8 in the active virtual environment"
+        )
+    else:
+        yield ok("scripts run, in Python and in Lua")
+
+
+def _run(command: list[str]) -> str:
+    """What went wrong, or nothing."""
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, timeout=_PATIENCE, check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return str(error)
+    said = " ".join(run.stderr.split())
+    return "" if run.returncode == 0 else f"exit code {run.returncode}: {said}"

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether rospy has the message types of the build, and the same ones."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import genpy
+import roslib.message
+
+from bubblesim import _core
+from bubblesim.doctor.finding import Finding, ok, problem, warning
+
+
+def check_messages() -> Iterator[Finding]:
+    """Each listed type, as a class of Python."""
+    names: list[str] = _core.messages.message_names()
+    missing: dict[str, list[str]] = defaultdict(list)
+    others = []
+    for name in names:
+        kind = _python_class(name)
+        if kind is None:
+            missing[name.partition("/")[0]].append(name)
+        elif kind._md5sum != _core.messages.md5(name):
+            others.append(name)
+    for package, types in missing.items():
+        yield warning(
+            f"nodes in Python cannot use {', '.join(types)}: there is no module {package}.msg that has them",
+            f"apt-get install python3-{package.replace('_', '-')}; or build and source the workspace of {package}",
+        )
+    if others:
+        yield problem(
+            f"the build and Python have different definitions of {', '.join(others)}: nobody will hear the other",
+            "build again: scripts/setup in a clone, or `catkin build` in your workspace",
+        )
+    if not missing and not others:
+        yield ok(f"{len(names)} message types, the same in Python")
+
+
+def _python_class(name: str) -> type[genpy.Message] | None:
+    try:
+        kind: type[genpy.Message] | None = roslib.message.get_message_class(name)
+    except (ImportError, ValueError, AttributeError):
+        return None
+    return kind

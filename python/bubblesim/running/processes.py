@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Programs that a run needs, and ends together with everything that they started themselves."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+from pathlib import Path
+from types import TracebackType
+
+_PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}  # s that each has to take effect
+
+
+class RunError(Exception):
+    """A run cannot go on; the text says why, for its user."""
+
+
+class Program:
+    """A running program in a process group of its own, its output in a file or where ours goes."""
+
+    def __init__(self, name: str, command: list[str], log: Path | None) -> None:
+        """Starts it; `name` is what messages call it. RunError when it is not there."""
+        self.name = name
+        self._log = log
+        with contextlib.ExitStack() as files:
+            output = files.enter_context(log.open("w")) if log else None
+            try:
+                self._process = subprocess.Popen(
+                    command,
+                    stdin=subprocess.DEVNULL,
+                    stdout=output,
+                    stderr=subprocess.STDOUT if output else None,
+                    start_new_session=True,
+                )
+            except OSError as error:
+                raise RunError(f"the {name} cannot be started: {command[0]}: {error.strerror}") from error
+
+    @property
+    def exit_code(self) -> int | None:
+        """None while it runs; negative: the signal that ended it."""
+        return self._process.poll()
+
+    def check(self) -> None:
+        """Raises RunError, with its last words if they were kept, when it has ended."""
+        if self.exit_code is None:
+            return
+        said = ""
+        if self._log:
+            last_words = self._log.read_text(errors="replace").splitlines()[-15:]
+            said = "; it said:" + "".join(f"\n  {line}" for line in last_words)
+        raise RunError(f"the {self.name} ended with exit code {self.exit_code}{said}")
+
+    def stop(self) -> None:
+        """Ends the whole group, politely first."""
+        for number, patience in _PATIENCE.items():
+            try:
+                os.killpg(self._process.pid, number)
+                self._process.wait(patience)
+                break
+            except (ProcessLookupError, subprocess.TimeoutExpired):
+                continue
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)  # what it left behind
+
+
+class Programs:
+    """All of them; as a context manager it ends them with the block, the last one first."""
+
+    def __init__(self, log_folder: Path) -> None:
+        """Nothing runs yet."""
+        self._log_folder = log_folder
+        self.running: list[Program] = []
+
+    def start(self, name: str, *command: str, shown: bool = False) -> Program:
+        """Starts a program, which `check` watches from now on; `shown`: its output goes where ours goes."""
+        log = None if shown else self._log_folder / f"{name.replace(' ', '_')}.log"
+        program = Program(name, list(command), log)
+        self.running.append(program)
+        return program
+
+    def check(self) -> None:
+        """Raises RunError when one has ended."""
+        for program in self.running:
+            program.check()
+
+    def __enter__(self) -> Programs:
+        """Starts a block at whose end all is ended."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        """Ends all programs."""
+        while self.running:
+            self.running.pop().stop()

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim api."""
+
+import pytest
+
+from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
+from bubblesim.scripting.api import MODULES, functions
+from cli_support import bubblesim
+
+
+def test_all_functions_are_listed() -> None:
+    run = bubblesim("api")
+    known = [f"{module}.{function.name}" for module in MODULES for function in functions(MODULES[module])]
+    assert [line.partition("(")[0] for line in sorted(run.stdout.splitlines())] == sorted(known)
+
+
+def test_a_module_lists_its_own() -> None:
+    lines = bubblesim("api", "simROS").stdout.splitlines()
+    assert lines
+    assert all(line.startswith("simROS.") for line in lines)
+
+
+@pytest.mark.parametrize("name", ["sim.setObjectPosition", "setObjectPosition"])
+def test_a_function_tells_its_arguments_and_what_it_does(name: str) -> None:
+    text = bubblesim("api", name).stdout
+    assert text.startswith("sim.setObjectPosition(handle, position, relative_to=-1)\n")
+    assert "position     3 numbers\n" in text
+    assert "relative_to  the handle of an object, an integer, optional\n" in text
+    assert "Move a model or link" in text
+
+
+def test_a_part_of_a_name_finds_all_that_have_it() -> None:
+    text = bubblesim("api", "stringsignal").stdout
+    assert {"sim.setStringSignal", "sim.getStringSignal", "sim.clearStringSignal"} <= set(
+        text.replace("(", " ").split()
+    )
+
+
+def test_an_unknown_name_brings_similar_ones() -> None:
+    run = bubblesim("api", "getObjekt")
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "scripts have no function 'getObjekt'; did you mean getObject" in run.stderr

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program bubblesim: what all of its commands share."""
+
+import os
+import pty
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from cli_support import bubblesim
+from ros_support import built
+
+COMMANDS = ["run", "scenes", "new-scene", "api", "doctor"]
+
+
+def test_help_names_all_commands_and_exit_codes() -> None:
+    run = bubblesim("--help")
+    assert run.returncode == 0
+    assert all(f"\n    {command}" in run.stdout for command in COMMANDS)
+    assert "exit codes: 0 fine, 1" in run.stdout
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_command_explains_itself(command: str) -> None:
+    run = bubblesim(command, "--help")
+    assert (run.returncode, run.stderr) == (0, "")
+    assert f"usage: bubblesim {command}" in run.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [[], ["bogus"], ["scenes", "--bogus"], ["scenes", "bogus"], ["api", "a", "b"], ["new-scene"], ["run"]]
+)
+def test_bad_usage_is_explained_with_exit_code_2(arguments: list[str]) -> None:
+    run = bubblesim(*arguments)
+    assert run.returncode == 2
+    assert run.stdout == ""
+    assert "usage: bubblesim" in run.stderr
+
+
+def test_it_is_on_the_path_of_a_sourced_workspace() -> None:
+    assert shutil.which("bubblesim") is not None
+
+
+def test_a_reader_that_has_seen_enough_is_no_error() -> None:
+    run = subprocess.run(
+        ["bash", "-c", f"{built('bubblesim')} api | true"], capture_output=True, text=True, check=False
+    )
+    assert run.stderr == ""
+
+
+def test_colours_are_for_terminals_only() -> None:
+    assert "\033[" not in bubblesim("api", "sim.getObject").stdout
+    assert "\033[1m" in on_a_terminal({})
+    assert "\033[" not in on_a_terminal({"NO_COLOR": "1"})
+
+
+def on_a_terminal(changes: dict[str, str]) -> str:
+    """What `bubblesim api sim.getObject` writes to a terminal."""
+    ours, its = pty.openpty()
+    environment = {**os.environ, "TERM": "xterm", **changes}
+    subprocess.run([built("bubblesim"), "api", "sim.getObject"], env=environment, stdout=its, check=True)
+    os.close(its)
+    with os.fdopen(ours, "rb") as terminal:
+        return terminal.read1().decode()
+
+
+def test_a_build_that_cannot_be_loaded_is_told_with_the_cure(tmp_path: Path) -> None:
+    (tmp_path / "bubblesim").mkdir()
+    (tmp_path / "bubblesim" / "__init__.py").write_text("import no_such_module\n")
+    run = bubblesim("scenes", PYTHONPATH=str(tmp_path))
+    assert run.returncode == 2
+    assert "No module named 'no_such_module'" in run.stderr
+    assert "cure: " in run.stderr
+    assert "Traceback" not in run.stderr

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim new-scene."""
+
+from pathlib import Path
+
+import pytest
+
+from cli_support import bubblesim
+from node_support import Node, run_sim
+from ros_support import RosCore, wait_until
+
+
+def test_the_new_scene_runs_as_it_is(tmp_path: Path) -> None:
+    made = bubblesim("new-scene", "mine", cwd=tmp_path)
+    assert (made.returncode, made.stdout) == (0, "mine.sdf\nmine.py\n")
+    assert "bubblesim run ./mine.sdf" in made.stderr
+    run = bubblesim("run", "./mine.sdf", "--no-ros", "--speed", "max", "--until", 4, "--strict", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    x, y = (float(number.strip(",")) for number in run.stdout.split("robot is at ")[1].split()[:2])
+    # Wheels of 0.05 m, 0.24 m apart, at 4 and 6 rad/s: 0.25 m/s and 0.42 rad/s, a circle of 0.6 m about (0.05, 0.6).
+    assert abs((((x - 0.05) ** 2 + (y - 0.6) ** 2) ** 0.5) - 0.6) < 0.1
+    assert y > 0.3
+
+
+def test_the_new_scene_talks_to_ros(tmp_path: Path, roscore: RosCore) -> None:
+    bubblesim("new-scene", "mine", "--folder", tmp_path)
+    with Node(roscore.env, tmp_path / "log", tmp_path / "mine.sdf", "--strict"):
+        wait_until(lambda: {"/sonar", "/tf"} <= set(roscore.state()["publishers"]), "the topics of the scene")
+        assert {"/left", "/right"} <= set(roscore.state()["subscribers"])
+        assert "data: " in roscore.run("rostopic", "echo", "-n", "1", "/sonar")
+
+
+@pytest.mark.parametrize("name", ["", "1st", "my scene", "../up", "a.b"])
+def test_names_that_are_none_are_refused(tmp_path: Path, name: str) -> None:
+    run = bubblesim("new-scene", name, cwd=tmp_path)
+    assert run.returncode == 2
+    assert f"'{name}' is no name of a scene" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_is_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text("precious")
+    run = bubblesim("new-scene", "mine", cwd=tmp_path)
+    assert run.returncode == 2
+    assert "mine.py exists already" in run.stderr
+    assert [file.read_text() for file in tmp_path.iterdir()] == ["precious"]
+
+
+def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
+    run = bubblesim("new-scene", "mine", "--folder", tmp_path / "none")
+    assert run.returncode == 2
+    assert "No such file or directory" in run.stderr
+
+
+def test_its_scene_has_no_warnings(tmp_path: Path) -> None:
+    bubblesim("new-scene", "mine", cwd=tmp_path)
+    assert run_sim(tmp_path / "mine.sdf", "--no-ros", "--until", 0.05).stderr == ""

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim doctor finds what is broken, here broken for real, and knows the cure."""
+
+import os
+import signal
+import socket
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from cli_support import bubblesim
+from ros_support import RosCore, free_port, ros_environment, start, wait_until
+
+
+def finding(run: "subprocess.CompletedProcess[str]", words: str) -> tuple[str, str]:
+    """Level and cure of the finding with these words."""
+    lines = run.stdout.splitlines()
+    number = next((number for number, line in enumerate(lines) if words in line), None)
+    assert number is not None, run.stdout + run.stderr
+    return lines[number].split()[0], lines[number + 1].partition("cure: ")[2]
+
+
+@pytest.fixture
+def terminal(tmp_path: Path) -> dict[str, str]:
+    """An environment in which all is well, but for a master."""
+    return ros_environment(free_port(), tmp_path)
+
+
+def test_a_healthy_machine_has_no_problem(roscore: RosCore) -> None:
+    run = bubblesim("doctor", env=roscore.env)
+    assert (run.returncode, "problem" in run.stdout) == (0, False), run.stdout
+    assert "a ROS master answers" in run.stdout
+    assert "scripts run, in Python and in Lua" in run.stdout
+
+
+def test_a_missing_master_is_a_warning(terminal: dict[str, str]) -> None:
+    run = bubblesim("doctor", "ros", env=terminal)
+    assert run.returncode == 0
+    assert finding(run, "no ROS master answers") == (
+        "warning",
+        "roscore, in a terminal of its own; or bubblesim run ... --roscore",
+    )
+
+
+@pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:x", ""])
+def test_an_address_that_is_none_is_a_problem(terminal: dict[str, str], uri: str) -> None:
+    run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI=uri)
+    assert run.returncode == 1
+    assert finding(run, f"ROS_MASTER_URI={uri} is not like") == (
+        "problem",
+        "export ROS_MASTER_URI=http://localhost:11311",
+    )
+
+
+def test_a_port_that_something_else_has_is_a_problem(terminal: dict[str, str]) -> None:
+    with socket.create_server(("localhost", 0)) as other:  # takes connections, and never answers
+        port = other.getsockname()[1]
+        run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI=f"http://localhost:{port}")
+    assert run.returncode == 1
+    level, cure = finding(run, "does not answer as a ROS master does")
+    assert (level, f"sport = :{port}" in cure) == ("problem", True)
+
+
+def test_what_it_knows_nothing_about_is_told() -> None:
+    run = bubblesim("doctor", "weather")
+    assert run.returncode == 2
+    assert "nothing about 'weather', but about build, messages, ros, ports" in run.stderr
+
+
+def test_names_that_nobody_can_resolve_are_problems(terminal: dict[str, str]) -> None:
+    run = bubblesim("doctor", "ros", env=terminal, ROS_HOSTNAME="robot.invalid")
+    assert run.returncode == 1
+    assert finding(run, "ROS_HOSTNAME=robot.invalid is no address") == ("problem", "export ROS_HOSTNAME=localhost")
+    run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI="http://robot.invalid:11311")
+    assert finding(run, "robot.invalid is no address")[0] == "problem"
+
+
+def test_simulated_time_without_a_clock_is_a_problem(roscore: RosCore) -> None:
+    roscore.set_param("/use_sim_time", True)
+    run = bubblesim("doctor", "ros", env=roscore.env)
+    assert run.returncode == 1
+    level, cure = finding(run, "/use_sim_time is set, and nobody publishes /clock")
+    assert (level, cure.startswith("rosparam delete /use_sim_time")) == ("problem", True)
+
+
+def test_a_node_that_was_killed_is_a_warning(roscore: RosCore) -> None:
+    node = start(["rostopic", "pub", "/gone", "std_msgs/Bool", "true"], roscore.env, stdout=subprocess.DEVNULL)
+    wait_until(lambda: "/gone" in roscore.state()["publishers"], "the node")
+    os.killpg(node.pid, signal.SIGKILL)
+    node.wait()
+    run = bubblesim("doctor", "ros", env=roscore.env)
+    assert run.returncode == 0
+    assert finding(run, "the master knows nodes that do not answer: /rostopic") == ("warning", "rosnode cleanup")
+
+
+def test_a_workspace_that_rosrun_does_not_know_is_a_problem(terminal: dict[str, str]) -> None:
+    run = bubblesim("doctor", "build", env=terminal, ROS_PACKAGE_PATH="/nowhere")
+    assert run.returncode == 1
+    assert "setup.bash" in finding(run, "rosrun and roslaunch do not find bubblesim")[1]
+
+
+def test_a_node_that_does_not_run_is_a_problem(terminal: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "ball.sdf").write_text("no scene")
+    run = bubblesim("doctor", "build", env=terminal, BUBBLESIM_SCENE_PATH=str(tmp_path))
+    assert run.returncode == 1
+    assert finding(run, "does not run: exit code 2")[0] == "problem"
+
+
+def test_a_missing_lua_is_a_warning(terminal: dict[str, str], tmp_path: Path) -> None:
+    run = bubblesim("doctor", "build", env=terminal, VIRTUAL_ENV=str(tmp_path))
+    assert finding(run, "scripts in Lua do not run") == (
+        "warning",
+        "pip install lupa==2.8 in the active virtual environment",
+    )
+
+
+def module(folder: Path, name: str, code: str) -> dict[str, str]:
+    """An environment in which a module of ours comes first."""
+    (folder / name).mkdir(parents=True)
+    (folder / name / "__init__.py").write_text(code)
+    return {"PYTHONPATH": f"{folder}:{os.environ['PYTHONPATH']}"}
+
+
+def test_message_types_that_python_lacks_are_a_warning(terminal: dict[str, str], tmp_path: Path) -> None:
+    run = bubblesim("doctor", "messages", env=terminal, **module(tmp_path, "trajectory_msgs", ""))
+    level, cure = finding(run, "nodes in Python cannot use trajectory_msgs/JointTrajectory")
+    assert (level, "apt-get install python3-trajectory-msgs" in cure) == ("warning", True)
+
+
+def test_message_types_that_differ_are_a_problem(terminal: dict[str, str], tmp_path: Path) -> None:
+    changes = module(tmp_path, "trajectory_msgs", "")
+    code = "from genpy import Message\nclass JointTrajectory(Message):\n    _md5sum = 'other'\n"
+    module(tmp_path / "trajectory_msgs", "msg", code)
+    run = bubblesim("doctor", "messages", env=terminal, **changes)
+    assert run.returncode == 1
+    assert finding(run, "different definitions of trajectory_msgs/JointTrajectory")[0] == "problem"
+
+
+def test_a_numpy_that_debians_modules_cannot_use_is_a_problem(terminal: dict[str, str], tmp_path: Path) -> None:
+    code = """\
+import sys
+sys.path.remove(FOLDER)
+del sys.modules["numpy"]
+import numpy
+numpy.__version__ = "2.1.0"
+"""
+    changes = module(tmp_path, "numpy", code.replace("FOLDER", repr(str(tmp_path))))
+    run = bubblesim("doctor", "build", env=terminal, **changes)
+    assert run.returncode == 1
+    assert "'numpy<2'" in finding(run, "numpy 2.1.0 in")[1]
+
+
+def test_a_port_that_a_scene_serves_and_another_has_is_a_warning(terminal: dict[str, str]) -> None:
+    try:
+        server = socket.create_server(("127.0.0.1", 5000))
+    except OSError:
+        server = None  # another has it already
+    run = bubblesim("doctor", "ports", env=terminal)
+    if server:
+        server.close()
+    assert finding(run, "port 5000, which the scene tricycle_socket serves, cannot be had")[0] == "warning"
