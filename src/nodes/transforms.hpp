@@ -14,4 +14,17 @@ inline tf2::Transform to_tf2(const geometry_msgs::Transform& transform) {
                         tf2::Vector3(translation.x, translation.y, translation.z));
 }
 
+inline geometry_msgs::Transform to_message(const tf2::Transform& transform) {
+  geometry_msgs::Transform message;
+  message.translation.x = transform.getOrigin().x();
+  message.translation.y = transform.getOrigin().y();
+  message.translation.z = transform.getOrigin().z();
+  const tf2::Quaternion rotation = transform.getRotation();
+  message.rotation.x = rotation.x();
+  message.rotation.y = rotation.y();
+  message.rotation.z = rotation.z();
+  message.rotation.w = rotation.w();
+  return message;
+}
+
 }  // namespace bubblesim

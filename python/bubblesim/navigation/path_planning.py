@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The shortest way through a map for a round robot, by A* (Hart, Nilsson, Raphael 1968) on the map's cells."""
+
+import heapq
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from bubblesim.navigation.grid_map import Cell, GridMap, Point
+
+STEPS = [(dr, dc, math.hypot(dr, dc)) for dr in (-1, 0, 1) for dc in (-1, 0, 1) if (dr, dc) != (0, 0)]
+
+
+class NoPathError(Exception):
+    """There is no way to a goal: why."""
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """How much room a robot takes, m."""
+
+    radius: float  # closer than this to a wall it never goes
+    comfort: float  # within this of a wall each step costs more, up to thrice
+
+
+def passable(grid: GridMap, footprint: Footprint) -> npt.NDArray[np.bool_]:
+    """Cells where the robot's middle may be."""
+    return grid.free & (grid.clearance() > footprint.radius)
+
+
+def plan(grid: GridMap, start: Point, goal: Point, footprint: Footprint) -> list[Point]:
+    """Points of the cheapest path, first and last included. Raises NoPathError.
+
+    A robot that stands closer to a wall than it should may still leave: cells about the start that are not walls are
+    passable, too.
+    """
+    first, last = grid.cell_of(start), grid.cell_of(goal)
+    clearance = grid.clearance()
+    may_pass = grid.free & (clearance > footprint.radius)
+    for cell, what in ((first, "the robot"), (last, "the goal")):
+        if not grid.has(cell):
+            raise NoPathError(f"{what} is outside of the map")
+    if not may_pass[last]:
+        raise NoPathError("the goal is not free, or too close to a wall")
+    _let_leave(may_pass, grid, first, footprint.radius)
+    closeness = np.clip((footprint.comfort - clearance) / max(footprint.comfort - footprint.radius, 1e-6), 0.0, 1.0)
+    cells = _search(may_pass, 1.0 + 2.0 * closeness, first, last)
+    return [start, *(grid.centre_of(cell) for cell in cells[1:-1]), goal]
+
+
+def _let_leave(may_pass: npt.NDArray[np.bool_], grid: GridMap, first: Cell, radius: float) -> None:
+    reach = math.ceil(2 * radius / grid.resolution)
+    rows = slice(max(first[0] - reach, 0), first[0] + reach + 1)
+    columns = slice(max(first[1] - reach, 0), first[1] + reach + 1)
+    if not may_pass[first]:
+        may_pass[rows, columns] |= ~grid.occupied[rows, columns]
+    may_pass[first] = True
+
+
+def _search(may_pass: npt.NDArray[np.bool_], cost: npt.NDArray[np.float64], first: Cell, last: Cell) -> list[Cell]:
+    passable_rows, costs = np.pad(may_pass, 1).tolist(), np.pad(cost, 1).tolist()  # lists: faster cell by cell
+    start, goal = (first[0] + 1, first[1] + 1), (last[0] + 1, last[1] + 1)  # in the padded map
+    best = {start: 0.0}
+    came_from: dict[Cell, Cell] = {}
+    queue = [(math.dist(start, goal), start)]
+    done: set[Cell] = set()
+    while queue:
+        _, cell = heapq.heappop(queue)
+        if cell == goal:
+            path = [cell]
+            while cell in came_from:
+                cell = came_from[cell]
+                path.append(cell)
+            return [(row - 1, column - 1) for row, column in reversed(path)]
+        if cell in done:
+            continue
+        done.add(cell)
+        row, column = cell
+        for dr, dc, length in STEPS:
+            beside = (row + dr, column + dc)
+            if not passable_rows[beside[0]][beside[1]] or beside in done:
+                continue
+            reached = best[cell] + length * costs[beside[0]][beside[1]]
+            if reached < best.get(beside, math.inf):
+                best[beside] = reached
+                came_from[beside] = cell
+                heapq.heappush(queue, (reached + math.dist(beside, goal), beside))
+    raise NoPathError("walls, or what is not known yet, lie between the robot and the goal")

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import math
+
+import pytest
+from rooms import drawn
+
+from bubblesim.navigation.exploration import Explorer, frontiers
+from bubblesim.navigation.path_planning import Footprint
+
+SLIM = Footprint(radius=0.1, comfort=0.1)
+HALF_KNOWN = """
+##########
+#      ???
+#      ???
+#    # ???
+##########
+"""
+
+
+def test_a_frontier_is_where_the_free_meets_the_unknown() -> None:
+    (found,) = frontiers(drawn(HALF_KNOWN), (0.75, 0.75), SLIM, 0.2)
+    assert found.length == pytest.approx(1.5)
+    assert found.viewpoint == pytest.approx((3.25, 1.25))
+    assert found.distance == pytest.approx(math.hypot(2.5, 0.5))
+
+
+def test_the_nearest_comes_first_and_short_ones_do_not_count() -> None:
+    grid = drawn("?        ??\n" + 3 * "         ??\n")
+    found = frontiers(grid, (1.75, 1.25), SLIM, 0.2)
+    assert [frontier.length for frontier in found] == pytest.approx([1.5, 2.0])
+    assert [frontier.length for frontier in frontiers(grid, (1.75, 1.25), SLIM, 1.8)] == pytest.approx([2.0])
+
+
+def test_a_room_without_unknown_is_explored() -> None:
+    assert Explorer(SLIM).next_goal(drawn("####\n#  #\n#  #\n####"), (0.75, 0.75)) is None
+
+
+def test_what_cannot_be_seen_is_not_tried_for_ever() -> None:
+    grid, place = drawn(HALF_KNOWN), (0.75, 0.75)
+    explorer = Explorer(SLIM)
+    goal = explorer.next_goal(grid, place)
+    assert goal is not None
+    explorer.been_at(goal)
+    assert explorer.next_goal(grid, place) is None
+
+
+def test_a_frontier_behind_a_gap_too_narrow_is_looked_at_from_this_side() -> None:
+    grid = drawn("#########\n#   #   ?\n#       ?\n#   #   ?\n#########")
+    (found,) = frontiers(grid, (0.75, 1.25), Footprint(radius=0.6, comfort=0.6), 0.2)
+    assert found.viewpoint[0] < 2.0
+
+
+def test_a_map_without_free_space_has_no_goal() -> None:
+    assert Explorer(SLIM).next_goal(drawn("???\n???"), (0.5, 0.5)) is None

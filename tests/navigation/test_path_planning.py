@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import math
+from itertools import pairwise
+
+import pytest
+from rooms import drawn
+
+from bubblesim.navigation.path_planning import Footprint, NoPathError, plan
+
+SLIM = Footprint(radius=0.1, comfort=0.1)
+U_SHAPE = """
+#########
+#       #
+#  ###  #
+#    #  #
+#    #  #
+#########
+"""
+
+
+def length(path: list[tuple[float, float]]) -> float:
+    return sum(math.dist(*pair) for pair in pairwise(path))
+
+
+def test_the_way_through_the_open_is_straight() -> None:
+    path = plan(drawn("          \n" * 10), (0.25, 0.25), (4.25, 4.25), SLIM)
+    assert (path[0], path[-1]) == ((0.25, 0.25), (4.25, 4.25))
+    assert length(path) == pytest.approx(4 * math.sqrt(2))
+
+
+def test_the_way_round_a_wall_is_as_short_as_it_can_be() -> None:
+    grid = drawn(U_SHAPE)
+    path = plan(grid, (2.25, 0.75), (3.25, 0.75), SLIM)
+    assert not any(grid.occupied[grid.cell_of(point)] for point in path)
+    # By hand, in steps of half a metre: 2 aslant and 1 straight up to (1.25, 2.25), 1 aslant over the corner,
+    # 3 along, 1 aslant, 3 down.
+    assert length(path) == pytest.approx(0.5 * (4 * math.sqrt(2) + 6), abs=1.0)
+
+
+def test_a_stout_robot_takes_no_narrow_gap() -> None:
+    gap = drawn("#######\n   #   \n       \n   #   \n#######")
+    assert plan(gap, (0.25, 1.25), (3.25, 1.25), SLIM)
+    with pytest.raises(NoPathError, match="walls"):
+        plan(gap, (0.25, 1.25), (3.25, 1.25), Footprint(radius=0.6, comfort=0.6))
+
+
+def test_it_keeps_off_the_walls_where_there_is_room() -> None:
+    corridor = drawn("#" * 20 + "\n" + (" " * 20 + "\n") * 7 + "#" * 20, resolution=0.2)
+    path = plan(corridor, (0.3, 0.3), (3.7, 0.3), Footprint(radius=0.1, comfort=0.7))
+    assert max(y for _, y in path) > 0.6
+
+
+def test_a_robot_that_stands_too_close_to_a_wall_can_leave() -> None:
+    grid = drawn("          \n" * 4 + "##########", resolution=0.1)
+    path = plan(grid, (0.25, 0.15), (0.75, 0.45), Footprint(radius=0.2, comfort=0.2))
+    assert path[-1] == (0.75, 0.45)
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "why"),
+    [
+        ((9.0, 9.0), (0.25, 0.25), "the robot is outside"),
+        ((0.25, 0.25), (-1.0, 0.25), "the goal is outside"),
+        ((0.25, 0.25), (1.25, 0.25), "not free"),
+        ((0.25, 0.25), (1.75, 0.25), "not free"),
+        ((0.25, 0.25), (0.75, 1.25), "walls"),
+    ],
+)
+def test_why_there_is_no_path_is_told(start: tuple[float, float], goal: tuple[float, float], why: str) -> None:
+    with pytest.raises(NoPathError, match=why):
+        plan(drawn("#  #\n####\n  #?"), start, goal, SLIM)
