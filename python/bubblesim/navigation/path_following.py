@@ -5,33 +5,17 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from bubblesim.controllers.planar_motion import Pose2D, Velocity
 from bubblesim.navigation.grid_map import Point
 
-
-@dataclass(frozen=True)
-class Pose:
-    """In the plane: m, rad."""
-
-    x: float
-    y: float
-    heading: float
-
-    def seen(self, point: Point) -> Point:
-        """A point as the robot sees it: forward, left."""
-        dx, dy = point[0] - self.x, point[1] - self.y
-        cosine, sine = math.cos(self.heading), math.sin(self.heading)
-        return cosine * dx + sine * dy, cosine * dy - sine * dx
+STANDING = Velocity(0.0, 0.0)
 
 
-@dataclass(frozen=True)
-class Command:
-    """A velocity of the base, REP 103."""
-
-    forward: float = 0.0  # m/s
-    turning: float = 0.0  # rad/s
-
-
-STANDING = Command()
+def seen_from(pose: Pose2D, point: Point) -> Point:
+    """A point as the robot sees it: forward, left."""
+    dx, dy = point[0] - pose.x, point[1] - pose.y
+    cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
+    return cosine * dx + sine * dy, cosine * dy - sine * dx
 
 
 @dataclass(frozen=True)
@@ -47,26 +31,26 @@ class Driver:
     tolerance: float = 0.1  # to the goal, within which it has arrived
 
 
-def follow(path: Sequence[Point], pose: Pose, driver: Driver) -> Command | None:
+def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | None:
     """What to drive at to stay on the path, None when the robot is at its end."""
     left_over = math.dist((pose.x, pose.y), path[-1])
     if left_over <= driver.tolerance:
         return None
-    forward, left = pose.seen(_target(path, pose, driver.lookahead))
+    forward, left = seen_from(pose, _target(path, pose, driver.lookahead))
     angle = math.atan2(left, forward)
     speed = min(driver.max_speed, math.sqrt(2 * driver.acceleration * left_over))
     if driver.turning_radius == 0.0 and abs(angle) > math.pi / 4:
-        return Command(0.0, math.copysign(min(driver.max_turn, 2 * abs(angle)), angle))
+        return Velocity(0.0, math.copysign(min(driver.max_turn, 2 * abs(angle)), angle))
     curvature = 2 * left / (forward**2 + left**2)
     if forward < 0.0:  # behind: as tight a curve as it can
         curvature = math.copysign(1 / driver.turning_radius, left)
     elif driver.turning_radius > 0.0:
         curvature = math.copysign(min(abs(curvature), 1 / driver.turning_radius), curvature)
     speed = min(speed, driver.max_turn / max(abs(curvature), 1e-6))
-    return Command(speed, speed * curvature)
+    return Velocity(speed, speed * curvature)
 
 
-def _target(path: Sequence[Point], pose: Pose, lookahead: float) -> Point:
+def _target(path: Sequence[Point], pose: Pose2D, lookahead: float) -> Point:
     """The point of the path that is `lookahead` further than the one nearest to the robot."""
     here = (pose.x, pose.y)
     nearest = min(range(len(path)), key=lambda index: math.dist(path[index], here))
@@ -76,12 +60,12 @@ def _target(path: Sequence[Point], pose: Pose, lookahead: float) -> Point:
     return path[-1]
 
 
-def is_blocked(command: Command, obstacles: Iterable[Point], driver: Driver) -> bool:
+def is_blocked(command: Velocity, obstacles: Iterable[Point], driver: Driver) -> bool:
     """Whether something, as the robot sees it, is in the way of one that drives on so until it could stop."""
-    if command.forward <= 0.0:
+    if command.linear <= 0.0:
         return False
-    reach = driver.radius + 0.1 + command.forward**2 / (2 * driver.acceleration)
-    curvature = command.turning / command.forward
+    reach = driver.radius + 0.1 + command.linear**2 / (2 * driver.acceleration)
+    curvature = command.angular / command.linear
     for forward, left in obstacles:
         if 0.0 < forward < reach and abs(left - curvature * forward**2 / 2) < driver.radius:
             return True
