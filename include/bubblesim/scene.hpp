@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,10 +32,21 @@ struct Cylinder {
   double radius = 0;
   double length = 0;  ///< along z
 };
+struct Capsule {
+  double radius = 0;
+  double length = 0;  ///< along z, between the centres of its round ends
+};
+struct Ellipsoid {
+  Vector3 radii;  ///< along x, y, z
+};
 struct Plane {
   Vector3 normal = Vector3::UnitZ;  ///< infinite, through the origin; solid below
 };
-using Geometry = std::variant<Box, Sphere, Cylinder, Plane>;
+struct TriangleMesh;  // see triangle_mesh.hpp
+struct Mesh {
+  std::shared_ptr<const TriangleMesh> triangles;  ///< never null
+};
+using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
 
 struct Surface {
   double mu = 1;                         ///< Coulomb friction; two surfaces in touch use the lower one
@@ -56,9 +68,11 @@ struct Color {
   float b = 0;
 };
 
+struct Texture;  // see triangle_mesh.hpp
 struct Material {
   Color diffuse{0.7F, 0.7F, 0.7F};
   Color emissive;
+  std::shared_ptr<const Texture> texture;  ///< in place of the diffuse colour, where a surface has coordinates for it
   double checker_size = 0;  ///< m, side of a checkerboard's fields in the shape's frame; 0 for a single colour
   Color checker_color;      ///< of every other field
 };
@@ -69,7 +83,8 @@ struct VisualDescription {
   Pose pose;  ///< in the link's frame
   Geometry geometry;
   Material material;
-  double laser_retro = 0;  ///< intensity of a lidar's return
+  bool keeps_mesh_materials = false;  ///< those that the mesh brings count, where it brings any
+  double laser_retro = 0;             ///< intensity of a lidar's return
   Source source;
 };
 

@@ -10,6 +10,7 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
+#include "bubblesim/triangle_mesh.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
 
@@ -25,6 +26,7 @@ struct CollisionShape {
   std::vector<double> size;
   Pose pose;
   bool is_static;
+  std::shared_ptr<const TriangleMesh> mesh;  // null for other kinds
 };
 
 struct ShapeText {
@@ -36,6 +38,14 @@ struct ShapeDescriber {
   ShapeText operator()(const Box& box) const { return {"box", {box.size.X(), box.size.Y(), box.size.Z()}}; }
   ShapeText operator()(const Sphere& sphere) const { return {"sphere", {sphere.radius}}; }
   ShapeText operator()(const Cylinder& cylinder) const { return {"cylinder", {cylinder.radius, cylinder.length}}; }
+  ShapeText operator()(const Capsule& capsule) const { return {"capsule", {capsule.radius, capsule.length}}; }
+  ShapeText operator()(const Ellipsoid& ellipsoid) const {
+    return {"ellipsoid", {ellipsoid.radii.X(), ellipsoid.radii.Y(), ellipsoid.radii.Z()}};
+  }
+  ShapeText operator()(const Mesh& mesh) const {
+    const Vector3 size = mesh.triangles->high - mesh.triangles->low;
+    return {"mesh", {size.X(), size.Y(), size.Z()}};
+  }
   ShapeText operator()(const Plane& plane) const {
     return {"plane", {plane.normal.X(), plane.normal.Y(), plane.normal.Z()}};
   }
@@ -45,10 +55,18 @@ std::vector<CollisionShape> collisions(const Simulation& simulation) {
   std::vector<CollisionShape> shapes;
   for (const PlacedShape& shape : simulation.world().shapes()) {
     ShapeText text = std::visit(ShapeDescriber{}, shape.geometry);
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     shapes.push_back({simulation.world().tree().path(shape.link), std::move(text.kind), std::move(text.size),
-                      shape.pose, shape.is_static});
+                      shape.pose, shape.is_static, mesh != nullptr ? mesh->triangles : nullptr});
   }
   return shapes;
+}
+
+py::array_t<float> vertices(const CollisionShape& shape) {
+  const std::vector<TriangleMesh::Point> points =
+      shape.mesh != nullptr ? shape.mesh->vertices : std::vector<TriangleMesh::Point>();
+  const std::vector<py::ssize_t> size = {static_cast<py::ssize_t>(points.size()), 3};
+  return py::array_t<float>(size, reinterpret_cast<const float*>(points.data()));
 }
 
 /// Steps without the GIL, but looks at Python's signals now and then so that Ctrl-C ends a long call.
@@ -120,7 +138,10 @@ void bind_simulation(py::module_& module) {
 
   py::class_<CollisionShape>(module, "CollisionShape", "A collision shape and where it stands.")
       .def_readonly("object_path", &CollisionShape::object_path, "Path of the link that it belongs to.")
-      .def_readonly("kind", &CollisionShape::kind, "'box', 'sphere', 'cylinder' or 'plane'.")
+      .def_readonly("kind", &CollisionShape::kind,
+                    "'box', 'sphere', 'cylinder', 'capsule', 'ellipsoid', 'mesh' or 'plane'.")
+      .def_property_readonly("vertices", &vertices,
+                             "Corners of a mesh in the shape's frame, n x 3; none of other kinds.")
       .def_readonly("size", &CollisionShape::size,
                     "Metres. box: x, y, z; sphere: radius; cylinder: radius, length; plane: its normal.")
       .def_property_readonly("position", [](const CollisionShape& s) { return to_numpy(s.pose.Pos()); })

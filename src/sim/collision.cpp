@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What touches what, and the contact joints that come of it.
 #include <algorithm>
-#include <array>
 
+#include "contact_points.hpp"
 #include "world_state.hpp"
 
 namespace bubblesim {
 namespace {
-
-constexpr int kMaxContactsPerPair = 8;
 
 void touch(void* data, dGeomID first, dGeomID second) {
   auto& state = *static_cast<World::State*>(data);
@@ -19,8 +17,8 @@ void touch(void* data, dGeomID first, dGeomID second) {
   dBodyID body_b = dGeomGetBody(second);
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
 
-  std::array<dContactGeom, kMaxContactsPerPair> found;
-  const int count = dCollide(first, second, kMaxContactsPerPair, found.data(), sizeof(dContactGeom));
+  ContactPoints found;
+  const int count = find_contact_points(first, second, found);
   dContact contact{};
   // Approximation 1 makes mu a coefficient; without it ODE takes mu as a force and wheels drift outwards.
   contact.surface.mode = dContactApprox1;

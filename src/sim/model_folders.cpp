@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model_folders.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "bubblesim/scene_loader.hpp"
+#include "package_folders.hpp"
 #include "scene_folders.hpp"
 
 namespace bubblesim {
@@ -11,11 +13,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModelScheme = "model://";
-constexpr const char* kFileScheme = "file://";
+/// What follows `scheme` in a URI that starts with it.
+std::optional<fs::path> after(const std::string& scheme, const std::string& uri) {
+  if (uri.rfind(scheme, 0) != 0) return std::nullopt;
+  return uri.substr(scheme.size());
+}
 
-std::string without(const std::string& scheme, const std::string& uri) {
-  return uri.rfind(scheme, 0) == 0 ? uri.substr(scheme.size()) : uri;
+fs::path without_first(const fs::path& path) {
+  fs::path rest;
+  for (auto part = path.begin(); part != path.end(); ++part) {
+    if (part != path.begin()) rest /= *part;
+  }
+  return rest;
+}
+
+fs::path find_in(const std::vector<fs::path>& folders, const fs::path& wanted) {
+  for (const fs::path& folder : folders) {
+    if (fs::path found = folder / wanted; !wanted.empty() && fs::exists(found)) return found;  // absolute ones, too
+  }
+  return {};
+}
+
+fs::path find_in_package(const fs::path& name_and_rest, const fs::path& near) {
+  if (name_and_rest.empty()) return {};
+  const fs::path package = find_package(name_and_rest.begin()->string(), near);
+  return package.empty() ? fs::path() : find_in({package}, without_first(name_and_rest));
 }
 
 }  // namespace
@@ -25,16 +47,30 @@ std::vector<fs::path> model_folders(const fs::path& scene_folder) {
   for (const char* variable : {"BUBBLESIM_MODEL_PATH", "GAZEBO_MODEL_PATH"}) {
     for (fs::path& folder : folders_of(variable)) folders.push_back(std::move(folder));
   }
+  folders.push_back(scene_folder.parent_path());
   for (const fs::path& folder : scene_folders()) folders.push_back(folder / "models");
   return folders;
 }
 
 fs::path find_model(const std::string& uri, const fs::path& scene_folder) {
-  const fs::path wanted = without(kFileScheme, without(kModelScheme, uri));
-  for (const fs::path& folder : model_folders(scene_folder)) {
-    if (fs::path found = folder / wanted; !wanted.empty() && fs::exists(found)) return found;  // absolute ones, too
+  if (const auto path = after("file://", uri)) return find_in(model_folders(scene_folder), *path);
+  if (const auto in_package = after("package://", uri)) return find_in_package(*in_package, scene_folder);
+  const auto of_model = after("model://", uri);
+  const fs::path found = find_in(model_folders(scene_folder), of_model.value_or(uri));
+  // SDFormat writes package:// of a URDF file as model://.
+  return found.empty() && of_model ? find_in_package(*of_model, scene_folder) : found;
+}
+
+fs::path find_resource(const std::string& uri, const fs::path& naming_file, const fs::path& scene_folder) {
+  const fs::path beside = fs::exists(naming_file) ? naming_file.parent_path() : scene_folder;
+  const auto of_model = after("model://", uri);
+  if (!of_model) {
+    if (fs::path found = find_in({beside}, after("file://", uri).value_or(uri)); !found.empty()) return found;
+    return find_model(uri, scene_folder);
   }
-  return {};
+  if (fs::path found = find_model(uri, scene_folder); !found.empty()) return found;
+  if (fs::path found = find_in({beside.parent_path()}, *of_model); !found.empty()) return found;
+  return find_in({beside}, without_first(*of_model));
 }
 
 }  // namespace bubblesim

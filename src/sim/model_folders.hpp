@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the models lie that scenes include.
+// Where the models and files lie that scenes name.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,16 @@
 namespace bubblesim {
 
 /// In the order in which they are searched: the scene's own and its subfolder `models`, BUBBLESIM_MODEL_PATH,
-/// GAZEBO_MODEL_PATH, and `models` in each of scene_folders().
+/// GAZEBO_MODEL_PATH, the folder around the scene's, and `models` in each of scene_folders().
 std::vector<std::filesystem::path> model_folders(const std::filesystem::path& scene_folder);
 
-/// The file or folder that a URI means: model://NAME/..., file://PATH or a path. Nothing when there is none.
+/// The file or folder that a URI means: model://NAME/..., package://NAME/..., file://PATH or a path. Nothing when there
+/// is none.
 std::filesystem::path find_model(const std::string& uri, const std::filesystem::path& scene_folder);
+
+/// The same for a URI that `naming_file` holds: paths start beside it, and what it says of its own model is found
+/// there, whatever the model's folder is called.
+std::filesystem::path find_resource(const std::string& uri, const std::filesystem::path& naming_file,
+                                    const std::filesystem::path& scene_folder);
 
 }  // namespace bubblesim

@@ -24,6 +24,7 @@ using JointHandle = std::unique_ptr<std::remove_pointer_t<dJointID>, Destroy<dJo
 using GeomHandle = std::unique_ptr<std::remove_pointer_t<dGeomID>, Destroy<dGeomDestroy>>;
 using SpaceHandle = std::unique_ptr<std::remove_pointer_t<dSpaceID>, Destroy<dSpaceDestroy>>;
 using JointGroupHandle = std::unique_ptr<std::remove_pointer_t<dJointGroupID>, Destroy<dJointGroupDestroy>>;
+using TriMeshDataHandle = std::unique_ptr<std::remove_pointer_t<dTriMeshDataID>, Destroy<dGeomTriMeshDataDestroy>>;
 using ThreadingHandle =
     std::unique_ptr<std::remove_pointer_t<dThreadingImplementationID>, Destroy<dThreadingFreeImplementation>>;
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ray_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "bubblesim/triangle_mesh.hpp"
 
 namespace bubblesim {
 namespace {
@@ -75,6 +78,65 @@ struct Intersector {
     return entry(inside);
   }
 
+  /// Entered where the first of its cylinder and its two spheres is.
+  std::optional<ShapeHit> operator()(const Capsule& capsule) const {
+    Interval first;
+    first.enter = kNever;
+    const auto take = [&first](double enter, const Vector3& normal) {
+      if (enter < first.enter) first = {enter, kNever, normal};
+    };
+    const Vector3& o = ray.origin;
+    const Vector3& d = ray.direction;
+    const double half = capsule.length / 2;
+    const double r = capsule.radius;
+    const double c = o.X() * o.X() + o.Y() * o.Y() - r * r;
+    if (const auto side = inside_quadric(d.X() * d.X() + d.Y() * d.Y(), o.X() * d.X() + o.Y() * d.Y(), c)) {
+      const Vector3 place = o + d * side->first;
+      if (std::abs(place.Z()) <= half) take(side->first, Vector3(place.X(), place.Y(), 0) / r);
+    }
+    for (const double end : {-half, half}) {
+      const Vector3 from_end = o - Vector3(0, 0, end);
+      const auto ball = inside_quadric(1, from_end.Dot(d), from_end.SquaredLength() - r * r);
+      if (ball) take(ball->first, (from_end + d * ball->first) / r);
+    }
+    return first.enter < kNever ? entry(first) : std::nullopt;
+  }
+
+  /// A unit sphere, in units of its radii.
+  std::optional<ShapeHit> operator()(const Ellipsoid& ellipsoid) const {
+    const Vector3 o = ray.origin / ellipsoid.radii;
+    const Vector3 d = ray.direction / ellipsoid.radii;
+    const auto roots = inside_quadric(d.Dot(d), o.Dot(d), o.SquaredLength() - 1);
+    if (!roots) return std::nullopt;
+    const Vector3 normal = (o + d * roots->first) / ellipsoid.radii;
+    return entry({roots->first, roots->second, normal.Normalized()});
+  }
+
+  /// Every triangle that is met from its front: for a query now and then, not for sensors, which ask Embree. After
+  /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
+  std::optional<ShapeHit> operator()(const Mesh& mesh) const {
+    const TriangleMesh& triangles = *mesh.triangles;
+    if (!meets_box(triangles.low, triangles.high)) return std::nullopt;
+    std::optional<ShapeHit> nearest;
+    for (const TriangleMesh::Triangle& triangle : triangles.triangles) {
+      const Vector3 corner = triangles.corner(triangle, 0);
+      const Vector3 first = triangles.corner(triangle, 1) - corner;
+      const Vector3 second = triangles.corner(triangle, 2) - corner;
+      const Vector3 p = ray.direction.Cross(second);
+      const double determinant = first.Dot(p);
+      if (determinant <= 0) continue;
+      const Vector3 from_corner = ray.origin - corner;
+      const double u = from_corner.Dot(p);
+      const Vector3 q = from_corner.Cross(first);
+      const double v = ray.direction.Dot(q);
+      if (u < 0 || v < 0 || u + v > determinant) continue;
+      const double distance = second.Dot(q) / determinant;
+      if (distance < 0 || (nearest && distance >= nearest->distance)) continue;
+      nearest = ShapeHit{distance, first.Cross(second).Normalized()};
+    }
+    return nearest;
+  }
+
   std::optional<ShapeHit> operator()(const Plane& plane) const {
     const Vector3 normal = plane.normal.Normalized();
     const double height = normal.Dot(ray.origin);
@@ -84,6 +146,16 @@ struct Intersector {
   }
 
  private:
+  bool meets_box(const Vector3& low, const Vector3& high) const {
+    const Vector3 from_middle = ray.origin - (low + high) / 2;
+    const Vector3 half = (high - low) / 2;
+    Interval inside;
+    inside.clip_slab(from_middle.X(), ray.direction.X(), half.X(), Vector3::UnitX);
+    inside.clip_slab(from_middle.Y(), ray.direction.Y(), half.Y(), Vector3::UnitY);
+    inside.clip_slab(from_middle.Z(), ray.direction.Z(), half.Z(), Vector3::UnitZ);
+    return inside.leave >= 0 && inside.enter <= inside.leave;
+  }
+
   static std::optional<ShapeHit> entry(const Interval& inside) {
     if (inside.enter < 0 || inside.enter > inside.leave) return std::nullopt;
     return ShapeHit{inside.enter, inside.normal};
@@ -102,7 +174,14 @@ struct Inside {
     return std::abs(point.Z()) < cylinder.length / 2 &&
            point.X() * point.X() + point.Y() * point.Y() < cylinder.radius * cylinder.radius;
   }
+  bool operator()(const Capsule& capsule) const {
+    const double half = capsule.length / 2;
+    const Vector3 nearest(0, 0, std::clamp(point.Z(), -half, half));
+    return (point - nearest).SquaredLength() < capsule.radius * capsule.radius;
+  }
+  bool operator()(const Ellipsoid& ellipsoid) const { return (point / ellipsoid.radii).SquaredLength() < 1; }
   bool operator()(const Plane& plane) const { return plane.normal.Dot(point) < 0; }
+  bool operator()(const Mesh&) const { return false; }  // a surface; its triangles are not met from behind
 };
 
 }  // namespace

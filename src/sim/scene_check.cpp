@@ -143,6 +143,15 @@ class SceneChecker {
     } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
       check_length("the cylinder's radius", cylinder->radius);
       check_length("the cylinder's length", cylinder->length);
+    } else if (const auto* capsule = std::get_if<Capsule>(&geometry)) {
+      check_length("the capsule's radius", capsule->radius);
+      check_length("the capsule's length", capsule->length);
+    } else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry)) {
+      check_length("the ellipsoid's x radius", ellipsoid->radii.X());
+      check_length("the ellipsoid's y radius", ellipsoid->radii.Y());
+      check_length("the ellipsoid's z radius", ellipsoid->radii.Z());
+    } else if (const auto* mesh = std::get_if<Mesh>(&geometry)) {
+      if (mesh->triangles == nullptr) report("the mesh has no triangles");
     } else if (const auto* plane = std::get_if<Plane>(&geometry)) {
       require(within(plane->normal, 1e6) && plane->normal.Length() > 1e-9, "the plane's normal", text(plane->normal),
               "a direction");

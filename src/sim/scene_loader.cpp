@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 // What SDFormat calls a text that came from no file.
 constexpr const char* kText = "<data-string>";
+constexpr const char* kGroundPlane = "ground_plane";
 
 class SceneLoader {
  public:
@@ -42,7 +43,7 @@ class SceneLoader {
         reading_.report(source_of(root.WorldByIndex(1)->Element()), "", "a scene is one <world>: take the others out");
       }
     } else if (root.Model() != nullptr) {
-      scene.models.push_back(ground_plane());
+      if (root.Model()->Name() != kGroundPlane) scene.models.push_back(ground_plane());
       scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose(), reading_));
     } else if (problems_.empty()) {
       problems_.push_back({file.string(), 0, "", "holds neither a <world> nor a <model>"});
@@ -94,7 +95,7 @@ class SceneLoader {
     link.name = "link";
     link.collisions.push_back(plane);
     ModelDescription model;
-    model.name = "ground_plane";
+    model.name = kGroundPlane;
     model.is_static = true;
     model.links.push_back(link);
     return model;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_reading.hpp"
 
+#include <cstdio>
 #include <utility>
 
 #include "model_folders.hpp"
@@ -11,11 +12,16 @@ void SceneReading::report(const Source& source, const std::string& object, std::
   problems_.push_back({source.file, source.line, object, std::move(message)});
 }
 
+void SceneReading::warn(const Source& source, const std::string& object, std::string message) {
+  const Problem problem{source.file, source.line, object, std::move(message)};
+  std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
+}
+
 void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
   // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is enough.
   if (!object.empty() && frames_broken_) return;
-  if (object.empty() && !errors.empty()) frames_broken_ = true;
   for (Problem& problem : xml_.located(errors, object)) {
+    if (object.empty()) frames_broken_ = true;
     if (problem.message.rfind("Unable to find uri[", 0) == 0) problem.message += where_models_are();
     problems_.push_back(std::move(problem));
   }

@@ -28,6 +28,8 @@ class SceneReading {
   std::vector<Problem>& problems() { return problems_; }
 
   void report(const Source& source, const std::string& object, std::string message);
+  /// Says on stderr what is odd but stops nothing.
+  static void warn(const Source& source, const std::string& object, std::string message);
   /// Takes over what SDFormat found wrong while it read the object at that path, or the whole file when it is empty.
   void take(const sdf::Errors& errors, const std::string& object);
 

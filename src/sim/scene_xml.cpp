@@ -70,7 +70,8 @@ void SceneXml::check(tinyxml2::XMLError result) const {
   const tinyxml2::XMLElement* root = document_.RootElement();
   if (root == nullptr) throw SceneError({{file_, 0, "", "holds no element"}});
   const std::string name = root->Name();
-  if (name != "sdf" && name != "robot") {  // <robot> is URDF, which SDFormat converts
+  // <robot> is URDF, which SDFormat converts; <gazebo> is what <sdf> was called before version 1.3.
+  if (name != "sdf" && name != "robot" && name != "gazebo") {
     throw SceneError({{file_, root->GetLineNum(), "", "is no scene: it starts with <" + name + ">, not with <sdf>"}});
   }
 }
@@ -141,8 +142,15 @@ int SceneXml::line_of_object(const std::string& path) const {
 std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::string& object) const {
   static const std::regex unread("Error reading element <(.*)>");
   std::vector<Problem> problems;
+  bool harmless = false;
   for (const sdf::Error& error : errors) {
     if (only_follows(error.Message())) continue;
+    // Many models have moments of inertia that belong to no body. ODE moves them all the same, as long as they are
+    // positive definite, and the scene check tells whether they are.
+    if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID) {
+      harmless = true;
+      continue;
+    }
     int line = error.LineNumber().value_or(line_of_named(error.Message()));
     if (line == 0 && !object.empty()) line = line_of_object(object);
     // It says the same thing in several ways: the first will do.
@@ -151,7 +159,7 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     });
     if (!known) problems.push_back({error.FilePath().value_or(file_), line, object, error.Message()});
   }
-  if (!problems.empty() || errors.empty()) return problems;
+  if (!problems.empty() || errors.empty() || harmless) return problems;
   const sdf::Error& first = errors.front();
   const std::string file = first.FilePath().value_or(file_);
   const int line = first.LineNumber().value_or(object.empty() ? 0 : line_of_object(object));

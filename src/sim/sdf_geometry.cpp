@@ -2,18 +2,99 @@
 #include "sdf_geometry.hpp"
 
 #include <sdf/Box.hh>
+#include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
+#include <sdf/Element.hh>
+#include <sdf/Ellipsoid.hh>
+#include <sdf/Heightmap.hh>
+#include <sdf/Mesh.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshes/finish_mesh.hpp"
+#include "meshes/made_meshes.hpp"
+#include "meshes/mesh_error.hpp"
+#include "meshes/mesh_file.hpp"
+#include "model_folders.hpp"
 
 namespace bubblesim {
+namespace {
 
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry) {
+namespace fs = std::filesystem;
+
+class GeometryReader {
+ public:
+  GeometryReader(sdf::ElementPtr element, const fs::path& scene_folder)
+      : element_(std::move(element)), scene_folder_(scene_folder) {}
+
+  Geometry mesh(const sdf::Mesh& mesh) const {
+    return from_file(mesh.Uri(), [&](const fs::path& file) {
+      return load_mesh({file, mesh.Scale(), mesh.Submesh(), mesh.CenterSubmesh()});
+    });
+  }
+
+  Geometry heightmap(const sdf::Heightmap& map) const {
+    return from_file(
+        map.Uri(), [&](const fs::path& file) { return raise_ground(read_heights(file), map.Size(), map.Position()); });
+  }
+
+  Geometry polylines() const {
+    TriangleMesh all;
+    for (auto line = element_->GetElement("polyline"); line != nullptr; line = line->GetNextElement("polyline")) {
+      std::vector<ignition::math::Vector2d> outline;
+      if (line->HasElement("point")) {
+        for (auto point = line->GetElement("point"); point != nullptr; point = point->GetNextElement("point")) {
+          outline.push_back(point->Get<ignition::math::Vector2d>());
+        }
+      }
+      try {
+        append(*extrude(std::move(outline), line->Get<double>("height", 1).first), all);
+      } catch (const MeshError& error) {
+        throw MeshError("the polyline " + std::string(error.what()));
+      }
+    }
+    return Mesh{finish_mesh(std::move(all))};
+  }
+
+ private:
+  template <class Load>
+  Geometry from_file(const std::string& uri, const Load& load) const {
+    const fs::path file = find_resource(uri, element_->FilePath(), scene_folder_);
+    if (file.empty()) {
+      throw MeshError("the file '" + uri + "' is not found; model:// names a folder in BUBBLESIM_MODEL_PATH or " +
+                      "GAZEBO_MODEL_PATH, package:// a ROS package, other paths start beside the file that names them");
+    }
+    try {
+      return Mesh{load(file)};
+    } catch (const MeshError& error) {
+      throw MeshError(file.string() + " " + error.what());
+    }
+  }
+
+  sdf::ElementPtr element_;
+  const fs::path& scene_folder_;
+};
+
+}  // namespace
+
+std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, const fs::path& scene_folder) {
   if (const auto* box = geometry.BoxShape()) return Box{box->Size()};
   if (const auto* sphere = geometry.SphereShape()) return Sphere{sphere->Radius()};
   if (const auto* cylinder = geometry.CylinderShape()) return Cylinder{cylinder->Radius(), cylinder->Length()};
+  if (const auto* capsule = geometry.CapsuleShape()) return Capsule{capsule->Radius(), capsule->Length()};
+  if (const auto* ellipsoid = geometry.EllipsoidShape()) return Ellipsoid{ellipsoid->Radii()};
   if (const auto* plane = geometry.PlaneShape()) return Plane{plane->Normal()};
-  return std::nullopt;
+  const GeometryReader reader(geometry.Element(), scene_folder);
+  if (const auto* mesh = geometry.MeshShape()) return reader.mesh(*mesh);
+  if (const auto* map = geometry.HeightmapShape()) return reader.heightmap(*map);
+  if (geometry.Element() != nullptr && geometry.Element()->HasElement("polyline")) return reader.polylines();
+  if (geometry.Element() != nullptr && geometry.Element()->HasElement("empty")) return std::nullopt;
+  throw MeshError(
+      "this geometry is not supported; supported are box, sphere, cylinder, capsule, ellipsoid, plane, mesh, polyline, "
+      "heightmap and empty");
 }
 
 }  // namespace bubblesim

@@ -2,6 +2,7 @@
 // SDFormat's <geometry>.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <sdf/Geometry.hh>
 
@@ -9,7 +10,8 @@
 
 namespace bubblesim {
 
-/// Nothing for shapes that are not supported.
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry);
+/// Files that it names lie as find_resource() tells. Nothing when it is empty. Throws MeshError, which says why, when
+/// it cannot be had.
+std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, const std::filesystem::path& scene_folder);
 
 }  // namespace bubblesim

@@ -7,6 +7,7 @@
 #include <sdf/Visual.hh>
 #include <utility>
 
+#include "meshes/mesh_error.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_sensors.hpp"
@@ -32,27 +33,32 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
   description.source = source_of(collision.Element());
   const std::string path = link_path + "/" + collision.Name();
   description.pose = reading.resolved(collision, path);
-  if (const auto geometry = read_geometry(*collision.Geom())) {
+  try {
+    const auto geometry = read_geometry(*collision.Geom(), reading.folder());
+    if (!geometry) return std::nullopt;
     description.geometry = *geometry;
-  } else {
-    reading.report(source_of(collision.Element(), "geometry"), path,
-                   "this geometry is not supported; supported are box, sphere, cylinder, plane");
+  } catch (const MeshError& error) {
+    reading.report(source_of(collision.Element(), "geometry"), path, error.what());
     return std::nullopt;
   }
   description.surface = read_surface(collision.Element(), path, reading);
   return description;
 }
 
-/// A visual of a shape that is not supported is replaced by the link's collision shapes, in its colour.
+/// A visual whose shape cannot be had is replaced by the link's collision shapes, in its colour.
 void read_visual(const sdf::Visual& visual, const std::string& link_path, bool is_static, LinkDescription& link,
                  SceneReading& reading) {
   VisualDescription description;
   description.name = visual.Name();
   description.source = source_of(visual.Element());
   description.material = read_material(visual, reading.problems());
+  description.keeps_mesh_materials = visual.Material() == nullptr;
   description.laser_retro = visual.LaserRetro();
-  if (const auto geometry = read_geometry(*visual.Geom())) {
-    description.pose = reading.resolved(visual, link_path + "/" + visual.Name());
+  const std::string path = link_path + "/" + visual.Name();
+  try {
+    const auto geometry = read_geometry(*visual.Geom(), reading.folder());
+    if (!geometry) return;
+    description.pose = reading.resolved(visual, path);
     description.geometry = *geometry;
     if (const auto* plane = visual.Geom()->PlaneShape(); plane != nullptr && !is_static) {
       description.geometry = Box{{plane->Size().X(), plane->Size().Y(), kThin}};
@@ -60,6 +66,9 @@ void read_visual(const sdf::Visual& visual, const std::string& link_path, bool i
     }
     link.visuals.push_back(std::move(description));
     return;
+  } catch (const MeshError& error) {
+    SceneReading::warn(source_of(visual.Element(), "geometry"), path,
+                       std::string(error.what()) + "; the link shows its collision shapes instead");
   }
   for (const CollisionDescription& collision : link.collisions) {
     description.pose = collision.pose;

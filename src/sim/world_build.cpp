@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "meshes/made_meshes.hpp"
 #include "world_state.hpp"
 
 namespace bubblesim {
@@ -24,20 +25,34 @@ void set_pose(dGeomID geom, const Pose& pose) {
   dGeomSetQuaternion(geom, rotation);
 }
 
-dGeomID make_geom(const Geometry& geometry, const Pose& pose) {
+dGeomID make_geom(Collider& collider, const Pose& pose) {
   struct Maker {
+    Collider& collider;
     const Pose& pose;
     dGeomID operator()(const Box& box) const { return dCreateBox(nullptr, box.size.X(), box.size.Y(), box.size.Z()); }
     dGeomID operator()(const Sphere& sphere) const { return dCreateSphere(nullptr, sphere.radius); }
     dGeomID operator()(const Cylinder& cylinder) const {
       return dCreateCylinder(nullptr, cylinder.radius, cylinder.length);
     }
+    dGeomID operator()(const Capsule& capsule) const { return dCreateCapsule(nullptr, capsule.radius, capsule.length); }
+    dGeomID operator()(const Ellipsoid& ellipsoid) const {
+      const Vector3& radii = ellipsoid.radii;
+      if (radii.X() == radii.Y() && radii.Y() == radii.Z()) return dCreateSphere(nullptr, radii.X());
+      return surface(tessellate(ellipsoid));  // ODE has no ellipsoids
+    }
+    dGeomID operator()(const Mesh& mesh) const { return surface(mesh.triangles); }
     dGeomID operator()(const Plane& plane) const {
       const Vector3 normal = pose.Rot().RotateVector(plane.normal.Normalized());
       return dCreatePlane(nullptr, normal.X(), normal.Y(), normal.Z(), normal.Dot(pose.Pos()));
     }
+
+   private:
+    dGeomID surface(const std::shared_ptr<const TriangleMesh>& mesh) const {
+      collider.mesh = collision_mesh(mesh);
+      return dCreateTriMesh(nullptr, collider.mesh->data.get(), nullptr, nullptr, nullptr);
+    }
   };
-  return std::visit(Maker{pose}, geometry);
+  return std::visit(Maker{collider, pose}, collider.geometry);
 }
 
 ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
@@ -111,9 +126,9 @@ class ModelBuilder {
   void add_collider(const Link& link, const CollisionDescription& description) {
     const Pose pose = link.pose * description.pose;
     Collider& collider = model_.colliders.emplace_back();
-    collider.geom.reset(make_geom(description.geometry, pose));
-    collider.link = &link;
     collider.geometry = description.geometry;
+    collider.geom.reset(make_geom(collider, pose));
+    collider.link = &link;
     collider.surface = description.surface;
     collider.in_link = description.pose;
     dGeomID geom = collider.geom.get();

@@ -15,6 +15,7 @@
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
 #include "joints/joint.hpp"
+#include "meshes/collision_mesh.hpp"
 #include "ode_handles.hpp"
 
 namespace bubblesim {
@@ -30,6 +31,7 @@ struct Link {
 
 /// A collision shape. ODE's geom points back at it.
 struct Collider {
+  std::shared_ptr<const CollisionMesh> mesh;  // what the geom reads, if it is one
   ode::GeomHandle geom;
   const Link* link = nullptr;
   Geometry geometry;

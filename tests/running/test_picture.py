@@ -50,6 +50,21 @@ def test_a_sphere_is_round_about_its_middle() -> None:
     assert extent(points) == pytest.approx([1.0, 1.0], rel=0.01)
 
 
+def test_a_lying_capsule_has_its_round_ends() -> None:
+    assert extent(outline(shape("capsule", (0.5, 3.0), ON_ITS_SIDE))) == pytest.approx([1.0, 4.0], rel=0.01)
+
+
+def test_an_ellipsoid_is_as_wide_as_its_radii() -> None:
+    assert extent(outline(shape("ellipsoid", (1.0, 2.0, 3.0)))) == pytest.approx([2.0, 4.0], rel=0.01)
+    assert extent(outline(shape("ellipsoid", (1.0, 2.0, 3.0), ON_ITS_SIDE))) == pytest.approx([2.0, 6.0], rel=0.01)
+
+
+def test_a_mesh_is_drawn_by_its_corners() -> None:
+    mesh = shape("mesh", (1.0, 2.0, 0.0))
+    mesh.vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+    assert sorted(outline(mesh).tolist()) == [[1.0, 2.0], [1.0, 4.0], [2.0, 2.0]]
+
+
 def test_points_move_with_their_body() -> None:
     start, end = Pose(1.0, 0.0, 0.0, 0.0), Pose(5.0, 5.0, 0.0, math.pi / 2.0)
     assert moved(np.array([[2.0, 0.0]]), start, end)[0] == pytest.approx([5.0, 6.0])

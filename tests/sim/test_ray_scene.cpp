@@ -2,10 +2,12 @@
 // Rays in single precision beside the exact ones of World::cast_ray.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "rays/ray_scene.hpp"
 #include "scenes.hpp"
+#include "surfaces.hpp"
 
 namespace bubblesim::test {
 namespace {
@@ -82,7 +84,9 @@ TEST_P(RayOnMovingAndStill, MeetsEachFaceOfABoxFromOutside) {
 }
 
 TEST_P(RayOnMovingAndStill, DoesNotSeeAShapeFromInside) {
-  for (const Geometry& geometry : {Geometry(kBox), Geometry(Sphere{1}), Geometry(Cylinder{1, 2})}) {
+  for (const Geometry& geometry :
+       {Geometry(kBox), Geometry(Sphere{1}), Geometry(Cylinder{1, 2}), Geometry(Capsule{1, 2}),
+        Geometry(Ellipsoid{{1, 2, 3}}), Geometry(box_mesh({2, 4, 6}))}) {
     EXPECT_FALSE(one(geometry).hit({0.1, 0.2, 0.3}, Vector3(1, 2, 3).Normalized()));
   }
 }
@@ -122,14 +126,16 @@ SceneDescription clutter(std::mt19937& random) {
   std::uniform_real_distribution<double> size(0.2, 2);
   std::vector<ModelDescription> models{floor()};
   for (int i = 0; i < 60; ++i) {
-    const Geometry geometry = i % 3 == 0   ? Geometry(Box{{size(random), size(random), size(random)}})
-                              : i % 3 == 1 ? Geometry(Sphere{size(random)})
-                                           : Geometry(Cylinder{size(random), size(random)});
+    const Vector3 sizes(size(random), size(random), size(random));
+    const std::array<Geometry, 6> kinds = {
+        Box{sizes},           Sphere{sizes.X()}, Cylinder{sizes.X(), sizes.Y()}, Capsule{sizes.X() / 2, sizes.Y()},
+        Ellipsoid{sizes / 2}, box_mesh(sizes)};
+    const Geometry& geometry = kinds[static_cast<std::size_t>(i) % kinds.size()];
     LinkDescription body = link_with(geometry);
     body.collisions[0].pose = Pose(0.1, 0.2, -0.3, 0.5, -0.6, 0.7);
     const Pose pose(place(random), place(random), place(random) + 8, angle(random), angle(random), angle(random));
     models.push_back(model("Thing" + std::to_string(i), body, pose));
-    models.back().is_static = i % 2 == 0;
+    models.back().is_static = i % 4 < 2;
   }
   return scene(models, Vector3::Zero);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "bubblesim/error.hpp"
 #include "scenes.hpp"
+#include "surfaces.hpp"
 
 namespace bubblesim::test {
 namespace {
@@ -29,6 +31,9 @@ const Box kBox{{2, 4, 6}};
 const Sphere kSphere{2};
 const Cylinder kCylinder{1, 4};
 const Plane kPlane{};
+const Capsule kCapsule{1, 4};
+const Ellipsoid kEllipsoid{{1, 2, 3}};
+const Mesh kMesh = box_mesh(kBox.size);
 
 TEST(RayOnBox, MeetsTheFacesHeadOn) {
   expect_hit(hit(kBox, {5, 0.5, -1}, {-1, 0, 0}), 4, {1, 0, 0});
@@ -76,6 +81,34 @@ TEST(RayOnCylinder, ParallelToItsAxisMeetsTheCapOrNothing) {
 }
 
 TEST(RayOnCylinder, PassesOverTheCaps) { EXPECT_FALSE(hit(kCylinder, {5, 0, 2.001}, {-1, 0, 0})); }
+
+TEST(RayOnCapsule, MeetsItsSideAndItsRoundEnds) {
+  expect_hit(hit(kCapsule, {5, 0, 1.9}, {-1, 0, 0}), 4, {1, 0, 0});
+  expect_hit(hit(kCapsule, {0, 0, 9}, {0, 0, -1}), 6, {0, 0, 1});
+  // 0.6 m off the axis the end is 0.8 m high; 2.6 m up it is 0.8 m wide.
+  expect_hit(hit(kCapsule, {0, 0.6, -9}, {0, 0, 1}), 9 - 2.8, {0, 0.6, -0.8});
+  expect_hit(hit(kCapsule, {5, 0, 2.6}, {-1, 0, 0}), 5 - 0.8, {0.8, 0, 0.6});
+  EXPECT_FALSE(hit(kCapsule, {5, 0, 3.001}, {-1, 0, 0}));
+}
+
+TEST(RayOnEllipsoid, MeetsItAtTheClosedForm) {
+  expect_hit(hit(kEllipsoid, {5, 0, 0}, {-1, 0, 0}), 4, {1, 0, 0});
+  expect_hit(hit(kEllipsoid, {0, 0, -9}, {0, 0, 1}), 6, {0, 0, -1});
+  // At y = 1.2 the ellipse x^2 + y^2 / 4 = 1 has x = 0.8; its normal there is (x, y / 4).
+  expect_hit(hit(kEllipsoid, {5, 1.2, 0}, {-1, 0, 0}), 4.2, Vector3(0.8, 0.3, 0).Normalized());
+  EXPECT_FALSE(hit(kEllipsoid, {5, 2.001, 0}, {-1, 0, 0}));
+}
+
+TEST(RayOnMesh, MeetsItsTrianglesFromTheirFrontAlone) {
+  expect_hit(hit(kMesh, {4, 0, 0}, {-3, 1, 0}), std::sqrt(10.0), {1, 0, 0});
+  TriangleMesh sheet;
+  sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}};
+  const Mesh flat{finish_mesh(sheet)};
+  expect_hit(hit(flat, {0.2, 0.2, 3}, {0, 0, -1}), 3, {0, 0, 1});
+  EXPECT_FALSE(hit(flat, {0.2, 0.2, -3}, {0, 0, 1}));
+  EXPECT_FALSE(hit(flat, {0.6, 0.6, 3}, {0, 0, -1}));
+}
 
 TEST(RayOnPlane, MeetsItFromAbove) {
   expect_hit(hit(kPlane, {1, 2, 3}, {0, 0, -1}), 3, {0, 0, 1});
@@ -125,6 +158,12 @@ double outside(const Geometry& geometry, const Vector3& p) {
     return std::max({std::abs(p.X()) - box->size.X() / 2, std::abs(p.Y()) - box->size.Y() / 2,
                      std::abs(p.Z()) - box->size.Z() / 2});
   }
+  if (std::holds_alternative<Mesh>(geometry)) return outside(kBox, p);
+  if (const auto* capsule = std::get_if<Capsule>(&geometry)) {
+    const double half = capsule->length / 2;
+    return p.Distance(Vector3(0, 0, std::clamp(p.Z(), -half, half))) - capsule->radius;
+  }
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry)) return (p / ellipsoid->radii).Length() - 1;
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) return p.Length() - sphere->radius;
   if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
     return std::max(std::hypot(p.X(), p.Y()) - cylinder->radius, std::abs(p.Z()) - cylinder->length / 2);
@@ -161,7 +200,8 @@ TEST_P(RayOnAnyShape, AgreesWithSamplingAlongRandomRays) {
   EXPECT_GT(hits, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, RayOnAnyShape, ::testing::Values(kBox, kSphere, kCylinder, kPlane));
+INSTANTIATE_TEST_SUITE_P(Shapes, RayOnAnyShape,
+                         ::testing::Values(kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane, kMesh));
 
 TEST(RayInAWorld, NearestOfSeveralShapesCountsAndModelsCanBeLeftOut) {
   const World world(scene({still(model("Near", link_with(Sphere{1}), at(5, 0, 0))),

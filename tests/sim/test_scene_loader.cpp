@@ -300,7 +300,7 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {"<sdf version='1.9'><world name='w'/></sdf>", "holds a <world>: a <model> is wanted"},
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
       {sphere_model("heavy"), "<data-string>:3: <mass> is 'heavy'"},
-      {sphere_model("nan"), "<data-string>:2: A link named l has invalid inertia"},
+      {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
       {"<robot name='r'><link name='l'/></robot>", "must have at least one link"},
       {"<robot/>", "<data-string>: SDFormat can make no model of it"},
   };

@@ -9,10 +9,10 @@ import sys
 from collections.abc import Sequence
 
 from bubblesim._core import SceneError
-from bubblesim.cli import api, doctor, new_scene, run, scenes
+from bubblesim.cli import api, check, doctor, new_scene, run, scenes
 from bubblesim.running.processes import RunError
 
-_COMMANDS = (run, scenes, new_scene, api, doctor)
+_COMMANDS = (run, scenes, new_scene, check, api, doctor)
 _FINE, _FAILED, _BAD_INPUT = 0, 1, 2
 
 _DESCRIPTION = """\
@@ -21,6 +21,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim scenes                       the scenes that are there
   bubblesim run tricycle --roscore       run one, with a ROS master
   bubblesim new-scene mine               make one of your own
+  bubblesim check my/robot.sdf           what is wrong with a file
   bubblesim api getObject                what a script may call
   bubblesim doctor                       why ROS or Python will not work"""
 _EPILOG = """\

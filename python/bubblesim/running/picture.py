@@ -67,12 +67,28 @@ def outline(shape: bubblesim.CollisionShape) -> Points:
     if shape.kind == "box":
         signs = np.array(np.meshgrid(*[(-0.5, 0.5)] * 3)).reshape(3, -1).T
         local = signs * np.array(shape.size)
+    elif shape.kind == "mesh":
+        local = np.asarray(shape.vertices, dtype=np.float64)
+    elif shape.kind == "ellipsoid":
+        local = np.array(shape.size) * _unit_sphere()
+    elif shape.kind == "capsule":
+        radius, length = shape.size
+        ends = [(0.0, 0.0, -length / 2.0), (0.0, 0.0, length / 2.0)]
+        local = np.vstack([radius * _unit_sphere() + end for end in ends])
     else:  # cylinder: its two rims
         radius, length = shape.size
         rim = radius * np.column_stack([np.cos(circle), np.sin(circle)])
         local = np.vstack([np.column_stack([rim, np.full(len(rim), end)]) for end in (-length / 2.0, length / 2.0)])
     world = local @ rotation_matrix(shape.orientation).T + shape.position
     return convex_hull(world[:, :2])
+
+
+def _unit_sphere() -> Points:
+    around, up = np.meshgrid(
+        np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False), np.linspace(-np.pi / 2.0, np.pi / 2.0, 25)
+    )
+    points = np.stack([np.cos(around) * np.cos(up), np.sin(around) * np.cos(up), np.sin(up)], axis=-1)
+    return np.asarray(points.reshape(-1, 3))
 
 
 def rotation_matrix(quaternion: Sequence[float]) -> Points:

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ray_shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "bubblesim/triangle_mesh.hpp"
 #include "ray_shapes.hpp"
 
 namespace bubblesim::rays {
@@ -15,7 +17,12 @@ struct HalfExtent {
   Vector3 operator()(const Box& box) const { return box.size / 2; }
   Vector3 operator()(const Sphere& sphere) const { return Vector3::One * sphere.radius; }
   Vector3 operator()(const Cylinder& cylinder) const { return {cylinder.radius, cylinder.radius, cylinder.length / 2}; }
+  Vector3 operator()(const Capsule& capsule) const {
+    return {capsule.radius, capsule.radius, capsule.radius + capsule.length / 2};
+  }
+  Vector3 operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii; }
   Vector3 operator()(const Plane&) const { return Vector3::Zero; }
+  Vector3 operator()(const Mesh&) const { return Vector3::Zero; }  // Embree bounds its triangles itself
 };
 
 void bounds(const RTCBoundsFunctionArguments* arguments) {
@@ -115,13 +122,35 @@ GeometryHandle make_box(const Box& box, const Pose& pose) {
   return geometry;
 }
 
+/// Embree's normals point to where the corners run counter-clockwise.
+GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
+  GeometryHandle geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+  check_embree();
+  for (const TriangleMesh::Point& point : mesh.vertices) {
+    const Vector3 place = pose.CoordPositionAdd(Vector3(point[0], point[1], point[2]));
+    for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
+  }
+  auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  check_embree();
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) index = std::copy_n(triangle.begin(), 3, index);
+  return geometry;
+}
+
+GeometryHandle make_any(const RayShape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) return make_box(*box, shape.pose);
+  if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return make_mesh(*mesh->triangles, shape.pose);
+  return make_round();
+}
+
 }  // namespace
 
 bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
 GeometryHandle make_geometry(const RayShape& shape) {
-  const auto* box = std::get_if<Box>(&shape.geometry);
-  GeometryHandle geometry = box != nullptr ? make_box(*box, shape.pose) : make_round();
+  GeometryHandle geometry = make_any(shape);
   // Callbacks read the shape only; Embree's interface knows no const.
   rtcSetGeometryUserData(geometry.get(), const_cast<RayShape*>(&shape));
   rtcCommitGeometry(geometry.get());

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether scenes and models can be used: what is wrong with a file, all at once."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+import bubblesim
+
+DESCRIPTION = """\
+Loads scenes and models (SDFormat, URDF, xacro), runs each for a second of simulated time and prints all that is wrong,
+as FILE:LINE: OBJECT: PROBLEM."""
+EPILOG = "exit codes: 0 all are fine, 2 there is a problem"
+
+_SECONDS = 1.0  # of simulated time in which a scene has to hold
+
+
+def problems_of(scene: str) -> list[str]:
+    """All that is wrong with a scene or model, by path or name: a line each, with file:line and object where known."""
+    try:
+        simulation = bubblesim.Simulation(scene)
+        simulation.step(max(1, round(_SECONDS / simulation.time_step)))
+    except bubblesim.SceneError as error:
+        return str(error).splitlines()
+    except (bubblesim.Diverged, ValueError) as error:
+        return [f"{scene}: {error}"]
+    return []
+
+
+def check(scenes: Sequence[str]) -> int:
+    """Print what is wrong with each scene, or that it is fine; the exit code: 2 when there is a problem, else 0."""
+    code = 0
+    for scene in scenes:
+        problems = problems_of(scene)
+        for line in problems or [f"{scene}: fine"]:
+            print(line, flush=True)
+        if problems:
+            code = 2
+    return code
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What the program takes."""
+    parser.add_argument("scenes", nargs="+", metavar="FILE", help="a file, or the name of a scene")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program check; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="check", description=DESCRIPTION, epilog=EPILOG)
+    add_arguments(parser)
+    return check(parser.parse_args(arguments).scenes)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshes/finish_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "meshes/mesh_error.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kMaxCoordinate = 1e5;  // m
+constexpr std::size_t kMaxTriangles = 10'000'000;
+// Sine of the smallest angle that a triangle may have: below, its normal is noise in single precision.
+constexpr double kMinSine = 1e-6;
+
+bool has_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle) {
+  const Vector3 a = mesh.corner(triangle, 1) - mesh.corner(triangle, 0);
+  const Vector3 b = mesh.corner(triangle, 2) - mesh.corner(triangle, 0);
+  const Vector3 c = b - a;
+  const double longest = std::max({a.SquaredLength(), b.SquaredLength(), c.SquaredLength()});
+  return longest > 0 && a.Cross(b).Length() > kMinSine * longest;
+}
+
+}  // namespace
+
+std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
+  const auto usable = [](const TriangleMesh::Point& point) {
+    return std::all_of(point.begin(), point.end(), [](float x) { return std::abs(x) <= kMaxCoordinate; });
+  };
+  if (mesh.triangles.size() > kMaxTriangles) {
+    throw MeshError("has " + std::to_string(mesh.triangles.size()) + " triangles, at most " +
+                    std::to_string(kMaxTriangles) + " are taken");
+  }
+  if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), usable)) {
+    throw MeshError("has a vertex that is not finite or over 1e5 m away: look at its numbers and its scale");
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const TriangleMesh::Triangle triangle = mesh.triangles[i];
+    if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.vertices.size()) {
+      throw MeshError("has a triangle with a corner that does not exist");
+    }
+    if (!has_area(mesh, triangle)) continue;
+    mesh.triangles[kept] = triangle;
+    if (!mesh.material_of.empty()) mesh.material_of[kept] = mesh.material_of[i];
+    ++kept;
+  }
+  if (kept == 0) throw MeshError("holds no triangle with an area");
+  mesh.triangles.resize(kept);
+  if (!mesh.material_of.empty()) mesh.material_of.resize(kept);
+  mesh.low = Vector3::One * std::numeric_limits<double>::infinity();
+  mesh.high = -mesh.low;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mesh.low.Min(mesh.corner(triangle, i));
+      mesh.high.Max(mesh.corner(triangle, i));
+    }
+  }
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+}  // namespace bubblesim
