@@ -75,6 +75,7 @@ class Mapper {
       const bool upside_down = mount.getBasis()[2].z() < 0.0;
       const PlanarPose pose = mapper_.add(*scan, {planar(mount), upside_down}, planar(odometry));
       mapped_at_ = stamp;
+      if (began_at_.isZero()) began_at_ = stamp;
       send_place(spatial(pose) * spatial(planar(odometry)).inverse(), stamp);
     } catch (const tf2::TransformException& error) {
       ROS_WARN_THROTTLE(5.0, "a scan is dropped: %s", error.what());
@@ -85,8 +86,8 @@ class Mapper {
   }
 
   void lose(const Scan& scan, tf2_ros::FilterFailureReason reason) {
-    // Before the first scan that fits, what has been seen earlier is older than what tf remembers.
-    if (!mapped_at_.isZero())
+    // What was seen before the first scan in the map is older than what tf knows.
+    if (!began_at_.isZero() && scan.header.stamp > began_at_)
       ROS_WARN_THROTTLE(5.0, "a scan of frame %s at %.3f s is dropped: no transform to %s (reason %d)",
                         scan.header.frame_id.c_str(), scan.header.stamp.toSec(), odom_frame_.c_str(),
                         static_cast<int>(reason));
@@ -118,7 +119,7 @@ class Mapper {
 
   void start_anew() {
     mapper_ = bubblesim::ScanMapper(options_);
-    mapped_at_ = published_at_ = ros::Time();
+    mapped_at_ = began_at_ = published_at_ = ros::Time();
     placed_.clear();
   }
 
@@ -152,6 +153,7 @@ class Mapper {
   bubblesim::ScanMapperOptions options_;
   bubblesim::ScanMapper mapper_;
   ros::Time mapped_at_;  // stamp of the last scan in the map, 0 before the first
+  ros::Time began_at_;   // and of the first
   ros::Time published_at_;
 
   tf2_ros::Buffer transforms_;

@@ -25,7 +25,9 @@ constexpr double kLeastGoodness = 0.4;   // share of a scan's points that must f
 constexpr float kPointDistance = 0.02F;  // m between points that scans are matched to
 constexpr double kCatch = 0.4;           // m that a point may be off before matching, and ...
 constexpr double kFineCatch = 0.02;      // ... at its end
-constexpr double kStartSize = 1.0;       // m; the grid grows with what is seen
+constexpr float kHit = 0.85F;     // what one ray makes of the cell where it ends: surely a wall until others pass there
+constexpr float kPassed = 0.78F;  // and of those that it passes: free at once
+constexpr double kStartSize = 1.0;  // m; the grid grows with what is seen
 
 mrpt::Clock::time_point time_of(const ros::Time& stamp) { return mrpt::Clock::fromDouble(stamp.toSec()); }
 
@@ -43,6 +45,9 @@ void configure(mrpt::slam::CMetricMapBuilderICP& builder, const ScanMapperOption
   grid.resolution = static_cast<float>(options.cell_size);
   grid.min_x = grid.min_y = static_cast<float>(-kStartSize);
   grid.max_x = grid.max_y = static_cast<float>(kStartSize);
+  grid.insertionOpts.maxOccupancyUpdateCertainty = kHit;
+  grid.insertionOpts.maxFreenessUpdateCertainty = kPassed;
+  grid.insertionOpts.maxFreenessInvalidRanges = kPassed;
   grid.insertionOpts.maxDistanceInsertion = static_cast<float>(options.max_usable_range);
   how.mapInitializers.push_back(grid);
   CSimplePointsMap::TMapDefinition points;

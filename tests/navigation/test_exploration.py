@@ -32,16 +32,27 @@ def test_the_nearest_comes_first_and_short_ones_do_not_count() -> None:
 
 
 def test_a_room_without_unknown_is_explored() -> None:
-    assert Explorer(SLIM).next_goal(drawn("####\n#  #\n#  #\n####"), (0.75, 0.75)) is None
+    explorer = Explorer(SLIM)
+    assert not explorer.update(drawn("####\n#  #\n#  #\n####"), (0.75, 0.75))
+    assert explorer.goal is None
 
 
 def test_what_cannot_be_seen_is_not_tried_for_ever() -> None:
     grid, place = drawn(HALF_KNOWN), (0.75, 0.75)
     explorer = Explorer(SLIM)
-    goal = explorer.next_goal(grid, place)
-    assert goal is not None
-    explorer.been_at(goal)
-    assert explorer.next_goal(grid, place) is None
+    assert explorer.update(grid, place)
+    assert explorer.goal is not None
+    explorer.leave()
+    assert not explorer.update(grid, place)
+    assert explorer.goal is None
+
+
+def test_a_goal_is_kept_until_its_frontier_is_known() -> None:
+    place = (0.75, 0.75)
+    explorer = Explorer(SLIM)
+    explorer.update(drawn(HALF_KNOWN), place)
+    assert not explorer.update(drawn(HALF_KNOWN), (2.75, 0.75))
+    assert explorer.update(drawn(HALF_KNOWN.replace("?", " ", 6).replace("?", "#")), place)
 
 
 def test_a_frontier_behind_a_gap_too_narrow_is_looked_at_from_this_side() -> None:
@@ -51,4 +62,6 @@ def test_a_frontier_behind_a_gap_too_narrow_is_looked_at_from_this_side() -> Non
 
 
 def test_a_map_without_free_space_has_no_goal() -> None:
-    assert Explorer(SLIM).next_goal(drawn("???\n???"), (0.5, 0.5)) is None
+    explorer = Explorer(SLIM)
+    explorer.update(drawn("???\n???"), (0.5, 0.5))
+    assert explorer.goal is None

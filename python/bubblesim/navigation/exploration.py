@@ -8,10 +8,11 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from bubblesim.navigation.grid_map import UNKNOWN, GridMap, Point
+from bubblesim.navigation.grid_map import UNKNOWN, GridMap
 from bubblesim.navigation.path_planning import Footprint, passable
+from bubblesim.navigation.planar import Point
 
-VISITED = 0.3  # m: a frontier so close to one that was visited in vain is left alone
+SAME = 0.3  # m: viewpoints that are closer to each other count as one
 
 
 @dataclass(frozen=True)
@@ -64,15 +65,20 @@ class Explorer:
 
     footprint: Footprint
     shortest: float = 0.2  # m of a frontier that is worth going to
-    in_vain: list[Point] = field(default_factory=list)
+    goal: Point | None = None  # where to drive
+    in_vain: list[Point] = field(default_factory=list)  # where nothing more was seen
 
-    def next_goal(self, grid: GridMap, place: Point) -> Point | None:
-        """The nearest viewpoint, or None when the room is known."""
-        for frontier in frontiers(grid, place, self.footprint, self.shortest):
-            if all(math.dist(frontier.viewpoint, point) > VISITED for point in self.in_vain):
-                return frontier.viewpoint
-        return None
+    def update(self, grid: GridMap, place: Point) -> bool:
+        """Looks for a goal when there is none, or its frontier is known by now. Returns whether the goal is another."""
+        before = self.goal
+        seen = [frontier.viewpoint for frontier in frontiers(grid, place, self.footprint, self.shortest)]
+        if before is None or all(math.dist(point, before) > SAME for point in seen):
+            left = [point for point in seen if all(math.dist(point, other) > SAME for other in self.in_vain)]
+            self.goal = left[0] if left else None
+        return self.goal != before
 
-    def been_at(self, goal: Point) -> None:
-        """The robot has been there, or cannot come there: what is still unknown from there stays so."""
-        self.in_vain.append(goal)
+    def leave(self) -> None:
+        """The robot is at the goal, or cannot come there: what is still unknown from there stays so."""
+        if self.goal is not None:
+            self.in_vain.append(self.goal)
+        self.goal = None

@@ -3,10 +3,13 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import cv2
 import numpy as np
 import numpy.typing as npt
+
+from bubblesim.navigation.planar import Point, heading_of
 
 OCCUPIED = 65  # per cent from which a cell counts as a wall, as map_server has it
 FREE = 25  # per cent up to which a cell counts as free
@@ -14,9 +17,6 @@ UNKNOWN = -1
 
 Cell = tuple[int, int]
 """Row and column; row 0 is that at the map's origin."""
-
-Point = tuple[float, float]
-"""m, in the map's frame."""
 
 
 @dataclass(frozen=True)
@@ -28,13 +28,11 @@ class GridMap:
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  # the lower left corner: x, y, heading
 
     @classmethod
-    def from_message(cls, message: object) -> "GridMap":
+    def from_message(cls, message: Any) -> "GridMap":
         """Of a nav_msgs/OccupancyGrid."""
-        info = message.info  # type: ignore[attr-defined]
-        turn = info.origin.orientation
-        heading = math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y**2 + turn.z**2))
-        cells = np.asarray(message.data, dtype=np.int8)  # type: ignore[attr-defined]
-        origin = (info.origin.position.x, info.origin.position.y, heading)
+        info = message.info
+        cells = np.asarray(message.data, dtype=np.int8)
+        origin = (info.origin.position.x, info.origin.position.y, heading_of(info.origin.orientation))
         return cls(cells.reshape(info.height, info.width), info.resolution, origin)
 
     @property

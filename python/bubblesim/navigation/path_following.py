@@ -6,16 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
-from bubblesim.navigation.grid_map import Point
+from bubblesim.navigation.planar import Point, seen_from
 
 STANDING = Velocity(0.0, 0.0)
-
-
-def seen_from(pose: Pose2D, point: Point) -> Point:
-    """A point as the robot sees it: forward, left."""
-    dx, dy = point[0] - pose.x, point[1] - pose.y
-    cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
-    return cosine * dx + sine * dy, cosine * dy - sine * dx
+ALIGNED = 0.1  # rad
 
 
 @dataclass(frozen=True)
@@ -40,7 +34,7 @@ def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | No
     angle = math.atan2(left, forward)
     speed = min(driver.max_speed, math.sqrt(2 * driver.acceleration * left_over))
     if driver.turning_radius == 0.0 and abs(angle) > math.pi / 4:
-        return Velocity(0.0, math.copysign(min(driver.max_turn, 2 * abs(angle)), angle))
+        return _turn(angle, driver)
     curvature = 2 * left / (forward**2 + left**2)
     if forward < 0.0:  # behind: as tight a curve as it can
         curvature = math.copysign(1 / driver.turning_radius, left)
@@ -48,6 +42,17 @@ def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | No
         curvature = math.copysign(min(abs(curvature), 1 / driver.turning_radius), curvature)
     speed = min(speed, driver.max_turn / max(abs(curvature), 1e-6))
     return Velocity(speed, speed * curvature)
+
+
+def face(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity:
+    """A turn on the spot towards the path, which makes room beside; STANDING when it looks there, or cannot turn so."""
+    forward, left = seen_from(pose, _target(path, pose, driver.lookahead))
+    angle = math.atan2(left, forward)
+    return STANDING if driver.turning_radius > 0.0 or abs(angle) < ALIGNED else _turn(angle, driver)
+
+
+def _turn(angle: float, driver: Driver) -> Velocity:
+    return Velocity(0.0, math.copysign(min(driver.max_turn, 2 * abs(angle)), angle))
 
 
 def _target(path: Sequence[Point], pose: Pose2D, lookahead: float) -> Point:

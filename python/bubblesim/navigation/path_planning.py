@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from bubblesim.navigation.grid_map import Cell, GridMap, Point
+from bubblesim.navigation.grid_map import Cell, GridMap
+from bubblesim.navigation.planar import Point
 
 STEPS = [(dr, dc, math.hypot(dr, dc)) for dr in (-1, 0, 1) for dc in (-1, 0, 1) if (dr, dc) != (0, 0)]
 
@@ -28,6 +29,12 @@ class Footprint:
 def passable(grid: GridMap, footprint: Footprint) -> npt.NDArray[np.bool_]:
     """Cells where the robot's middle may be."""
     return grid.free & (grid.clearance() > footprint.radius)
+
+
+def is_clear(grid: GridMap, path: list[Point], footprint: Footprint) -> bool:
+    """Whether a robot can be at all points of a path."""
+    may_pass = passable(grid, footprint)
+    return all(grid.has(cell) and may_pass[cell] for cell in map(grid.cell_of, path))
 
 
 def plan(grid: GridMap, start: Point, goal: Point, footprint: Footprint) -> list[Point]:

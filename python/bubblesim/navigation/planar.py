@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Points and poses in the plane, also those that ROS's messages hold: transforms and scans."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from bubblesim.controllers.planar_motion import Pose2D
+
+Point = tuple[float, float]
+"""m"""
+
+
+def seen_from(pose: Pose2D, point: Point) -> Point:
+    """A point as the robot sees it: forward, left."""
+    dx, dy = point[0] - pose.x, point[1] - pose.y
+    cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
+    return cosine * dx + sine * dy, cosine * dy - sine * dx
+
+
+def placed(pose: Pose2D, seen: Point) -> Point:
+    """Where a point is that a robot sees: the inverse of seen_from."""
+    cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
+    return pose.x + cosine * seen[0] - sine * seen[1], pose.y + sine * seen[0] + cosine * seen[1]
+
+
+def heading_of(rotation: Any) -> float:
+    """rad about z, of a geometry_msgs/Quaternion."""
+    return math.atan2(2 * (rotation.w * rotation.z + rotation.x * rotation.y), 1 - 2 * (rotation.y**2 + rotation.z**2))
+
+
+def pose_of(transform: Any) -> Pose2D:
+    """The plane's part of a geometry_msgs/Transform."""
+    return Pose2D(transform.translation.x, transform.translation.y, heading_of(transform.rotation))
+
+
+def hits(scan: Any, lidar: Pose2D) -> list[Point]:
+    """What a sensor_msgs/LaserScan has met, by a lidar that is so placed."""
+    ranges = np.asarray(scan.ranges)
+    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)) + lidar.heading
+    met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
+    xs = lidar.x + ranges[met] * np.cos(angles[met])
+    ys = lidar.y + ranges[met] * np.sin(angles[met])
+    return list(zip(xs.tolist(), ys.tolist(), strict=True))

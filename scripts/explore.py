@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sends a robot to what is still unknown of a map, until there is nothing left: goals for the node go_to.py.
+
+Topics: map and go_to/arrived in; move_base_simple/goal out, ~done (Bool, latched) at the end.
+Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~shortest (m, of a frontier that is worth going to).
+"""
+
+import argparse
+import sys
+import threading
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import OccupancyGrid
+from std_msgs.msg import Bool
+
+from bubblesim.navigation.exploration import Explorer
+from bubblesim.navigation.grid_map import GridMap
+from bubblesim.navigation.path_planning import Footprint
+from bubblesim.navigation.planar import Point, pose_of
+
+SPARE = 0.1  # m: viewpoints are where go_to.py surely finds a way to
+PATIENCE = 5  # maps in a row without a goal, after which all is known
+
+
+class Explore:
+    """Chooses a goal when a map comes, or when the robot has arrived."""
+
+    def __init__(self) -> None:
+        """Connects the topics; the node must be initialised."""
+        self._map_frame = str(rospy.get_param("~map_frame", "map"))
+        self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
+        radius = float(rospy.get_param("~radius", 0.25)) + SPARE
+        self._explorer = Explorer(Footprint(radius, radius), float(rospy.get_param("~shortest", 0.2)))
+        self._lock = threading.Lock()  # messages come on threads of their own
+        self._without_goal = 0  # maps in a row
+        self._mapped_at = rospy.Time()  # stamp of the last map
+        self._transforms = tf2_ros.Buffer()
+        self._listener = tf2_ros.TransformListener(self._transforms)
+        self._goal = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
+        self._done = rospy.Publisher("~done", Bool, queue_size=1, latch=True)
+        rospy.Subscriber("go_to/arrived", Bool, self._on_arrival, queue_size=10)
+        rospy.Subscriber("map", OccupancyGrid, self._on_map, queue_size=1)
+
+    def _on_map(self, message: OccupancyGrid) -> None:
+        try:
+            found = self._transforms.lookup_transform(self._map_frame, self._base_frame, rospy.Time(0))
+        except tf2_ros.TransformException as error:
+            rospy.logwarn_throttle(10.0, f"waiting for tf: {error}")
+            return
+        place = pose_of(found.transform)
+        with self._lock:
+            if message.header.stamp < self._mapped_at:  # time has started anew
+                self._explorer = Explorer(self._explorer.footprint, self._explorer.shortest)
+                self._without_goal = 0
+            self._mapped_at = message.header.stamp
+            if self._without_goal >= PATIENCE:
+                return
+            changed = message.data and self._explorer.update(GridMap.from_message(message), (place.x, place.y))
+            goal = self._explorer.goal
+            if goal is not None:
+                self._without_goal = 0
+                if changed:
+                    self._send(goal)
+                return
+            self._without_goal += 1
+            if self._without_goal == PATIENCE:
+                rospy.loginfo("all that can be seen from the floor is in the map")
+                self._done.publish(True)
+
+    def _on_arrival(self, arrived: Bool) -> None:
+        with self._lock:
+            self._explorer.leave()
+
+    def _send(self, point: Point) -> None:
+        goal = PoseStamped()
+        goal.header.frame_id = self._map_frame
+        goal.header.stamp = rospy.Time.now()
+        goal.pose.position.x, goal.pose.position.y = point
+        goal.pose.orientation.w = 1.0
+        self._goal.publish(goal)
+
+
+def main() -> int:
+    """Runs the node until it is told to stop."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv(sys.argv)[1:])
+    rospy.init_node("explore")
+    Explore()
+    rospy.spin()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives to the goals of move_base_simple/goal on a map, and stops before what is in the way.
+
+Topics: map, scan and move_base_simple/goal in; cmd_vel and ~path out, ~arrived (Bool) at the end of each goal.
+Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, that it likes to keep from walls),
+~max_speed (m/s), ~max_turn (rad/s), ~acceleration (m/s2), ~lookahead (m), ~turning_radius (m, 0 for a robot that
+turns on the spot), ~tolerance (m), ~patience (s before something in the way, after which it gives up).
+"""
+
+import argparse
+import dataclasses
+import sys
+import threading
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import PoseStamped, Twist
+from nav_msgs.msg import OccupancyGrid, Path
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Bool
+
+from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.navigation.driving import Driving, GaveUpError
+from bubblesim.navigation.grid_map import GridMap
+from bubblesim.navigation.path_following import STANDING, Driver
+from bubblesim.navigation.path_planning import Footprint
+from bubblesim.navigation.planar import Point, hits, placed, pose_of
+
+RATE = 10.0  # Hz, of commands
+SPARE = 0.05  # m that paths keep from walls beyond the robot's radius: it does not follow them exactly
+
+
+class GoTo:
+    """Keeps the latest map and scan, and drives while there is a goal."""
+
+    def __init__(self, driver: Driver, footprint: Footprint) -> None:
+        """Connects the topics; the node must be initialised."""
+        self._driving = Driving(driver, footprint, float(rospy.get_param("~patience", 10.0)))
+        self._map_frame = str(rospy.get_param("~map_frame", "map"))
+        self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
+        self._shown: list[Point] = []  # the path that was published last
+        self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._transforms = tf2_ros.Buffer()
+        self._listener = tf2_ros.TransformListener(self._transforms)
+        self._command = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+        self._path = rospy.Publisher("~path", Path, queue_size=1, latch=True)
+        self._arrived = rospy.Publisher("~arrived", Bool, queue_size=10)
+        rospy.Subscriber("map", OccupancyGrid, self._on_map, queue_size=1)
+        rospy.Subscriber("scan", LaserScan, self._on_scan, queue_size=1)
+        rospy.Subscriber("move_base_simple/goal", PoseStamped, self._on_goal, queue_size=1)
+        rospy.Timer(rospy.Duration.from_sec(1.0 / RATE), lambda event: self._on_time(), reset=True)
+
+    def _on_map(self, message: OccupancyGrid) -> None:
+        if message.data:
+            with self._lock:
+                self._driving.grid = GridMap.from_message(message)
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        lidar = self._place_of(scan.header.frame_id, self._base_frame)
+        if lidar is not None:
+            with self._lock:
+                self._driving.obstacles = hits(scan, lidar)
+
+    def _on_goal(self, goal: PoseStamped) -> None:
+        frame = self._place_of(goal.header.frame_id, self._map_frame)
+        if frame is None:
+            rospy.logwarn(f"the goal's frame {goal.header.frame_id} has no place in {self._map_frame}: ignored")
+            return
+        with self._lock:
+            self._driving.start(placed(frame, (goal.pose.position.x, goal.pose.position.y)), rospy.get_time())
+
+    def _on_time(self) -> None:
+        place = self._place_of(self._base_frame, self._map_frame)
+        with self._lock:
+            if self._driving.goal is None or place is None:
+                return
+            try:
+                command = self._driving.update(Pose2D(place.x, place.y, place.heading), rospy.get_time())
+            except GaveUpError as error:
+                rospy.logwarn(f"gave up the goal: {error}")
+                self._end(arrived=False)
+                return
+            if command is None:
+                self._end(arrived=True)
+                return
+            self._send(command)
+            self._show(self._driving.path)
+
+    def stop(self) -> None:
+        """The last command."""
+        with self._lock:
+            if self._driving.goal is not None:
+                self._send(STANDING)
+
+    def _end(self, *, arrived: bool) -> None:
+        self._send(STANDING)
+        self._show([])
+        self._arrived.publish(arrived)
+
+    def _send(self, command: Velocity) -> None:
+        twist = Twist()
+        twist.linear.x, twist.angular.z = command.linear, command.angular
+        self._command.publish(twist)
+
+    def _show(self, points: list[Point]) -> None:
+        if points is self._shown:
+            return
+        self._shown = points
+        path = Path()
+        path.header.frame_id = self._map_frame
+        path.header.stamp = rospy.Time.now()
+        for x, y in points:
+            pose = PoseStamped(header=path.header)
+            pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
+            path.poses.append(pose)
+        self._path.publish(path)
+
+    def _place_of(self, frame: str, parent: str) -> Pose2D | None:
+        """Where a frame is in another, None while nobody tells."""
+        try:
+            return pose_of(self._transforms.lookup_transform(parent, frame, rospy.Time(0)).transform)
+        except tf2_ros.TransformException as error:
+            rospy.logwarn_throttle(10.0, f"waiting for tf: {error}")
+            return None
+
+
+def read_driver() -> Driver:
+    """How the node's parameters say that the robot drives."""
+    defaults = dataclasses.asdict(Driver())
+    driver = Driver(**{name: float(rospy.get_param(f"~{name}", value)) for name, value in defaults.items()})
+    for name, value in dataclasses.asdict(driver).items():
+        if not value >= 0.0 or (value == 0.0 and name != "turning_radius"):
+            raise ValueError(f"{name} is {value}, but must be above 0")
+    return driver
+
+
+def main() -> int:
+    """Runs the node until it is told to stop; 2 for parameters that no robot can have."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv(sys.argv)[1:])
+    rospy.init_node("go_to")
+    try:
+        driver = read_driver()
+        comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
+        node = GoTo(driver, Footprint(driver.radius + SPARE, comfort))
+    except (TypeError, ValueError) as error:
+        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        return 2
+    rospy.on_shutdown(node.stop)
+    rospy.spin()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

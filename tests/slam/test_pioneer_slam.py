@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Pioneer maps its room by itself, with odometry that is 5 % off, twice as fast as in reality."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))  # for room_truth.py
+
+from room_truth import Comparison, compare, outlines, picture, truth_of
+
+from bubblesim.navigation.grid_map import GridMap
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+
+HEIGHTS = (0.1, 0.36)  # m, as launch/pioneer_slam.launch sets them
+RADIUS = 0.3  # m, of the robot and a little
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was seen of a run."""
+
+    seen: dict  # what watch_mapping.py prints
+    comparison: Comparison
+    output: str  # of all nodes
+
+
+Run = Callable[[float], Outcome]
+
+
+@pytest.fixture
+def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
+    """Explores for some simulated seconds."""
+    launched = []
+
+    def run(seconds: float) -> Outcome:
+        log = tmp_path / "launch.log"
+        command = ["roslaunch", "bubblesim", "pioneer_slam.launch", "explore:=true", "speed:=2"]
+        with log.open("w") as output:
+            launched.append(start(command, roscore.env, stdout=output, stderr=subprocess.STDOUT))
+        wait_until(lambda: "/explore" in roscore.nodes(), "the nodes", 3 * DEADLINE)
+        watch = [sys.executable, str(Path(__file__).with_name("watch_mapping.py")), str(seconds), str(tmp_path / "map")]
+        watched = subprocess.run(watch, env=roscore.env, capture_output=True, text=True, timeout=1000, check=False)
+        assert watched.returncode == 0, watched.stderr + log.read_text()
+        saved = np.load(tmp_path / "map.npz")
+        grid = GridMap(saved["cells"], float(saved["resolution"]), (*map(float, saved["origin"]), 0.0))
+        truth = truth_of(outlines(REPOSITORY / "scenes" / "pioneer.sdf", *HEIGHTS, leave_out="pioneer_p3dx"))
+        cv2.imwrite(str(tmp_path / "map.png"), picture(grid, truth))
+        seen = json.loads(watched.stdout.splitlines()[-1])
+        return Outcome(seen, compare(grid, truth, (0.0, 0.0), RADIUS), log.read_text() + watched.stderr)
+
+    yield run
+    for process in launched:
+        stop(process)
+
+
+def check(outcome: Outcome) -> None:
+    """What holds at any time of a run."""
+    seen = outcome.seen
+    assert np.mean(seen["errors"]) <= 0.03
+    assert np.max(seen["errors"]) <= 0.1
+    assert outcome.comparison.wall_error <= 0.05
+    assert seen["longest_gap"] == pytest.approx(0.1)  # no scan is lost on its way
+    assert seen["corrections"] >= seen["scans"] - 5  # nor in the mapper, but for those that are on their way
+    assert "TF_OLD_DATA" not in outcome.output
+    assert "dropped" not in outcome.output
+
+
+def test_the_map_is_right_while_it_grows(explore: Run) -> None:
+    outcome = explore(20.0)
+    check(outcome)
+    assert outcome.comparison.coverage > 0.5
+
+
+@pytest.mark.long
+def test_five_minutes_map_the_whole_room(explore: Run) -> None:
+    outcome = explore(300.0)
+    check(outcome)
+    assert outcome.seen["done_at"] is not None
+    assert outcome.comparison.coverage >= 0.95
+    assert all(outcome.seen["arrived"])
+    assert len(outcome.seen["arrived"]) >= 5
