@@ -12,53 +12,14 @@ import os
 import select
 import sys
 import termios
-import threading
 import time
 import tty
 from collections.abc import Iterator
 
 import rospy
-from geometry_msgs.msg import Twist, TwistStamped
 
-from bubblesim.controllers.keyboard_teleop import HELP, STANDING, KeyboardTeleop, Velocity
-
-
-class Commands:
-    """Publishes velocities, and a last one to stand still when the node ends."""
-
-    def __init__(self) -> None:
-        """Connects the topic; the node must be initialised."""
-        self._stamped = bool(rospy.get_param("~stamped", False))
-        self._frame_id = str(rospy.get_param("~frame_id", ""))
-        self._publisher = rospy.Publisher("cmd_vel", TwistStamped if self._stamped else Twist, queue_size=1)
-        self._lock = threading.Lock()  # the end comes on another thread
-        self._ended = False
-        rospy.on_shutdown(self._end)
-
-    def publish(self, velocity: Velocity) -> None:
-        """Send one command."""
-        with self._lock:
-            if not self._ended:
-                self._send(velocity)
-
-    def _end(self) -> None:
-        with self._lock:
-            self._ended = True
-            self._send(STANDING)
-        time.sleep(0.1)  # rospy sends from another thread, which ends with the node
-
-    def _send(self, velocity: Velocity) -> None:
-        twist = Twist()
-        twist.linear.x = velocity.forward
-        twist.linear.y = velocity.left
-        twist.angular.z = velocity.turning
-        if self._stamped:
-            message = TwistStamped(twist=twist)
-            message.header.stamp = rospy.Time.now()
-            message.header.frame_id = self._frame_id
-            self._publisher.publish(message)
-        else:
-            self._publisher.publish(twist)
+from bubblesim.controllers.keyboard_teleop import HELP, KeyboardTeleop
+from bubblesim.nodes.twist_commands import TwistCommands
 
 
 @contextlib.contextmanager
@@ -79,19 +40,19 @@ def keys_within(seconds: float) -> str:
     return os.read(sys.stdin.fileno(), 64).decode(errors="replace") if readable else ""
 
 
-def drive(teleop: KeyboardTeleop, commands: Commands, period: float) -> None:
+def drive(teleop: KeyboardTeleop, commands: TwistCommands, period: float) -> None:
     """Until the node ends: commands at a steady rate while it drives, and one more to stop."""
     print(f"{HELP}\n{speeds(teleop)}", flush=True)
-    standing = True
     while not rospy.is_shutdown():
         keys = keys_within(period)
         changes = [teleop.press(key, time.monotonic()) for key in keys]
         if any(changes):
             print(speeds(teleop), flush=True)
         velocity = teleop.velocity(time.monotonic())
-        if velocity != STANDING or not standing or keys:
+        if keys:
             commands.publish(velocity)
-        standing = velocity == STANDING
+        else:
+            commands.follow(velocity)
 
 
 def speeds(teleop: KeyboardTeleop) -> str:
@@ -118,7 +79,7 @@ def main() -> int:
         patience=None if options.latch else float(rospy.get_param("~key_timeout", 0.6)),
     )
     with keys_one_by_one():
-        drive(teleop, Commands(), 1.0 / float(rospy.get_param("~rate", 10.0)))
+        drive(teleop, TwistCommands(), 1.0 / float(rospy.get_param("~rate", 10.0)))
     return 0
 
 

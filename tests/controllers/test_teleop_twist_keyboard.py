@@ -12,6 +12,10 @@ from pathlib import Path
 
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parent))  # for velocities.py
+
+from velocities import Velocities
+
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 
 NODE = [sys.executable, str(REPOSITORY / "scripts" / "teleop_twist_keyboard.py")]
@@ -22,9 +26,7 @@ class Terminal:
 
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._keys, self.screen = pty.openpty()
-        self._heard = folder / "heard"
-        with self._heard.open("w") as output:
-            self._listener = start(["rostopic", "echo", "-p", "/cmd_vel"], core.env, stdout=output)
+        self._heard = Velocities(core, folder / "heard")
         self._shown = folder / "shown"
         with self._shown.open("w") as output:
             self.process = start([*NODE, *arguments], core.env, stdin=self.screen, stdout=output)
@@ -44,15 +46,11 @@ class Terminal:
 
     def last(self) -> tuple[float, float] | None:
         """Forward and turning of the last command."""
-        lines = self._heard.read_text().splitlines()
-        if len(lines) < 2 or lines[-1].count(",") != lines[0].count(","):
-            return None
-        values = lines[-1].split(",")
-        return float(values[1]), float(values[6])
+        return self._heard.last()
 
     def close(self) -> None:
         stop(self.process)
-        stop(self._listener)
+        self._heard.close()
         os.close(self._keys)
         os.close(self.screen)
 

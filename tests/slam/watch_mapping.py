@@ -2,7 +2,7 @@
 """Watches the Pioneer map its room; run by test_pioneer_slam.py. Arguments: simulated seconds, file for the map.
 
 Prints, as JSON: when the explorer was done (None: it was not), the errors of the estimated places, the gaps between
-scans, how many scans came and how many corrections of odometry. When the room is explored before the time is up, the
+scans, how many scans came, and how many of them the mapper lost. When the room is explored before the time is up, the
 robot drives round in it by goals.
 """
 
@@ -60,6 +60,11 @@ for message in truth:
     position = message.pose.pose.position
     errors.append(math.hypot(place.x - position.x, place.y - position.y))
 
+# The mapper answers each scan with a correction that it sends a tenth of a second ahead.
+answered = {round(correction.header.stamp.to_sec() - 0.1, 3) for correction in corrections}
+first, last = min(answered), max(answered)
+stamps = [round(stamp, 3) for stamp in stamps]
+
 info = maps[-1].info
 origin = [info.origin.position.x, info.origin.position.y]
 cells = np.array(maps[-1].data, np.int8).reshape(info.height, info.width)
@@ -72,7 +77,7 @@ print(
             "errors": errors,
             "longest_gap": float(np.max(np.diff(stamps))),
             "scans": len(stamps),
-            "corrections": len(corrections),
+            "lost": len([stamp for stamp in stamps if first < stamp < last and stamp not in answered]),
             "arrived": [arrival.data for arrival in arrivals],
         }
     )

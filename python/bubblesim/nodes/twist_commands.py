@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Velocities for a robot, on the topic cmd_vel."""
+
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Twist, TwistStamped
+
+from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+
+
+class TwistCommands:
+    """Publishes velocities, and a last one to stand still when the node ends.
+
+    Parameters of the node: ~stamped (TwistStamped instead of Twist), ~frame_id.
+    """
+
+    def __init__(self) -> None:
+        """Connects the topic; the node must be initialised."""
+        self._stamped = bool(rospy.get_param("~stamped", False))
+        self._frame_id = str(rospy.get_param("~frame_id", ""))
+        self._publisher = rospy.Publisher("cmd_vel", TwistStamped if self._stamped else Twist, queue_size=1)
+        self._lock = threading.Lock()  # the end comes on another thread
+        self._ended = False
+        self._standing = True
+        rospy.on_shutdown(self._end)
+
+    def publish(self, velocity: Velocity) -> None:
+        """Send one command."""
+        with self._lock:
+            self._standing = velocity == STANDING
+            if not self._ended:
+                self._send(velocity)
+
+    def follow(self, velocity: Velocity) -> None:
+        """Send a command, but to stand still only once: others may drive while this one does not."""
+        if velocity != STANDING or not self._standing:
+            self.publish(velocity)
+
+    def _end(self) -> None:
+        with self._lock:
+            self._ended = True
+            self._send(STANDING)
+        time.sleep(0.1)  # rospy sends from another thread, which ends with the node
+
+    def _send(self, velocity: Velocity) -> None:
+        twist = Twist()
+        twist.linear.x = velocity.forward
+        twist.linear.y = velocity.left
+        twist.angular.z = velocity.turning
+        if self._stamped:
+            message = TwistStamped(twist=twist)
+            message.header.stamp = rospy.Time.now()
+            message.header.frame_id = self._frame_id
+            self._publisher.publish(message)
+        else:
+            self._publisher.publish(twist)

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives by a joystick: Twist on cmd_vel. A joystick that is unplugged stops the robot, and may come back.
+
+Parameters: ~dev (/dev/input/js0), ~speed (m/s) and ~turn (rad/s) at the stick's ends, ~axis_linear (1), ~axis_angular
+(0), ~enable_button (which has to be held; -1: none), ~dead_zone, ~rate (Hz), ~stamped, ~frame_id.
+"""
+
+import argparse
+import os
+import select
+import sys
+import time
+from pathlib import Path
+
+import rospy
+
+from bubblesim.controllers.joystick import Joystick
+from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.nodes.twist_commands import TwistCommands
+
+
+class JoyTeleop:
+    """Reads the joystick while there is one."""
+
+    def __init__(self) -> None:
+        """Reads the parameters; the node must be initialised."""
+        self._device = Path(str(rospy.get_param("~dev", "/dev/input/js0")))
+        self._linear = int(rospy.get_param("~axis_linear", 1))
+        self._angular = int(rospy.get_param("~axis_angular", 0))
+        self._enable = int(rospy.get_param("~enable_button", -1))
+        self._period = 1.0 / float(rospy.get_param("~rate", 10.0))
+        self._teleop = StickTeleop(
+            speed=float(rospy.get_param("~speed", 0.5)),
+            turn=float(rospy.get_param("~turn", 1.0)),
+            dead_zone=float(rospy.get_param("~dead_zone", 0.1)),
+        )
+        self._commands = TwistCommands()
+
+    def run(self) -> None:
+        """Until the node ends: drive, wait for a joystick, drive again."""
+        while not rospy.is_shutdown():
+            try:
+                device = os.open(self._device, os.O_RDONLY | os.O_NONBLOCK)
+            except OSError as error:
+                present = ", ".join(map(str, sorted(Path("/dev/input").glob("js*")))) or "none"
+                rospy.logwarn_throttle(30.0, f"waiting for a joystick: {error}; there are: {present}")
+                time.sleep(self._period)
+                continue
+            try:
+                self._drive(device)
+            finally:
+                os.close(device)
+                self._commands.follow(STANDING)
+            time.sleep(self._period)
+
+    def _drive(self, device: int) -> None:
+        """Until the joystick is unplugged."""
+        rospy.loginfo(f"driving by {self._device}")
+        joystick = Joystick()
+        while not rospy.is_shutdown():
+            until = time.monotonic() + self._period
+            while (left := until - time.monotonic()) > 0 and select.select([device], [], [], left)[0]:
+                try:
+                    data = os.read(device, 4096)
+                except OSError:
+                    data = b""
+                if not data:
+                    rospy.logwarn(f"{self._device} was unplugged")
+                    return
+                joystick.feed(data)
+            self._commands.follow(self._velocity(joystick))
+
+    def _velocity(self, joystick: Joystick) -> Velocity:
+        if self._enable >= 0 and not joystick.buttons.get(self._enable, False):
+            return STANDING
+        forward, left = -joystick.axes.get(self._linear, 0.0), -joystick.axes.get(self._angular, 0.0)
+        return self._teleop.velocity(forward, left)
+
+
+def main() -> int:
+    """Runs the node until it is told to stop; 2 for parameters that cannot be."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv(sys.argv)[1:])
+    rospy.init_node("joy_teleop")
+    try:
+        teleop = JoyTeleop()
+    except (TypeError, ValueError, ZeroDivisionError) as error:
+        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        return 2
+    teleop.run()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

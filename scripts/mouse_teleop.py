@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives by the mouse: drag in the window to drive, release to stop. Twist on cmd_vel.
+
+Parameters: ~speed (m/s) and ~turn (rad/s) at the window's edges, ~dead_zone (share of the way), ~rate (Hz), ~stamped,
+~frame_id.
+"""
+
+import argparse
+import sys
+import tkinter
+
+import rospy
+
+from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.nodes.twist_commands import TwistCommands
+
+HALF = 150  # pixels from the window's middle to its edge
+KNOB = 12  # pixels
+
+
+class Window:
+    """A knob that follows the mouse while a button is down."""
+
+    def __init__(self, root: tkinter.Tk, teleop: StickTeleop, commands: TwistCommands, period: int) -> None:
+        """Draws it; `period` in ms."""
+        self._root = root
+        self._teleop = teleop
+        self._commands = commands
+        self._period = period
+        self._velocity = STANDING
+        root.title("mouse_teleop")
+        root.resizable(False, False)
+        self._canvas = tkinter.Canvas(root, width=2 * HALF, height=2 * HALF, background="white")
+        self._canvas.pack()
+        self._text = tkinter.Label(root, text="drag to drive, release to stop", font="TkFixedFont")
+        self._text.pack()
+        self._canvas.create_line(HALF, 0, HALF, 2 * HALF, fill="grey")
+        self._canvas.create_line(0, HALF, 2 * HALF, HALF, fill="grey")
+        self._knob = self._canvas.create_oval(0, 0, 2 * KNOB, 2 * KNOB, fill="steel blue")
+        self._move_knob(HALF, HALF)
+        for event in ("<ButtonPress-1>", "<B1-Motion>"):
+            self._canvas.bind(event, self._on_drag)
+        self._canvas.bind("<ButtonRelease-1>", self._on_release)
+        self._tick()
+
+    def _on_drag(self, event: "tkinter.Event[tkinter.Canvas]") -> None:
+        self._move_knob(event.x, event.y)
+        self._drive(self._teleop.velocity(forward=(HALF - event.y) / HALF, left=(HALF - event.x) / HALF))
+
+    def _on_release(self, event: "tkinter.Event[tkinter.Canvas]") -> None:
+        self._move_knob(HALF, HALF)
+        self._drive(STANDING)
+
+    def _drive(self, velocity: Velocity) -> None:
+        self._velocity = velocity
+        self._commands.follow(velocity)
+        self._text.configure(text=f"{velocity.forward:+.2f} m/s  {velocity.turning:+.2f} rad/s")
+
+    def _move_knob(self, x: int, y: int) -> None:
+        x, y = (min(max(place, 0), 2 * HALF) for place in (x, y))
+        self._canvas.coords(self._knob, x - KNOB, y - KNOB, x + KNOB, y + KNOB)
+
+    def _tick(self) -> None:
+        """Says again what is being driven, for robots that stop when they hear nothing; ends with the node."""
+        if rospy.is_shutdown():
+            self._root.destroy()
+            return
+        self._commands.follow(self._velocity)
+        self._root.after(self._period, self._tick)
+
+
+def main() -> int:
+    """Runs the node until its window is closed; 2 without a display, or for parameters that cannot be."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv(sys.argv)[1:])
+    try:
+        root = tkinter.Tk()
+    except tkinter.TclError as error:
+        print(f"error: no window can be opened: {error}", file=sys.stderr)
+        return 2
+    rospy.init_node("mouse_teleop")
+    try:
+        teleop = StickTeleop(
+            speed=float(rospy.get_param("~speed", 0.5)),
+            turn=float(rospy.get_param("~turn", 1.0)),
+            dead_zone=float(rospy.get_param("~dead_zone", 0.1)),
+        )
+        period = round(1000 / float(rospy.get_param("~rate", 10.0)))
+    except (TypeError, ValueError, ZeroDivisionError) as error:
+        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        return 2
+    Window(root, teleop, TwistCommands(), max(period, 1))
+    root.mainloop()
+    rospy.signal_shutdown("the window was closed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

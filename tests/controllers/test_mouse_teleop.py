@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The mouse's node on a display of its own."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))  # for velocities.py
+
+from velocities import Velocities
+
+from display_support import Display
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+
+NODE = [sys.executable, str(REPOSITORY / "scripts" / "mouse_teleop.py"), "_speed:=1.0", "_turn:=2.0", "_dead_zone:=0"]
+
+
+@pytest.fixture
+def display(roscore: RosCore) -> Iterator[Display]:
+    with Display(roscore.env) as display:
+        yield display
+
+
+def test_dragging_drives_and_releasing_stops(display: Display, roscore: RosCore, tmp_path: Path) -> None:
+    heard = Velocities(roscore, tmp_path / "heard")
+    node = start(NODE, display.env)
+    wait_until(lambda: bool(display.windows("mouse_teleop")), "the window")
+    (window,) = display.windows("mouse_teleop")
+
+    def drag_until_heard() -> bool:  # what is sent before the listener is connected is lost
+        display.xdotool("mousemove", "--window", window, 150, 140, "mousedown", 1, "mousemove_relative", 0, -10)
+        return bool(heard.all())
+
+    wait_until(drag_until_heard, "somebody to listen")
+    display.xdotool("mousemove", "--window", window, 225, 75)
+    wait_until(lambda: heard.last() == pytest.approx((0.5, -1.0), abs=0.03), "half ahead, half to the right")
+    count = len(heard.all())
+    wait_until(lambda: len(heard.all()) > count + 3, "the same to be told again and again")
+    display.xdotool("mousemove", "--window", window, 150, 800)  # beyond the window's edge
+    wait_until(lambda: heard.last() == pytest.approx((-1.0, 0.0), abs=0.03), "full speed back")
+    display.xdotool("mouseup", 1)
+    wait_until(lambda: heard.last() == (0.0, 0.0), "the robot to stop")
+    stop(node)
+    heard.close()
+
+
+def test_without_a_display_it_says_so(roscore: RosCore) -> None:
+    env = {**roscore.env, "DISPLAY": ""}
+    run = subprocess.run(NODE, env=env, capture_output=True, text=True, timeout=3 * DEADLINE, check=False)
+    assert run.returncode == 2
+    assert "no window can be opened" in run.stderr
+    assert "Traceback" not in run.stderr

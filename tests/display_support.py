@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A display of a test's own, which nobody sees."""
+
+import os
+import subprocess
+from types import TracebackType
+
+from ros_support import start, stop
+
+
+class Display:
+    """Xvfb on a free number; `env` has what programs need to show something there."""
+
+    def __init__(self, env: dict[str, str], size: str = "1280x900x24") -> None:
+        read, write = os.pipe()
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-nolisten", "tcp"]
+        self._process = start(command, env, pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as told:
+            number = told.readline().strip()
+        assert number, "Xvfb did not start"
+        self.env = {**env, "DISPLAY": f":{number}", "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def xdotool(self, *arguments: object) -> str:
+        """Plays keyboard and mouse, or asks for windows."""
+        return subprocess.run(
+            ["xdotool", *map(str, arguments)], env=self.env, capture_output=True, text=True, check=True, timeout=60
+        ).stdout
+
+    def windows(self, name: str) -> list[str]:
+        """Numbers of the windows that have a name, a regular expression."""
+        found = subprocess.run(
+            ["xdotool", "search", "--onlyvisible", "--name", name],
+            env=self.env,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        return found.stdout.split()
+
+    def __enter__(self) -> "Display":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        stop(self._process)
