@@ -15,17 +15,19 @@ import threading
 
 import rospy
 import tf2_ros
-from geometry_msgs.msg import PoseStamped, Twist
+from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import OccupancyGrid, Path
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool
 
+from bubblesim.controllers.keyboard_teleop import Velocity as TwistVelocity
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
 from bubblesim.navigation.driving import Driving, GaveUpError
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_following import STANDING, Driver
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, hits, placed, pose_of
+from bubblesim.nodes.twist_commands import TwistCommands
 
 RATE = 10.0  # Hz, of commands
 SPARE = 0.05  # m that paths keep from walls beyond the robot's radius: it does not follow them exactly
@@ -43,7 +45,7 @@ class GoTo:
         self._lock = threading.Lock()  # messages and the timer come on threads of their own
         self._transforms = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._transforms)
-        self._command = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+        self._commands = TwistCommands()
         self._path = rospy.Publisher("~path", Path, queue_size=1, latch=True)
         self._arrived = rospy.Publisher("~arrived", Bool, queue_size=10)
         rospy.Subscriber("map", OccupancyGrid, self._on_map, queue_size=1)
@@ -73,7 +75,7 @@ class GoTo:
     def _on_time(self) -> None:
         place = self._place_of(self._base_frame, self._map_frame)
         with self._lock:
-            if self._driving.goal is None or place is None:
+            if self._driving.goal is None or place is None or rospy.is_shutdown():
                 return
             try:
                 command = self._driving.update(Pose2D(place.x, place.y, place.heading), rospy.get_time())
@@ -87,21 +89,13 @@ class GoTo:
             self._send(command)
             self._show(self._driving.path)
 
-    def stop(self) -> None:
-        """The last command."""
-        with self._lock:
-            if self._driving.goal is not None:
-                self._send(STANDING)
-
     def _end(self, *, arrived: bool) -> None:
         self._send(STANDING)
         self._show([])
         self._arrived.publish(arrived)
 
     def _send(self, command: Velocity) -> None:
-        twist = Twist()
-        twist.linear.x, twist.angular.z = command.linear, command.angular
-        self._command.publish(twist)
+        self._commands.publish(TwistVelocity(forward=command.linear, turning=command.angular))
 
     def _show(self, points: list[Point]) -> None:
         if points is self._shown:
@@ -143,11 +137,10 @@ def main() -> int:
     try:
         driver = read_driver()
         comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
-        node = GoTo(driver, Footprint(driver.radius + SPARE, comfort))
+        GoTo(driver, Footprint(driver.radius + SPARE, comfort))
     except (TypeError, ValueError) as error:
         rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
         return 2
-    rospy.on_shutdown(node.stop)
     rospy.spin()
     return 0
 

@@ -5,6 +5,10 @@ import os
 import subprocess
 from types import TracebackType
 
+import numpy as np
+import numpy.typing as npt
+from PIL import ImageGrab
+
 from ros_support import start, stop
 
 
@@ -38,6 +42,10 @@ class Display:
             timeout=60,
         )
         return found.stdout.split()
+
+    def screenshot(self) -> npt.NDArray[np.uint8]:
+        """What is shown: rows x columns x red, green, blue."""
+        return np.asarray(ImageGrab.grab(xdisplay=self.env["DISPLAY"]).convert("RGB"))
 
     def __enter__(self) -> "Display":
         return self

@@ -23,7 +23,8 @@ using bubblesim::parameter;
 using bubblesim::PlanarPose;
 using Scan = sensor_msgs::LaserScan;
 
-constexpr int kQueue = 100;  // scans that wait for tf, or for the mapper
+const ros::Duration kMemory(60.0);  // of transforms: on a busy machine scans come late
+constexpr int kQueue = 100;         // scans that wait for tf, or for the mapper
 
 PlanarPose planar(const tf2::Transform& transform) {
   return {transform.getOrigin().x(), transform.getOrigin().y(), tf2::getYaw(transform.getRotation())};
@@ -156,7 +157,7 @@ class Mapper {
   ros::Time began_at_;   // and of the first
   ros::Time published_at_;
 
-  tf2_ros::Buffer transforms_;
+  tf2_ros::Buffer transforms_{kMemory};
   tf2_ros::TransformListener listener_{transforms_};
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Publisher maps_ = node_.advertise<nav_msgs::OccupancyGrid>("map", 1, true);

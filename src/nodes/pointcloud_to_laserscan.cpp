@@ -18,6 +18,8 @@ namespace {
 using bubblesim::parameter;
 using Cloud = sensor_msgs::PointCloud2;
 
+const ros::Duration kMemory(60.0);  // of transforms: on a busy machine clouds come late
+
 bubblesim::HeightBand read_heights(const ros::NodeHandle& own) {
   bubblesim::HeightBand heights;
   heights.min = parameter(own, "min_height", heights.min);
@@ -53,7 +55,7 @@ class PointCloudToLaserScan {
     if (target_frame_.empty()) {
       clouds_.registerCallback(&PointCloudToLaserScan::convert, this);
     } else {
-      listener_.emplace(transforms_.emplace());
+      listener_.emplace(transforms_.emplace(kMemory));
       placed_.emplace(clouds_, *transforms_, target_frame_, queue_size_, node_);
       placed_->setTolerance(ros::Duration(tolerance));
       placed_->registerCallback(&PointCloudToLaserScan::convert, this);

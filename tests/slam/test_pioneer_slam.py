@@ -49,12 +49,13 @@ def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
         watch = [sys.executable, str(Path(__file__).with_name("watch_mapping.py")), str(seconds), str(tmp_path / "map")]
         watched = subprocess.run(watch, env=roscore.env, capture_output=True, text=True, timeout=1000, check=False)
         assert watched.returncode == 0, watched.stderr + log.read_text()
+        output = log.read_text() + watched.stderr  # before the work below takes the processor
         saved = np.load(tmp_path / "map.npz")
         grid = GridMap(saved["cells"], float(saved["resolution"]), (*map(float, saved["origin"]), 0.0))
         truth = truth_of(outlines(REPOSITORY / "scenes" / "pioneer.sdf", *HEIGHTS, leave_out="pioneer_p3dx"))
         cv2.imwrite(str(tmp_path / "map.png"), picture(grid, truth))
         seen = json.loads(watched.stdout.splitlines()[-1])
-        return Outcome(seen, compare(grid, truth, (0.0, 0.0), RADIUS), log.read_text() + watched.stderr)
+        return Outcome(seen, compare(grid, truth, (0.0, 0.0), RADIUS), output)
 
     yield run
     for process in launched:

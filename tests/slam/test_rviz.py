@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""RViz with config/pioneer.rviz, on a display that nobody sees, shows the Pioneer, what it senses and its map."""
+
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from PIL import Image
+
+from display_support import Display
+from ros_support import DEADLINE, RosCore, start, stop, wait_until
+
+PATIENCE = 6 * DEADLINE  # software draws slowly
+
+
+@pytest.fixture
+def display(roscore: RosCore) -> Iterator[Display]:
+    with Display(roscore.env) as display:
+        yield display
+
+
+def view(picture: npt.NDArray[np.uint8]) -> npt.NDArray[np.int32]:
+    """The part of RViz's window that shows the world, by the layout of the configuration."""
+    return picture[65:765, 370:1180].astype(np.int32)
+
+
+def shows_all(picture: npt.NDArray[np.uint8]) -> bool:
+    world = view(picture)
+    red, green, blue = world[..., 0], world[..., 1], world[..., 2]
+    rows, columns = red.shape
+    scan = (red > 230) & (green < 30) & (blue < 30)  # as the configuration colours it
+    cloud = (green > 120) & (np.minimum(red, blue) < 60)  # coloured by height: some of it green to yellow
+    free = (abs(red - green) < 8) & (abs(green - blue) < 8) & (red > 170) & (red < 215)  # of the map
+    centre = world[rows // 2 - 30 : rows // 2 + 30, columns // 2 - 30 : columns // 2 + 30]
+    robot = centre.max(axis=2) < 60  # it stands in the middle: black against the map's grey
+    return bool(scan.sum() > 500 and cloud.sum() > 300 and free.sum() > 50_000 and robot.sum() > 150)
+
+
+def test_rviz_shows_robot_scan_cloud_and_map(display: Display, roscore: RosCore, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with log.open("w") as output:
+        command = ["roslaunch", "bubblesim", "pioneer_slam.launch", "rviz:=true"]
+        launched = start(command, display.env, stdout=output, stderr=subprocess.STDOUT)
+
+    def complete() -> bool:
+        picture = display.screenshot()
+        Image.fromarray(picture).save(tmp_path / "rviz.png")
+        return shows_all(picture)
+
+    try:
+        wait_until(lambda: "/rviz" in roscore.nodes(), "RViz", PATIENCE)
+        wait_until(complete, f"RViz to show all, see {tmp_path}/rviz.png", PATIENCE)
+    finally:
+        stop(launched)
