@@ -35,7 +35,7 @@ void check_sizes(const sensor_msgs::PointCloud2& cloud) {
 }
 
 float float_at(const std::uint8_t* bytes) {
-  float value;
+  float value = 0.0F;
   std::memcpy(&value, bytes, sizeof value);
   return value;
 }

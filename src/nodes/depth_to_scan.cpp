@@ -15,13 +15,13 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// Depth of one pixel in m, NaN where nothing was measured.
 float metres(const std::uint8_t* pixel, float) {
-  float value;
+  float value = 0.0F;
   std::memcpy(&value, pixel, sizeof value);
   return value;
 }
 
 float metres(const std::uint8_t* pixel, std::uint16_t) {
-  std::uint16_t value;
+  std::uint16_t value = 0;
   std::memcpy(&value, pixel, sizeof value);
   return value == 0 ? kNothing : 0.001f * static_cast<float>(value);
 }
@@ -43,10 +43,10 @@ void fill(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& camera
     float& ray = scan.ranges[static_cast<std::size_t>(std::fmin(std::fmax(place + 0.5, 0.0), last))];
     for (int row = first; row < first + band.scan_height; ++row) {
       const std::uint8_t* pixel = image.data.data() + static_cast<std::size_t>(row) * image.step;
-      const float range = stretch * metres(pixel + column * sizeof(Pixel), Pixel{});
+      float range = stretch * metres(pixel + column * sizeof(Pixel), Pixel{});
       if (std::isnan(range) || range < scan.range_min) continue;
-      const float seen = range > scan.range_max ? kFar : range;
-      if (!(ray <= seen)) ray = seen;
+      if (range > scan.range_max) range = kFar;
+      if (!(ray <= range)) ray = range;
     }
   }
 }

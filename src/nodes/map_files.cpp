@@ -64,7 +64,7 @@ std::filesystem::path write_map(const nav_msgs::OccupancyGrid& map, const std::f
   std::error_code failed;
   std::filesystem::create_directories(base.parent_path(), failed);  // if it fails, writing tells
   const std::string image = base.filename().string() + ".pgm";
-  const std::filesystem::path yaml = base.string() + ".yaml";
+  std::filesystem::path yaml = base.string() + ".yaml";
   write(base.parent_path() / image, picture(map, thresholds));
   write(yaml, description(map, image));
   return yaml;

@@ -5,7 +5,7 @@
 #include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <optional>
+#include <memory>
 
 #include "cloud_to_scan.hpp"
 #include "lazy_scans.hpp"
@@ -55,12 +55,14 @@ class PointCloudToLaserScan {
     if (target_frame_.empty()) {
       clouds_.registerCallback(&PointCloudToLaserScan::convert, this);
     } else {
-      listener_.emplace(transforms_.emplace(kMemory));
-      placed_.emplace(clouds_, *transforms_, target_frame_, queue_size_, node_);
+      transforms_ = std::make_unique<tf2_ros::Buffer>(kMemory);
+      listener_ = std::make_unique<tf2_ros::TransformListener>(*transforms_);
+      placed_ =
+          std::make_unique<tf2_ros::MessageFilter<Cloud>>(clouds_, *transforms_, target_frame_, queue_size_, node_);
       placed_->setTolerance(ros::Duration(tolerance));
       placed_->registerCallback(&PointCloudToLaserScan::convert, this);
     }
-    scans_.emplace(
+    scans_ = std::make_unique<bubblesim::LazyScans>(
         node_, [this] { clouds_.subscribe(node_, "cloud_in", queue_size_); }, [this] { clouds_.unsubscribe(); });
   }
 
@@ -89,11 +91,11 @@ class PointCloudToLaserScan {
   int queue_size_;
   bubblesim::HeightBand heights_;
   bubblesim::ScanShape shape_;
-  std::optional<tf2_ros::Buffer> transforms_;
-  std::optional<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<tf2_ros::Buffer> transforms_;  // none without a target frame
+  std::unique_ptr<tf2_ros::TransformListener> listener_;
   message_filters::Subscriber<Cloud> clouds_;
-  std::optional<tf2_ros::MessageFilter<Cloud>> placed_;
-  std::optional<bubblesim::LazyScans> scans_;
+  std::unique_ptr<tf2_ros::MessageFilter<Cloud>> placed_;
+  std::unique_ptr<bubblesim::LazyScans> scans_;
 };
 
 }  // namespace

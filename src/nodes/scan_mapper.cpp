@@ -66,7 +66,7 @@ void configure(mrpt::slam::CMetricMapBuilderICP& builder, const ScanMapperOption
 
 mrpt::obs::CObservation2DRangeScan::Ptr observed(const sensor_msgs::LaserScan& scan, const LidarMount& mount,
                                                  double max_usable_range) {
-  const auto seen = mrpt::obs::CObservation2DRangeScan::Create();
+  auto seen = mrpt::obs::CObservation2DRangeScan::Create();
   const std::size_t count = scan.ranges.size();
   const double far = std::min<double>(scan.range_max, max_usable_range);
   seen->timestamp = time_of(scan.header.stamp);
@@ -161,13 +161,14 @@ nav_msgs::OccupancyGrid ScanMapper::map() const {
     }
   }
   nav_msgs::OccupancyGrid map;
-  map.info.resolution = grid->getResolution();
+  const double cell = grid->getResolution();
+  map.info.resolution = static_cast<float>(cell);
   map.info.width = columns.size();
   map.info.height = rows.size();
   map.info.origin.orientation.w = 1.0;
   if (map.info.width == 0) return map;
-  map.info.origin.position.x = grid->getXMin() + columns.first * grid->getResolution();
-  map.info.origin.position.y = grid->getYMin() + rows.first * grid->getResolution();
+  map.info.origin.position.x = grid->getXMin() + columns.first * cell;
+  map.info.origin.position.y = grid->getYMin() + rows.first * cell;
   map.data.reserve(std::size_t{map.info.width} * map.info.height);
   for (int y = rows.first; y <= rows.last; ++y) {
     const auto* row = grid->getRow(y);

@@ -61,7 +61,7 @@ void ScanFiller::add(double x, double y) {
     angle -= kTurn;
     if (angle < shape_.angle_min) return;
   }
-  std::size_t ray = static_cast<std::size_t>((angle - shape_.angle_min) * rays_per_radian_ + 0.5);
+  std::size_t ray = static_cast<std::size_t>(std::lrint((angle - shape_.angle_min) * rays_per_radian_));
   if (ray >= scan_.ranges.size()) {
     if (!closed_) return;
     ray = 0;
