@@ -40,6 +40,14 @@ def test_includes_stay_within_the_layers(folder: str) -> None:
     assert not strays
 
 
+@pytest.mark.parametrize("folder", ["controllers", "navigation"])
+def test_logic_knows_no_ros(folder: str) -> None:
+    sources = sorted((REPOSITORY / "python" / "bubblesim" / folder).glob("*.py"))
+    assert sources
+    ros = re.compile(r"^\s*(?:from|import) (rospy|tf2_ros|\w+_msgs|bubblesim\.nodes)\b", re.MULTILINE)
+    assert [source.name for source in sources if ros.search(source.read_text())] == []
+
+
 @pytest.mark.parametrize(
     ("library", "foreign"),
     [

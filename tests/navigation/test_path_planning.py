@@ -2,9 +2,11 @@
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from rooms import drawn
 
+from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_planning import Footprint, NoPathError, plan
 
 SLIM = Footprint(radius=0.1, comfort=0.1)
@@ -69,3 +71,32 @@ def test_a_robot_that_stands_too_close_to_a_wall_can_leave() -> None:
 def test_why_there_is_no_path_is_told(start: tuple[float, float], goal: tuple[float, float], why: str) -> None:
     with pytest.raises(NoPathError, match=why):
         plan(drawn("#  #\n####\n  #?"), start, goal, SLIM)
+
+
+def shortest(free: np.ndarray, first: tuple[int, int], last: tuple[int, int]) -> float:
+    """By relaxing all cells until nothing changes any more (Bellman 1958), in cells; inf without a way."""
+    rows, columns = free.shape
+    reached = np.full((rows + 2, columns + 2), math.inf)
+    reached[first[0] + 1, first[1] + 1] = 0.0
+    while True:
+        before = reached.copy()
+        for dr, dc in [(dr, dc) for dr in (-1, 0, 1) for dc in (-1, 0, 1) if (dr, dc) != (0, 0)]:
+            beside = before[1 + dr : rows + 1 + dr, 1 + dc : columns + 1 + dc] + math.hypot(dr, dc)
+            middle = reached[1:-1, 1:-1]
+            np.copyto(middle, np.minimum(middle, beside), where=free)
+        if np.array_equal(reached, before):
+            return float(reached[last[0] + 1, last[1] + 1])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_paths_are_as_short_as_by_another_method(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    cells = np.where(random.random((15, 15)) < 0.3, 100, 0).astype(np.int8)
+    cells[0, 0] = cells[14, 14] = 0
+    grid = GridMap(cells, 1.0)
+    expected = shortest(cells == 0, (0, 0), (14, 14))
+    if math.isinf(expected):
+        with pytest.raises(NoPathError):
+            plan(grid, (0.5, 0.5), (14.5, 14.5), SLIM)
+    else:
+        assert length(plan(grid, (0.5, 0.5), (14.5, 14.5), SLIM)) == pytest.approx(expected)
