@@ -2,6 +2,7 @@
 """The simulator's node as tests run it: to its end, or in the background."""
 
 import os
+import re
 import signal
 import subprocess
 import textwrap
@@ -12,6 +13,8 @@ from types import TracebackType
 from ros_support import DEADLINE, RosCore, built, start, stop, wait_until
 
 NAME = "/sim_ros_interface"
+PREFIX = re.compile(r"^\[/\S+ [0-9.]+ s\] ", re.MULTILINE)
+"""What begins the lines that scripts print: object and simulation time."""
 
 
 def clean_environment(**changes: str) -> dict[str, str]:
@@ -23,11 +26,14 @@ def clean_environment(**changes: str) -> dict[str, str]:
 
 
 def run_sim(
-    *arguments: object, env: Mapping[str, str] | None = None, timeout: float = 3 * DEADLINE
+    *arguments: object, env: Mapping[str, str] | None = None, timeout: float = 3 * DEADLINE, prefixed: bool = False
 ) -> "subprocess.CompletedProcess[str]":
-    """Runs the node until it ends by itself."""
+    """Runs the node until it ends by itself. The lines that scripts print keep their prefix only when `prefixed`."""
     command = [str(built("sim")), *map(str, arguments)]
-    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout, check=False)
+    run = subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout, check=False)
+    if not prefixed:
+        run.stdout = PREFIX.sub("", run.stdout)
+    return run
 
 
 def run_script(
@@ -38,11 +44,12 @@ def run_script(
     scene: str = "ball",
     target: str = "/Ball",
     until: float = 0.2,
+    prefixed: bool = False,
 ) -> "subprocess.CompletedProcess[str]":
     """Runs a child script in a scene without ROS, as fast as it goes; the script is the file `name` in `folder`."""
     file = write(folder / name, code)
     options = ["--no-ros", "--speed", "max", "--until", until, "--child-script", f"{target}={file}"]
-    return run_sim(scene, *options, *arguments)
+    return run_sim(scene, *options, *arguments, prefixed=prefixed)
 
 
 def write(file: Path, code: str) -> Path:
@@ -84,7 +91,7 @@ class Node:
 
     @property
     def output(self) -> str:
-        return self._log.read_text(encoding="utf-8")
+        return PREFIX.sub("", self._log.read_text(encoding="utf-8"))
 
     def wait_for_output(self, text: str) -> None:
         wait_until(lambda: text in self.output, f"'{text}' in the output")

@@ -23,6 +23,12 @@ struct ScriptOptions {
   bool lua_unsafe = false;
   /// Offers Gazebo's services and topics beside the node's own.
   bool gazebo_compat = false;
+  /// Loads a script again as soon as its file changes.
+  bool watch = false;
+  /// A bag for the messages that scripts publish and hear; empty: none.
+  std::filesystem::path record;
+  /// Topics on which each pass waits for messages that answer the last one.
+  std::vector<std::string> lockstep;
 };
 
 /// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and

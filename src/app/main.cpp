@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cinttypes>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -88,7 +89,8 @@ int run_scene(const Options& options, int& argc, char** argv) {
     if (bridge) bridge->leave();
   });
   ChildScripts scripts(simulation, bridge.get(),
-                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.gazebo_compat});
+                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.gazebo_compat,
+                        options.watch, options.record, options.lockstep});
   simulation.add(scripts);
 
   int exit_code = kFine;
@@ -112,6 +114,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace bubblesim::app;
   keep_freed_memory();
+  std::signal(SIGPIPE, SIG_IGN);  // who reads our output or a script's socket may go when he likes
   try {
     const ParsedOptions parsed = parse_options(argc, argv);
     if (!parsed.options) return parsed.exit_code;

@@ -72,6 +72,11 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("--gazebo-compat", options.gazebo_compat, "offer Gazebo's services and topics below /gazebo, too");
   app.add_flag("--lua-unsafe", options.lua_unsafe, "let scripts in Lua use os, io, debug and package");
+  app.add_flag("--watch", options.watch, "load a script again as soon as its file changes");
+  app.add_option("--record", options.record, "FILE: write what scripts publish and hear into a bag");
+  app.add_option("--lockstep", options.lockstep,
+                 "TOPIC: let each pass wait for a message on it that answers the last one (repeatable)")
+      ->allow_extra_args(false);
   app.add_flag("--strict", options.strict, "exit with 3 as soon as a script has failed");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
   app.add_flag("--list-scenes", list_scenes, "print the names of the scenes and exit");
@@ -85,6 +90,8 @@ ParsedOptions parse_options(int argc, char** argv) {
     if (*until_option) options.until = until;
     options.speed = parse_speed(speed);
     options.ros = !no_ros;
+    if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");
+    if (no_ros && !options.lockstep.empty()) throw CLI::ValidationError("--lockstep", "needs ROS");
     for (const std::string& text : child_scripts) options.child_scripts.push_back(parse_child_script(text));
     options.script_paths.assign(script_paths.begin(), script_paths.end());
   } catch (const CLI::ParseError& error) {

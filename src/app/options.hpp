@@ -33,6 +33,9 @@ struct Options {
   std::vector<std::filesystem::path> script_paths;
   bool gazebo_compat = false;
   bool lua_unsafe = false;
+  bool watch = false;
+  std::filesystem::path record;
+  std::vector<std::string> lockstep;  ///< topics
 };
 
 /// Reads the command line. When it asks for nothing but a text (--help, --list-scenes) or cannot be used, the text is

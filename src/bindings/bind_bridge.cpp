@@ -175,6 +175,7 @@ void bind_bridge(py::module_& core) {
       .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)
       .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,
            "The parameter's full name in the nearest namespace that has it, or None.")
+      .def("drain", &Bridge::drain, without_gil, "Delivers what has arrived; from within a service's callback only.")
       .def(
           "now",
           [](const Bridge& bridge) {

@@ -55,7 +55,8 @@ struct ChildScripts::Python {
   scripting::Interpreter interpreter;
   py::object host;
   py::object drain;    // none without a bridge
-  py::object publish;  // nor this
+  py::object publish;  // nor these
+  py::object close;
   py::object actuate;
   py::object sense;
   py::object finish;
@@ -76,15 +77,23 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     : python_(std::make_unique<Python>()) {
   with_python([&] {
     const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
-    python_->host = host_class(py::cast(&simulation, py::return_value_policy::reference),
-                               bridge == nullptr ? py::none() : py::cast(bridge, py::return_value_policy::reference),
-                               scripts_to_run(simulation, options), options.search_paths,
-                               py::arg("lua_unsafe") = options.lua_unsafe);
+    const py::object py_simulation = py::cast(&simulation, py::return_value_policy::reference);
+    py::object py_bridge = py::none();
+    if (bridge != nullptr) {
+      py_bridge = py::cast(bridge, py::return_value_policy::reference);
+      if (!options.record.empty() || !options.lockstep.empty()) {
+        py_bridge = py::module_::import("bubblesim.control.observed_bridge")
+                        .attr("observed")(py_bridge, py_simulation, options.record.string(), options.lockstep);
+      }
+    }
+    python_->host = host_class(py_simulation, py_bridge, scripts_to_run(simulation, options), options.search_paths,
+                               py::arg("lua_unsafe") = options.lua_unsafe, py::arg("watch") = options.watch);
     if (bridge != nullptr) {
       const py::object control = py::module_::import("bubblesim.control.offered")
                                      .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
       python_->drain = control.attr("drain");
       python_->publish = control.attr("publish");
+      python_->close = control.attr("close");
     }
     python_->host.attr("start")();
     // Looked up once, called in every pass.
@@ -102,8 +111,8 @@ ChildScripts::~ChildScripts() {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
   const py::gil_scoped_acquire gil;
-  python_->actuate = python_->sense = python_->finish = python_->drain = python_->publish = python_->host =
-      py::object();
+  python_->actuate = python_->sense = python_->finish = python_->drain = python_->publish = python_->close =
+      python_->host = py::object();
 }
 
 /// Also where there is nothing to drain: what was delivered before may have failed in a script.
@@ -145,7 +154,10 @@ void ChildScripts::model_removing(World&, ObjectId model) {
 
 void ChildScripts::finish() {
   if (std::exchange(python_->finished, true)) return;
-  with_host([&] { python_->finish(); });
+  with_host([&] {
+    python_->finish();
+    if (python_->close) python_->close();
+  });
 }
 
 void interrupt_scripts() { scripting::interrupt(); }

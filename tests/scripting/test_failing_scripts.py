@@ -126,6 +126,25 @@ def test_exit_ends_only_the_script_and_is_no_failure(tmp_path: Path) -> None:
     assert (run.stdout, run.stderr, run.returncode) == ("ran on\n", "", 0)
 
 
+@pytest.mark.parametrize(
+    ("name", "code", "told"),
+    [
+        ("bad.py", "def deep(): return deep()\ndef sysCall_init(): deep()\n", "RecursionError"),
+        ("bad.py", "def sysCall_init(): bytes(1 << 62)\n", "MemoryError"),
+        ("bad.lua", "function deep() return 1 + deep() end\nfunction sysCall_init() deep() end\n", "stack overflow"),
+        ("bad.lua", "function sysCall_init() string.rep('x', 1 << 32) end\n", "not enough memory"),
+    ],
+)
+def test_what_exhausts_the_machine_ends_only_the_script(tmp_path: Path, name: str, code: str, told: str) -> None:
+    bad = write(tmp_path / name, code)
+    good = "def sysCall_init(): pass\ndef sysCall_cleanup(): print('ran on')\n"
+    run = run_script(tmp_path, good, "--child-script", f"/Ramp={bad}")
+    assert (run.stdout, run.returncode) == ("ran on\n", 0)
+    assert "child script of /Ramp failed in sysCall_init" in run.stderr
+    assert told in run.stderr
+    assert len(run.stderr) < 5000
+
+
 def test_a_raised_keyboard_interrupt_ends_only_the_script(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_init(): raise KeyboardInterrupt\n")
     assert "child script of /Ball failed in sysCall_init" in run.stderr

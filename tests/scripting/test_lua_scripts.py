@@ -311,4 +311,4 @@ def test_lua_runs_without_an_active_environment(tmp_path: Path) -> None:
         timeout=60,
         check=False,
     )
-    assert (run.stdout, run.stderr) == ("here\n", "")
+    assert (run.stdout, run.stderr) == ("[/Ball 0.000 s] here\n", "")

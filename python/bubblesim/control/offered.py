@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from bubblesim.control.gazebo_services import GazeboServices
 from bubblesim.control.gazebo_topics import GazeboTopics
+from bubblesim.control.lock_step import LockStep
 from bubblesim.control.model_services import ModelServices
 from bubblesim.control.object_services import ObjectServices
+from bubblesim.control.observed_bridge import ObservedBridge, Observer
 from bubblesim.control.reset_services import offer_reset_services
 from bubblesim.control.simulation_topics import SimulationTopics
 from bubblesim.control.step_service import offer_step_service
@@ -21,16 +23,30 @@ class Control:
         ObjectServices(host.simulation, host.bridge)  # lives in its callbacks
         ModelServices(host)
         offer_reset_services(host.bridge, host)
-        offer_step_service(host.bridge, host.simulation)
+        self._observers: list[Observer] = host.bridge.observers if isinstance(host.bridge, ObservedBridge) else []
+        lock_step = next((observer for observer in self._observers if isinstance(observer, LockStep)), None)
+        offer_step_service(host.bridge, host.simulation, lock_step)
         self._topics = SimulationTopics(host.bridge, host.simulation)
-        self.drain = self._topics.tell_state
         self._gazebo: GazeboTopics | None = None
         if gazebo_compat:
             GazeboServices(host)
             self._gazebo = GazeboTopics(host.bridge, host.simulation.world)
+
+    def drain(self) -> None:
+        """When messages have been delivered."""
+        self._topics.tell_state()
+        for observer in self._observers:
+            observer.drained()
 
     def publish(self) -> None:
         """At the end of a pass, when all else of it has been published."""
         if self._gazebo is not None:
             self._gazebo.publish()
         self._topics.tell_pass()
+        for observer in self._observers:
+            observer.pass_done()
+
+    def close(self) -> None:
+        """When all scripts have ended for good."""
+        for observer in self._observers:
+            observer.close()

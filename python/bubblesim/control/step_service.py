@@ -6,20 +6,24 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.control.lock_step import LockStep
 from bubblesim.scripting import interruption
 
 
-def offer_step_service(bridge: Any, simulation: Any) -> None:
-    """Offer it under the node's name; it answers when the passes are done. In each, messages come and go as ever."""
+def offer_step_service(bridge: Any, simulation: Any, lock_step: LockStep | None) -> None:
+    """Offer it under the node's name; it answers when the passes are done. In each, messages come and go as ever.
+
+    :param lock_step: what the passes wait for, if anything.
+    """
 
     def answer(request: dict[str, Any]) -> dict[str, Any]:
-        problem = _step(simulation, request["passes"])
+        problem = _step(simulation, request["passes"], lock_step)
         return {"success": not problem, "status_message": problem, "time": simulation.time}
 
     bridge.advertise_service("~step", "bubblesim_msgs/Step", answer, _core.messages.TimeForm.FLOAT)
 
 
-def _step(simulation: Any, passes: int) -> str:
+def _step(simulation: Any, passes: int, lock_step: LockStep | None) -> str:
     """Run the passes; what kept them from being run, or nothing."""
     if simulation.state == _core.RunState.STOPPED:
         return "the simulation is stopped: start it first, with ~unpause"
@@ -32,6 +36,8 @@ def _step(simulation: Any, passes: int) -> str:
         for done in range(passes):
             if done and simulation.has_requests:
                 return f"broken off after {done} passes by a request to start, pause or stop"
+            if lock_step and (problem := lock_step.wait()):
+                return problem
             simulation.step()
     except KeyboardInterrupt:
         return "the simulator is ending"

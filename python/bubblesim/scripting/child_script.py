@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption, script_sockets
+from bubblesim.scripting import interruption, script_output, script_sockets
+from bubblesim.scripting.file_stamps import FileStamps
 from bubblesim.scripting.output import write_line
-from bubblesim.scripting.script_code import load_code
+from bubblesim.scripting.script_code import ScriptCode, load_code
 from bubblesim.scripting.script_thread import AnyThread
 from bubblesim.scripting.source import ScriptSourceError
 
@@ -36,6 +37,7 @@ class ChildScript:
         self.alive = True
         self.failed = False
         self.running = False  # its code is on the call stack
+        self.doing = "loading"  # what it was called for last
         self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
@@ -46,18 +48,22 @@ class ChildScript:
         self._load()
 
     def _load(self) -> None:
+        self._stamps = FileStamps([self.file])
         try:
-            self._code = load_code(
+            self._code: ScriptCode = load_code(
                 self.file,
                 self.host.search_paths,
                 self.host.make_modules(self),
                 self._module_name,
+                lambda: f"[{self.object_path} {self.host.simulation.time:.3f} s] ",
                 lua_unsafe=self.host.lua_unsafe,
             )
         except ScriptSourceError as error:
             self._fail(f"error: child script of {self.object_path} is disabled: {error}")
             return
-        if not self.run("loading", self._code.run):
+        loaded = self.run("loading", self._code.run)
+        self._stamps = FileStamps([self.file, *self._code.files])
+        if not loaded:
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
@@ -100,6 +106,15 @@ class ChildScript:
             self._call("sysCall_cleanup")
         self._end()
         sys.modules.pop(self._module_name, None)
+        script_output.prefixes.pop(self._module_name, None)
+
+    def was_edited(self) -> bool:
+        """Whether one of the files that it was read from is another one now."""
+        return self._stamps.differ()
+
+    def where_now(self, thread: int) -> str:
+        """FILE:LINE where its code is that runs in another thread, or nothing."""
+        return self._code.where_now(thread)
 
     def _call(self, name: str) -> None:
         hook = self._hooks[name]
@@ -109,13 +124,17 @@ class ChildScript:
     def run(self, what: str, action: Hook) -> bool:
         """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
         try:
-            outer = interruption.allowed, self.running
+            host = self.host
+            outer = interruption.allowed, self.running, self.doing, host.running_script
             sockets = script_sockets.note_in(self._sockets)
             try:
                 interruption.allowed = self.running = True
+                self.doing = what
+                host.running_script = self
+                host.calls += 1
                 action()
             finally:
-                interruption.allowed, self.running = outer
+                interruption.allowed, self.running, self.doing, host.running_script = outer
                 script_sockets.note_in(sockets)
         except SystemExit:
             self._end()

@@ -4,14 +4,20 @@
 from __future__ import annotations
 
 import gc
+import math
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption, script_sockets, script_thread
+from bubblesim.scripting import interruption, script_output, script_sockets, script_thread, watchdog
 from bubblesim.scripting.child_script import ChildScript
+from bubblesim.scripting.output import write_line
 from bubblesim.scripting.ros_api import SimRos, SimRos2
 from bubblesim.scripting.sim_api import SimApi
+
+_BETWEEN_LOOKS = 0.25  # s
 
 
 class ScriptHost:
@@ -25,6 +31,7 @@ class ScriptHost:
         search_paths: list[Path],
         *,
         lua_unsafe: bool = False,
+        watch: bool = False,
     ) -> None:
         """Note the scripts; ``start`` loads them.
 
@@ -33,18 +40,24 @@ class ScriptHost:
         :param scripts: pairs of object path and file.
         :param search_paths: where ``include`` looks after the script's own folder.
         :param lua_unsafe: let scripts in Lua reach files and processes.
+        :param watch: load a script again as soon as its file changes.
         """
         self.simulation = simulation
         self.bridge = bridge
         self.search_paths = search_paths
         self.lua_unsafe = lua_unsafe
         self.failures = 0
+        self.calls = 0  # of scripts, so far
+        self.running_script: ChildScript | None = None
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
+        self._next_look = 0.0 if watch else math.inf  # at the files, by time.monotonic()
         script_sockets.install()
         script_thread.install()
+        script_output.install()
+        watchdog.start(self)
 
     @property
     def disabled(self) -> int:
@@ -104,8 +117,21 @@ class ScriptHost:
 
     def actuate(self) -> None:
         """Call sysCall_actuation of all scripts."""
+        if self._next_look < math.inf:
+            self._reload_edited()
         for script in self.scripts:
             script.actuate()
+
+    def _reload_edited(self) -> None:
+        now = time.monotonic()
+        if now < self._next_look:
+            return
+        self._next_look = now + _BETWEEN_LOOKS
+        for number, script in enumerate(self.scripts):
+            if script.was_edited():
+                write_line(sys.stderr, f"info: the child script of {script.object_path} was edited: it starts again")
+                script.finish()
+                self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,26 +14,41 @@ from lupa import lua54
 from bubblesim.scripting.api import functions
 from bubblesim.scripting.lua_thread import LuaThread
 from bubblesim.scripting.lua_values import BROKEN_OFF, LuaFunction, LuaValues
-from bubblesim.scripting.output import write_line
+from bubblesim.scripting.script_output import print_line
 from bubblesim.scripting.source import ScriptSourceError, find_file, read_text
 
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
+_SECONDS_TO_TELL = 0.3
 _MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough memory"
 
 
 class LuaCode:
     """See ScriptCode."""
 
-    def __init__(self, file: Path, search_paths: list[Path], modules: dict[str, Any], *, unsafe: bool) -> None:
-        """Compile ``file`` without running it.
+    def __init__(
+        self,
+        file: Path,
+        text: str,
+        search_paths: list[Path],
+        modules: dict[str, Any],
+        prefix: Callable[[], str],
+        *,
+        unsafe: bool,
+    ) -> None:
+        """Compile the ``text`` of ``file`` without running it.
 
         :param modules: what the script finds under the names ``sim``, ``simROS``, ``simROS2``.
+        :param prefix: of the lines that it prints.
         :param unsafe: leave the script the libraries that reach outside: ``os``, ``io``, ``debug``, ``package``.
         :raises ScriptSourceError: when it cannot be read or is no Lua.
         """
         self._folders = [file.parent, *search_paths]
         self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by the names that Lua knows them by
+        self._prefix = prefix
+        self._place_wanted = False
+        self._place = ""
+        self._place_told = threading.Event()
         self._runtime = lua54.LuaRuntime(
             encoding=None,  # strings are bytes
             unpack_returned_tuples=True,
@@ -44,11 +59,16 @@ class LuaCode:
         )
         self._values = LuaValues(self._runtime)
         self._furnish(modules, unsafe=unsafe)
-        text = self._take_in(file)
+        source = _as_lua(text)
         try:
-            self._body = self._runtime.compile(text, name=self._chunk_name(file), mode=b"t")
+            self._body = self._runtime.compile(source, name=self._chunk_name(file), mode=b"t")
         except lua54.LuaError as error:
             raise ScriptSourceError(self._with_whole_paths(_message(error))) from error
+
+    @property
+    def files(self) -> set[Path]:
+        """What the script was read from so far."""
+        return set(self._files.values())
 
     def run(self) -> None:
         """Run the body of the script."""
@@ -69,6 +89,17 @@ class LuaCode:
         """Whether the script failed for it was interrupted."""
         return isinstance(error, KeyboardInterrupt) or BROKEN_OFF.decode() in _message(error).partition("\n")[0]
 
+    def where_now(self, thread: int) -> str:
+        """FILE:LINE where the script is that runs in another thread, or nothing."""
+        self._place_told.clear()
+        self._place_wanted = True
+        return self._place if self._place_told.wait(_SECONDS_TO_TELL) else ""
+
+    def _tell_place(self, chunk: bytes, line: int) -> None:
+        self._place_wanted = False
+        self._place = self._with_whole_paths(f"{chunk.decode(errors='replace')}:{line}:").removesuffix(":")
+        self._place_told.set()
+
     def place(self, error: BaseException) -> str:
         """FILE:LINE where the script failed, or nothing."""
         match = re.match(r"(.*?):(\d+): ", self._with_whole_paths(_message(error)))
@@ -85,19 +116,21 @@ class LuaCode:
         host[b"modules"] = self._runtime.table_from(
             {name.encode(): self._module(module) for name, module in modules.items() if module is not None}
         )
-        host[b"write"] = lambda line: write_line(sys.stdout, line.decode(errors="backslashreplace"))
+        host[b"write"] = lambda line: print_line(self._prefix(), line.decode(errors="backslashreplace"))
         host[b"find_source"] = callable_from_lua(self._find_source)
         host[b"pulse"] = self._pulse
+        host[b"tell_place"] = self._tell_place
         host[b"unsafe"] = to_lua(unsafe)
         self._new_thread = self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
 
     def _turn_is_over(self) -> bool:
         return self._thread is not None and self._thread.turn_is_over()
 
-    def _pulse(self) -> None:
-        """Let signals in: Python looks for them when it enters a function."""
+    def _pulse(self) -> bool:
+        """Let signals in: Python looks for them when it enters a function. Returns whether to tell the place."""
         if self._thread is not None:
             self._thread.check_that_it_may_go_on()
+        return self._place_wanted
 
     def _module(self, module: Any) -> Any:
         constants = {
@@ -120,13 +153,7 @@ class LuaCode:
     def _find_source(self, name: str) -> tuple[bytes, bytes]:
         """Text and chunk name of a Lua file that the script requires."""
         file = find_file(f"{name.replace('.', '/')}.lua", self._folders)
-        return self._take_in(file), self._chunk_name(file)
-
-    def _take_in(self, file: Path) -> bytes:
-        text = read_text(file)
-        if text.startswith("#"):  # the header
-            text = "--" + text
-        return text.encode()
+        return _as_lua(read_text(file)), self._chunk_name(file)
 
     def _chunk_name(self, file: Path) -> bytes:
         """Lua cuts long names: it gets those of files without their folders."""
@@ -137,6 +164,10 @@ class LuaCode:
         for name, file in self._files.items():
             text = re.sub(rf"(?<![\w/.-]){re.escape(name)}(?=:\d+:)", str(file).replace("\\", r"\\"), text)
         return text
+
+
+def _as_lua(text: str) -> bytes:
+    return (f"--{text}" if text.startswith("#") else text).encode()  # the header
 
 
 def _message(error: BaseException) -> str:

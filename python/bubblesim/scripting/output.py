@@ -8,8 +8,13 @@ from typing import TextIO
 
 
 def write_line(stream: TextIO, text: object) -> None:
-    """Write a line at once; what the stream cannot encode is written as escapes, and a closed stream is no error."""
-    encoding = getattr(stream, "encoding", None) or "utf-8"
-    line = str(text).encode(encoding, errors="backslashreplace").decode(encoding)
+    """Write a line of the simulator's own at once; a closed stream is no error."""
+    plain = getattr(stream, "plain", stream)  # scripts write with a prefix
     with contextlib.suppress(OSError, ValueError):
-        print(line, file=stream, flush=True)
+        print(encodable(plain, str(text)), file=plain, flush=True)
+
+
+def encodable(stream: TextIO, text: str) -> str:
+    """The text, with escapes for what the stream cannot encode."""
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    return text.encode(encoding, errors="backslashreplace").decode(encoding)

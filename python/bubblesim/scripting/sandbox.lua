@@ -5,7 +5,8 @@
 --                     give its turn back, and its results; or false and a text)
 --   host.write        writes a line of output
 --   host.find_source  text and name of a file that the script requires
---   host.pulse        fails when the script is to be broken off
+--   host.pulse        fails when the script is to be broken off; returns whether somebody wants to know where it is
+--   host.tell_place   takes chunk and line of where it is
 --   host.unsafe       whether the script may reach outside: files, processes, the insides of Lua
 local host = ...
 
@@ -14,7 +15,7 @@ local INSTRUCTIONS_BETWEEN_PULSES = 100000  -- some 0.5 ms
 local error, load, pcall, select, sethook, tostring = error, load, pcall, select, debug.sethook, tostring
 local create, resume, running, status, wrap, yield =
   coroutine.create, coroutine.resume, coroutine.running, coroutine.status, coroutine.wrap, coroutine.yield
-local traceback = debug.traceback
+local getinfo, traceback = debug.getinfo, debug.traceback
 
 local thread  -- the coroutine of sysCall_thread
 
@@ -71,7 +72,12 @@ end
 
 -- A script that loops for ever must be able to be ended: its code is interrupted now and then, in coroutines too.
 local function pulse()
-  if not pcall(host.pulse) then error("broken off", 2) end
+  local may_go_on, place_wanted = pcall(host.pulse)
+  if not may_go_on then error("broken off", 2) end
+  if place_wanted then
+    local at = getinfo(2, "Sl")
+    host.tell_place(at.short_src, at.currentline)
+  end
 end
 local function with_pulse(body)
   return function(...)

@@ -9,11 +9,15 @@ from typing import Any, Protocol
 
 from bubblesim.scripting.python_code import PythonCode
 from bubblesim.scripting.script_thread import AnyThread
-from bubblesim.scripting.source import ScriptSourceError, is_lua
+from bubblesim.scripting.source import ScriptSourceError, is_lua, read_text
 
 
 class ScriptCode(Protocol):
     """Code with globals of its own."""
+
+    @property
+    def files(self) -> set[Path]:
+        """What it was read from so far."""
 
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
@@ -27,6 +31,9 @@ class ScriptCode(Protocol):
     def broken_off(self, error: BaseException) -> bool:
         """Whether the script failed for it was interrupted."""
 
+    def where_now(self, thread: int) -> str:
+        """FILE:LINE where the script is that runs in another thread, or nothing."""
+
     def place(self, error: BaseException) -> str:
         """FILE:LINE where the script failed, or nothing."""
 
@@ -35,16 +42,24 @@ class ScriptCode(Protocol):
 
 
 def load_code(
-    file: Path, search_paths: list[Path], modules: dict[str, Any], name: str, *, lua_unsafe: bool
+    file: Path,
+    search_paths: list[Path],
+    modules: dict[str, Any],
+    name: str,
+    prefix: Callable[[], str],
+    *,
+    lua_unsafe: bool,
 ) -> ScriptCode:
     """Compile a script without running it.
 
     :param name: of the Python module that the script becomes.
+    :param prefix: of the lines that it prints.
     :param lua_unsafe: see LuaCode.
     :raises ScriptSourceError: naming file and line.
     """
-    if not is_lua(file):
-        return PythonCode(file, search_paths, modules, name)
+    text = read_text(file)
+    if not is_lua(file, text):
+        return PythonCode(file, text, search_paths, modules, name, prefix)
     try:
         from bubblesim.scripting.lua_code import LuaCode
     except ImportError as error:
@@ -52,4 +67,4 @@ def load_code(
             f"{file}:1: is a Lua script, and these need the Python package lupa ({error}): run scripts/setup, or "
             "activate a virtual environment in which `pip install lupa==2.8` was done"
         ) from error
-    return LuaCode(file, search_paths, modules, unsafe=lua_unsafe)
+    return LuaCode(file, text, search_paths, modules, prefix, unsafe=lua_unsafe)

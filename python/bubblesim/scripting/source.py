@@ -33,7 +33,7 @@ def find_file(name: str, folders: list[Path]) -> Path:
     raise ScriptSourceError(f"no file {name} in {searched}; add its folder with --script-path")
 
 
-def is_lua(file: Path) -> bool:
+def is_lua(file: Path, text: str) -> bool:
     """Whether a script is written in Lua: its first line says so, `#lua` or `#python`, or its name, `.lua`."""
-    first = read_text(file).partition("\n")[0].strip()
+    first = text.partition("\n")[0].strip()
     return first == "#lua" or (file.suffix == ".lua" and first != "#python")

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes what scripts publish and hear into a bag."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import genpy
+import rosbag
+
+from bubblesim import _core
+
+_CLOCK = "rosgraph_msgs/Clock"
+
+
+@dataclass(frozen=True)
+class _Definition:
+    """What rosbag asks of a message's class."""
+
+    _md5sum: str
+    _full_text: str
+
+
+class BagRecorder:
+    """An observer of a bridge.
+
+    All messages of a pass bear its time, those that came first, by topic: so that equal runs give equal bags, although
+    connections are differently quick.
+    """
+
+    def __init__(self, file: Path, bridge: Any) -> None:
+        """Open the bag, which takes the place of one of before.
+
+        :raises OSError: when that cannot be done.
+        """
+        self._bag = rosbag.Bag(str(file), "w")
+        self._bridge = bridge
+        self._definitions: dict[str, _Definition] = {}
+        self._heard: list[tuple[str, str, bytes]] = []
+        self._published: list[tuple[str, str, bytes]] = []
+
+    def advertised(self, publisher: int) -> None:
+        """Nothing to write."""
+
+    def subscribed(self, topic: str, subscriber: int) -> None:
+        """Nothing to write."""
+
+    def published(self, topic: str, message_type: str, message: Any) -> None:
+        """Keep it until the pass is over."""
+        self._published.append((topic, message_type, _core.messages.encode(message_type, message)))
+
+    def heard(self, topic: str, message_type: str, message: Any) -> None:
+        """Keep it until the pass is over."""
+        self._heard.append((topic, message_type, _core.messages.encode(message_type, message)))
+
+    def drained(self) -> None:
+        """Nothing to write."""
+
+    def pass_done(self) -> None:
+        """Write all of the pass, and the time that it had."""
+        sec, nanosec = self._bridge.now()
+        clock = _core.messages.encode(_CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
+        time = genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # a bag knows no time 0
+        self._heard.sort(key=lambda message: message[0])
+        for topic, message_type, data in [("/clock", _CLOCK, clock), *self._heard, *self._published]:
+            definition = self._definition(message_type)
+            self._bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
+        self._heard.clear()
+        self._published.clear()
+
+    def close(self) -> None:
+        """Write the bag's index, without which it cannot be read."""
+        self._bag.close()
+
+    def _definition(self, message_type: str) -> _Definition:
+        if message_type not in self._definitions:
+            text = _core.messages.definition(message_type)
+            self._definitions[message_type] = _Definition(_core.messages.md5(message_type), text)
+        return self._definitions[message_type]

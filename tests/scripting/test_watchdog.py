@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A callback that does not return is told, with the place where it is; the simulator can still be ended."""
+
+import re
+import time
+from pathlib import Path
+
+import pytest
+
+from node_support import Node, run_script, write
+from ros_support import free_port, ros_environment
+
+STUCK = {
+    "script.py": "def sysCall_init(): pass\ndef sysCall_actuation():\n    n = 0\n    while True:\n        n += 1\n",
+    "sleeping.py": "import time\ndef sysCall_init():\n    time.sleep(\n        1000)\n",
+    "script.lua": "function sysCall_init()\n  local n = 0\n  while true do\n    n = n + 1\n  end\nend\n",
+}
+PLACES = {"script.py": "[45]", "sleeping.py": "3", "script.lua": "[34]"}
+
+
+@pytest.mark.parametrize("name", STUCK)
+def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: str) -> None:
+    script = write(tmp_path / name, STUCK[name])
+    environment = ros_environment(free_port(), tmp_path)
+    with Node(environment, tmp_path / "log", "ball", "--no-ros", "--child-script", f"/Ball={script}") as node:
+        node.wait_for_output("the simulation waits for it")
+        place = re.search(
+            r"child script of /Ball has not returned from (sysCall_\w+) for 1.5 s, now at (.*):(\d+): "
+            "the simulation waits for it",
+            node.output,
+        )
+        assert place is not None, node.output
+        assert place[2] == str(script)
+        assert re.fullmatch(PLACES[name], place[3])
+        began = time.monotonic()
+        assert node.end() == 0
+        assert time.monotonic() - began < 10  # without force, which comes later
+        assert "was broken off in sysCall_" in node.output
+
+
+def test_a_callback_is_told_once(tmp_path: Path) -> None:
+    code = "import time\ndef sysCall_init(): time.sleep(4.5)\n"
+    run = run_script(tmp_path, code)
+    assert run.returncode == 0
+    assert run.stderr.count("the simulation waits for it") == 1
+
+
+def test_callbacks_that_return_are_not_told(tmp_path: Path) -> None:
+    code = "import time\ndef sysCall_init(): pass\ndef sysCall_actuation(): time.sleep(0.5)\n"
+    assert run_script(tmp_path, code, until=0.3).stderr == ""
