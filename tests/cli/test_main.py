@@ -12,7 +12,7 @@ import pytest
 from cli_support import bubblesim
 from ros_support import built
 
-COMMANDS = ["run", "scenes", "new-scene", "api", "doctor"]
+COMMANDS = ["run", "scenes", "new-scene", "api", "test", "doctor"]
 
 
 def test_help_names_all_commands_and_exit_codes() -> None:
@@ -30,7 +30,8 @@ def test_each_command_explains_itself(command: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "arguments", [[], ["bogus"], ["scenes", "--bogus"], ["scenes", "bogus"], ["api", "a", "b"], ["new-scene"], ["run"]]
+    "arguments",
+    [[], ["bogus"], ["scenes", "--bogus"], ["scenes", "bogus"], ["api", "a", "b"], ["new-scene"], ["run"], ["test"]],
 )
 def test_bad_usage_is_explained_with_exit_code_2(arguments: list[str]) -> None:
     run = bubblesim(*arguments)

@@ -9,10 +9,10 @@ import sys
 from collections.abc import Sequence
 
 from bubblesim._core import SceneError
-from bubblesim.cli import api, check, doctor, new_scene, run, scenes
+from bubblesim.cli import api, check, doctor, new_scene, run, scenes, test
 from bubblesim.running.processes import RunError
 
-_COMMANDS = (run, scenes, new_scene, check, api, doctor)
+_COMMANDS = (run, scenes, new_scene, check, api, test, doctor)
 _FINE, _FAILED, _BAD_INPUT = 0, 1, 2
 
 _DESCRIPTION = """\
@@ -23,6 +23,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim new-scene mine               make one of your own
   bubblesim check my/robot.sdf           what is wrong with a file
   bubblesim api getObject                what a script may call
+  bubblesim test test_mine.py            test a controller in the simulator
   bubblesim doctor                       why ROS or Python will not work"""
 _EPILOG = """\
 exit codes: 0 fine, 1 a check or a run failed, 2 bad input; `run` ends with those of the node.
@@ -42,9 +43,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for command in _COMMANDS:
         command.add_parser(commands)
     options, others = parser.parse_known_args(arguments)
-    if others and "node_options" not in options:
+    if others and "other_options" not in options:
         options.parser.error(f"unrecognized arguments: {' '.join(others)}")
-    options.node_options = others
+    options.other_options = others
     options.all_arguments = list(sys.argv[1:] if arguments is None else arguments)
     try:
         code: int = options.command(options)

@@ -48,7 +48,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--plot", metavar="FILE", type=Path, help="draw the robot's path, a picture as .png, .pdf, .svg"
     )
-    parser.set_defaults(command=_run, parser=parser, node_options=[])
+    parser.set_defaults(command=_run, parser=parser, other_options=[])
 
 
 class _Help(argparse.Action):
@@ -63,9 +63,9 @@ class _Help(argparse.Action):
 
 def _run(options: argparse.Namespace) -> int:
     given = options.all_arguments
-    if options.node_options and given.index(options.node_options[0]) < given.index(options.scene):
+    if options.other_options and given.index(options.other_options[0]) < given.index(options.scene):
         raise ValueError("the scene comes first: bubblesim run SCENE [option ...]")
-    node = [str(node_program()), options.scene, *options.node_options]
+    node = [str(node_program()), options.scene, *options.other_options]
     os.environ.setdefault("ROS_HOSTNAME", "localhost")  # a machine's own name need not resolve
     if not (options.roscore or options.controller or options.plot):
         sys.stdout.flush()

@@ -24,6 +24,7 @@ class Program:
         """Starts it; `name` is what messages call it. RunError when it is not there."""
         self.name = name
         self._log = log
+        self._stopped = False
         with contextlib.ExitStack() as files:
             output = files.enter_context(log.open("w")) if log else None
             try:
@@ -43,8 +44,8 @@ class Program:
         return self._process.poll()
 
     def check(self) -> None:
-        """Raises RunError, with its last words if they were kept, when it has ended."""
-        if self.exit_code is None:
+        """Raises RunError, with its last words if they were kept, when it has ended by itself."""
+        if self._stopped or self.exit_code is None:
             return
         said = ""
         if self._log:
@@ -54,6 +55,7 @@ class Program:
 
     def stop(self) -> None:
         """Ends the whole group, politely first."""
+        self._stopped = True
         for number, patience in _PATIENCE.items():
             try:
                 os.killpg(self._process.pid, number)

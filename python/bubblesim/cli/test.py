@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim test: regression tests of controllers."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+_PASSED, _FAILED, _BAD_INPUT = 0, 1, 2
+_EXAMPLE = """\
+A test is a function of Python, such as this one in test_mine.py:
+
+  def test_it_keeps_clear_of_the_walls(sim, controller):
+      controller("rosrun bubblesim tricycle_avoid.py")
+      tricycle = sim("tricycle", lockstep=["/speed", "/steering"])
+      tricycle.run(30.0)
+      x, y, _ = tricycle.position("/Tricycle")
+      assert abs(x) < 3 and abs(y) < 3
+
+exit codes: 0 all passed, 1 some failed, 2 there were none, or they could not be run"""
+
+
+def add_parser(commands: Any) -> None:
+    """How the command is called."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "test",
+        help="test a controller in the simulator",
+        description="Runs tests by pytest, with fixtures that run the simulator in step with a controller: `sim`, "
+        "`controller` and `ros_master`. Options are pytest's, such as -k NAME, -x and -v.",
+        epilog=_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        usage="bubblesim test FILE ... [option ...]",
+        allow_abbrev=False,
+    )
+    parser.add_argument("files", nargs="+", metavar="FILE", help="a file of tests, or a folder of them")
+    parser.set_defaults(command=_test, parser=parser, other_options=[])
+
+
+def _test(options: argparse.Namespace) -> int:
+    command = [_python(), "-m", "pytest", "-p", "bubblesim.testing.plugin", *options.files, *options.other_options]
+    code = subprocess.run(command, check=False).returncode
+    return code if code in (_PASSED, _FAILED) else _BAD_INPUT
+
+
+def _python() -> str:
+    """That of the active virtual environment, in which the controller's packages are."""
+    active = Path(os.environ.get("VIRTUAL_ENV", ""), "bin", "python")
+    return str(active) if os.environ.get("VIRTUAL_ENV") and active.is_file() else sys.executable

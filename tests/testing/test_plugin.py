@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The fixtures with which users test their controllers."""
+
+import hashlib
+import os
+import re
+from pathlib import Path
+
+import pytest
+
+from bubblesim.running.processes import RunError
+from bubblesim.testing.master import Master
+from bubblesim.testing.plugin import StartController, StartSimulator
+from cli_support import bubblesim
+from node_support import write
+from ros_support import REPOSITORY
+
+AVOID = "rosrun bubblesim tricycle_avoid.py"
+TOPICS = ["/speed", "/steering"]
+ANSWERS_TEN = """\
+    import rospy
+    from std_msgs.msg import Float32
+    rospy.init_node("mine")
+    speed = rospy.Publisher("/speed", Float32, queue_size=1)
+    left = [10]
+    def answer(message):
+        left[0] -= 1
+        if left[0] < 0:
+            {then}
+        else:
+            speed.publish(1.0)
+    rospy.Subscriber("/front_sonar", Float32, answer)
+    rospy.spin()
+    raise SystemExit("out of petrol")
+"""
+
+
+@pytest.fixture
+def ten(tmp_path: Path) -> str:
+    """A controller that answers ten times, and then no more."""
+    return f"/usr/bin/python3 {write(tmp_path / 'ten.py', ANSWERS_TEN.format(then='pass'))}"
+
+
+def test_the_page_about_testing_is_right(tmp_path: Path) -> None:
+    code = re.findall(
+        r"^```python\n(.*?)^```", (REPOSITORY / "docs" / "testing.md").read_text(), re.MULTILINE | re.DOTALL
+    )
+    for number, block in enumerate(code):
+        (tmp_path / f"test_block_{number}.py").write_text(block)
+    run = bubblesim("test", tmp_path)
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert f"{len(code)} passed" in run.stdout
+
+
+def test_failed_tests_give_1_and_none_2(tmp_path: Path) -> None:
+    failing = write(tmp_path / "test_failing.py", "def test_it(): assert False\n")
+    assert bubblesim("test", failing).returncode == 1
+    assert bubblesim("test", failing, "-k", "other").returncode == 2
+    assert bubblesim("test", tmp_path / "none.py").returncode == 2
+
+
+def test_equal_runs_give_equal_bags(controller: StartController, sim: StartSimulator) -> None:
+    bags = set()
+    for _ in range(2):
+        program = controller(AVOID)
+        tricycle = sim("tricycle", lockstep=TOPICS, seed=3)
+        tricycle.run(20.0)
+        tricycle.close()
+        program.stop()
+        bags.add(hashlib.sha256(tricycle.bag.read_bytes()).hexdigest())
+    assert len(bags) == 1
+
+
+def test_the_controller_drives_and_its_messages_are_known(controller: StartController, sim: StartSimulator) -> None:
+    controller(AVOID)
+    tricycle = sim("tricycle", lockstep=TOPICS)
+    start = tricycle.position("/Tricycle")
+    tricycle.run(5.0)
+    assert tricycle.time == pytest.approx(5.0)
+    assert tricycle.position("/Tricycle")[0] > start[0] + 0.1
+    assert tricycle.orientation("/Tricycle")[3] == pytest.approx(1.0, abs=0.1)
+    with pytest.raises(LookupError, match="did you mean /Tricycle"):
+        tricycle.position("/Tricycl")
+    speeds = tricycle.messages("/speed")
+    assert len(speeds) == 98  # 100 passes; the first goes before anybody is connected, the last is not answered yet
+    assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, and 5 % more with each answer
+    assert speeds[1][0] - speeds[0][0] == pytest.approx(0.05)
+
+
+def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartController, sim: StartSimulator) -> None:
+    controller(ten)
+    tricycle = sim("tricycle", lockstep=["/speed"])
+    with pytest.raises(RunError, match=r"no answer on /speed for 5 s: its publisher is there, but does not answer"):
+        tricycle.run(5.0)
+    assert tricycle.time == pytest.approx(0.6)
+
+
+def test_a_controller_that_ends_is_told_with_its_last_words(
+    tmp_path: Path, controller: StartController, sim: StartSimulator
+) -> None:
+    code = ANSWERS_TEN.format(then="rospy.signal_shutdown('enough')")
+    controller(f"/usr/bin/python3 {write(tmp_path / 'ten.py', code)}")
+    tricycle = sim("tricycle", lockstep=["/speed"])
+    with pytest.raises(RunError, match=r"the controller ten.py ended with exit code 1; it said:\n *out of petrol"):
+        tricycle.run(5.0)
+
+
+def test_a_topic_that_no_script_hears_is_told(sim: StartSimulator) -> None:
+    tricycle = sim("tricycle", lockstep=["/spede"])
+    with pytest.raises(RunError, match=r"no pass comes, for no script subscribes to /spede, which --lockstep names"):
+        tricycle.run(1.0)
+
+
+def test_a_missing_controller_is_told(sim: StartSimulator) -> None:
+    tricycle = sim("tricycle", lockstep=TOPICS)
+    with pytest.raises(RunError, match="waits for a controller that publishes /speed and /steering"):
+        tricycle.run(1.0)
+
+
+def test_a_scene_that_is_not_there_is_told(sim: StartSimulator) -> None:
+    with pytest.raises(RunError, match=r"the simulator ended with exit code 2; it said:\n.*did you mean tricycle\?"):
+        sim("tricycel")
+
+
+def test_a_controller_that_is_not_there_is_told(controller: StartController) -> None:
+    with pytest.raises(RunError, match="cannot be started: no_such_program"):
+        controller("no_such_program")
+
+
+def test_without_lockstep_the_time_passes_as_fast_as_it_can(sim: StartSimulator) -> None:
+    ball = sim("ball", seed=1, options=["--script-path", "/nowhere"])
+    ball.run(2.0)
+    assert ball.position("/Ball")[2] == pytest.approx(0.1, abs=0.02)
+
+
+def test_everything_knows_the_master(ros_master: Master) -> None:
+    assert os.environ["ROS_MASTER_URI"] == ros_master.uri
+    assert ros_master.find_service("/none") is None
