@@ -10,6 +10,8 @@ def sysCall_init():
     self.left_motor = sim.getObject('./rosInterfaceControlledBubbleRobLeftMotor')
     self.right_motor = sim.getObject('./rosInterfaceControlledBubbleRobRightMotor')
     self.nose = sim.getObject('./rosInterfaceControlledBubbleRobSensingNose')
+    # Copies of the robot are called ..._0, ..._1: so are their frames.
+    self.frame = 'base_link' + sim.getObjectAlias(self.body).removeprefix('rosInterfaceControlledBubbleRob')
     if not simROS:
         return
     left, right, sensor, time = (
@@ -42,6 +44,6 @@ def sysCall_sensing():
     qx, qy, qz, qw = sim.getObjectQuaternion(self.body)
     simROS.sendTransform({
         'header': {'stamp': simROS.getTime(), 'frame_id': 'odom'},
-        'child_frame_id': 'base_link',
+        'child_frame_id': self.frame,
         'transform': {'translation': {'x': x, 'y': y, 'z': z}, 'rotation': {'x': qx, 'y': qy, 'z': qz, 'w': qw}},
     })

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from node_support import NAME, Node, processes_with
-from ros_support import RosCore, start, stop, wait_until
+from ros_support import DEADLINE, RosCore, start, stop, wait_until
 
 StartNode = Callable[..., Node]
 
@@ -111,6 +111,38 @@ def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node
     assert running.end() == 0
     assert processes_with(f"rosBubbleRob {topic[1:]}") == []
     wait_until(lambda: not any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client to leave")
+
+
+def test_several_bubblerobs_drive_at_once_each_by_its_own_client(roscore: RosCore, node: StartNode) -> None:
+    node("bubblerobs", "--speed", "2")
+    frames = ("base_link", "base_link_0", "base_link_1")
+
+    def clients() -> list[str]:
+        return [name for name in roscore.nodes() if name.startswith("/rosBubbleRob")]
+
+    wait_until(lambda: len(clients()) == 3, "the clients")
+    topics = {topic: nodes for topic, nodes in roscore.state()["publishers"].items() if "MotorSpeed" in topic}
+    assert len(topics) == 6
+    assert {len(nodes) for nodes in topics.values()} == {1}
+
+    def places() -> dict[str, tuple[float, float]]:
+        text = roscore.run("rostopic", "echo", "-n", "12", "/tf")
+        found = {}
+        for transform in text.split("child_frame_id: ")[1:]:
+            frame = transform.split('"')[1]
+            found[frame] = number(transform, "x"), number(transform, "y")
+        return found
+
+    before = places()
+    assert set(before) == set(frames)
+    moved: set[str] = set()
+
+    def all_moved() -> bool:
+        now = places()
+        moved.update(frame for frame in now if math.dist(now[frame], before[frame]) > 0.05)
+        return moved == set(frames)
+
+    wait_until(all_moved, "all of them to drive", 3 * DEADLINE)
 
 
 def right_wheel(core: RosCore) -> tuple[float, float]:
