@@ -117,13 +117,12 @@ def test_several_bubblerobs_drive_at_once_each_by_its_own_client(roscore: RosCor
     node("bubblerobs", "--speed", "2")
     frames = ("base_link", "base_link_0", "base_link_1")
 
-    def clients() -> list[str]:
-        return [name for name in roscore.nodes() if name.startswith("/rosBubbleRob")]
+    def drivers() -> dict[str, list[str]]:
+        return {topic: nodes for topic, nodes in roscore.state()["publishers"].items() if "MotorSpeed" in topic}
 
-    wait_until(lambda: len(clients()) == 3, "the clients")
-    topics = {topic: nodes for topic, nodes in roscore.state()["publishers"].items() if "MotorSpeed" in topic}
-    assert len(topics) == 6
-    assert {len(nodes) for nodes in topics.values()} == {1}
+    wait_until(lambda: len(drivers()) == 6, "the clients")
+    assert sorted(len(nodes) for nodes in drivers().values()) == [1] * 6
+    assert len({nodes[0] for nodes in drivers().values()}) == 3
 
     def places() -> dict[str, tuple[float, float]]:
         text = roscore.run("rostopic", "echo", "-n", "12", "/tf")

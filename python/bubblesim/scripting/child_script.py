@@ -12,6 +12,7 @@ from bubblesim import _core
 from bubblesim.scripting import interruption, script_output, script_sockets
 from bubblesim.scripting.file_stamps import FileStamps
 from bubblesim.scripting.output import write_line
+from bubblesim.scripting.programs import Program, end_programs
 from bubblesim.scripting.script_code import ScriptCode, load_code
 from bubblesim.scripting.script_thread import AnyThread
 from bubblesim.scripting.source import ScriptSourceError
@@ -38,7 +39,8 @@ class ChildScript:
         self.failed = False
         self.running = False  # its code is on the call stack
         self.doing = "loading"  # what it was called for last
-        self.at_end: dict[Hashable, Hook] = {}  # undoes what the script made: publishers, programs
+        self.programs: list[Program] = []  # that it started
+        self.at_end: dict[Hashable, Hook] = {}  # undoes what else the script made: publishers
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
         self._thread: AnyThread | None = None
@@ -99,11 +101,14 @@ class ChildScript:
         """Run sysCall_sensing."""
         self._call("sysCall_sensing")
 
-    def finish(self) -> None:
-        """Run sysCall_cleanup and take down what the script made."""
+    def clean_up(self) -> None:
+        """End the thread and run sysCall_cleanup."""
         self._end_thread()
         if self._started:
             self._call("sysCall_cleanup")
+
+    def finish(self) -> None:
+        """After clean_up: take down what the script made."""
         self._end()
         sys.modules.pop(self._module_name, None)
         script_output.prefixes.pop(self._module_name, None)
@@ -204,6 +209,8 @@ class ChildScript:
     def _end(self) -> None:
         self.alive = False
         self._end_thread()
+        end_programs(self.programs)
+        self.programs = []
         while self.at_end:
             _, undo = self.at_end.popitem()  # the last one first
             try:

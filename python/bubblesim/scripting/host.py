@@ -14,6 +14,7 @@ from bubblesim import _core
 from bubblesim.scripting import interruption, script_output, script_sockets, script_thread, watchdog
 from bubblesim.scripting.child_script import ChildScript
 from bubblesim.scripting.output import write_line
+from bubblesim.scripting.programs import end_programs
 from bubblesim.scripting.ros_api import SimRos, SimRos2
 from bubblesim.scripting.sim_api import SimApi
 
@@ -88,8 +89,7 @@ class ScriptHost:
     def end_scripts_of(self, model: int) -> None:
         """Call sysCall_cleanup of the scripts of a model that is about to leave the world, and forget them."""
         ending = self._scripts_of(model)
-        for script in ending:
-            script.finish()
+        _finish(ending)
         self.scripts = [script for script in self.scripts if script not in ending]
         model_of = self.simulation.world.model_of
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
@@ -130,7 +130,7 @@ class ScriptHost:
         for number, script in enumerate(self.scripts):
             if script.was_edited():
                 write_line(sys.stderr, f"info: the child script of {script.object_path} was edited: it starts again")
-                script.finish()
+                _finish([script])
                 self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
 
     def sense(self) -> None:
@@ -152,8 +152,15 @@ class ScriptHost:
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and end what they started."""
-        for script in self.scripts:
-            script.finish()
+        _finish(self.scripts)
+
+
+def _finish(scripts: list[ChildScript]) -> None:
+    for script in scripts:
+        script.clean_up()
+    end_programs([program for script in scripts for program in script.programs])  # at once: each may take its time
+    for script in scripts:
+        script.finish()
 
 
 def _turn(path: str, handle: int) -> tuple[int, int]:

@@ -3,20 +3,14 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.output import write_line
-
-_SECONDS_TO_END = 1.0
 
 
 class ProgramFunctions(ApiContext):
@@ -29,7 +23,7 @@ class ProgramFunctions(ApiContext):
         """
         program = _find_program(file)
         process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
-        self._script.at_end[process] = lambda: _end(process)
+        self._script.programs.append(process)
         return process.pid
 
     def addLog(self, level: object, text: object) -> None:
@@ -64,16 +58,3 @@ def _find_program(file: str) -> Path:
             "give the name of an installed program or an absolute path"
         )
     return Path(on_path)
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """End the process group, which may outlive the program that leads it."""
-    with contextlib.suppress(ProcessLookupError):  # the group is gone
-        os.killpg(process.pid, signal.SIGTERM)
-        end = time.monotonic() + _SECONDS_TO_END
-        while time.monotonic() < end:
-            process.poll()  # one that has ended counts until somebody asks how
-            os.killpg(process.pid, 0)
-            time.sleep(0.01)
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
