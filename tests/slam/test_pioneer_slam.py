@@ -32,20 +32,21 @@ class Outcome:
     output: str  # of all nodes
 
 
-Run = Callable[[float], Outcome]
+Run = Callable[..., Outcome]
 
 
 @pytest.fixture
 def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
-    """Explores for some simulated seconds."""
+    """Explores for some simulated seconds; `first` happens before they are counted."""
     launched = []
 
-    def run(seconds: float) -> Outcome:
+    def run(seconds: float, first: Callable[[], None] = lambda: None) -> Outcome:
         log = tmp_path / "launch.log"
         command = ["roslaunch", "bubblesim", "pioneer_slam.launch", "explore:=true", "speed:=2"]
         with log.open("w") as output:
             launched.append(start(command, roscore.env, stdout=output, stderr=subprocess.STDOUT))
         wait_until(lambda: "/explore" in roscore.nodes(), "the nodes", 3 * DEADLINE)
+        first()
         watch = [sys.executable, str(Path(__file__).with_name("watch_mapping.py")), str(seconds), str(tmp_path / "map")]
         watched = subprocess.run(watch, env=roscore.env, capture_output=True, text=True, timeout=1000, check=False)
         assert watched.returncode == 0, watched.stderr + log.read_text()
@@ -88,3 +89,13 @@ def test_five_minutes_map_the_whole_room(explore: Run) -> None:
     assert outcome.comparison.coverage >= 0.95
     assert all(outcome.seen["arrived"])
     assert len(outcome.seen["arrived"]) >= 5
+
+
+@pytest.mark.long
+def test_a_simulation_that_starts_anew_is_mapped_anew(explore: Run, roscore: RosCore) -> None:
+    def start_anew() -> None:
+        roscore.run("rostopic", "echo", "-n", "1", "/go_to/path")  # it is on its way
+        for topic in ("/stopSimulation", "/startSimulation"):
+            roscore.run("rostopic", "pub", "-1", topic, "std_msgs/Bool", "true")
+
+    check(explore(20.0, start_anew))

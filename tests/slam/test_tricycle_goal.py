@@ -8,6 +8,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+import yaml
 
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 
@@ -56,9 +57,9 @@ def test_a_tricycle_comes_to_a_goal_behind_it(arrivals: Path, roscore: RosCore, 
     subprocess.run(goal, env=roscore.env, check=True, timeout=3 * DEADLINE, stdout=subprocess.DEVNULL)
     wait_until(lambda: "data" in arrivals.read_text(), "the end of the drive", 6 * DEADLINE)
     assert "data: True" in arrivals.read_text()
-    pose = roscore.run("rostopic", "echo", "-n", "1", "-p", "/tf/transforms[0]/transform/translation")
-    x, y, _ = map(float, pose.splitlines()[1].split(",")[1:])
-    assert (x, y) == pytest.approx((-3.0, -2.0), abs=0.5)  # it rolls on for a bit
+    told = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
+    place = yaml.safe_load(told)["pose"]["position"]
+    assert (place["x"], place["y"]) == pytest.approx((-3.0, -2.0), abs=0.5)  # it rolls on for a bit
 
 
 def test_the_drawn_room_is_that_of_the_model() -> None:
