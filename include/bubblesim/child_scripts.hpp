@@ -61,6 +61,7 @@ class ChildScripts : public Participant {
   int disabled() const { return disabled_; }
 
  private:
+  friend class Devices;  // which use the same interpreter and bridge
   struct Python;
 
   template <class Action>

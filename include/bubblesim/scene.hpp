@@ -170,6 +170,7 @@ struct PluginParameter {
   std::string name;
   std::string text;
   std::vector<PluginParameter> children;
+  Source source;
 };
 
 /// What a file asks other simulators to load; the core hands it on as it stands.
@@ -186,6 +187,8 @@ struct SensorDescription {
   double update_rate = 0;  ///< Hz; 0 means every pass
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription> kind;
   std::vector<PluginDescription> plugins;
+  std::string topic;  ///< on which it is published; empty: its plugins may publish it
+  std::string frame;  ///< of what is published, its link unless given
   Source source;
 };
 
@@ -252,6 +255,7 @@ struct SceneDescription {
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<PluginDescription> plugins;
+  bool is_model_file = false;  ///< the file holds a model and no world: it was put on a ground plane
   Source source;
 };
 

@@ -31,6 +31,8 @@ class Participant {
   virtual void stop() {}
   /// It starts again.
   virtual void start() {}
+  /// World and sensors were put back to the start.
+  virtual void reset() {}
   /// A model has come into the world; between passes, or while others drain.
   virtual void model_added(World& world, ObjectId model);
   /// A model is about to leave the world; it is still there.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bubblesim/math.hpp"
@@ -52,6 +53,8 @@ class World {
   void check_removable(ObjectId model) const;
   /// Of the model that an object belongs to.
   const ModelDescription& description(ObjectId object) const;
+  /// Throws NoSuchObject for objects of other kinds.
+  const SensorDescription& sensor_description(ObjectId sensor) const;
 
   /// Puts the models that are there now back to where they came into the world: poses, velocities, joint targets and
   /// force limits. What follows equals what follows in a new world of these models, bit by bit. A world that diverged
@@ -83,9 +86,15 @@ class World {
   /// between -pi and pi, unless their limits reach beyond: then whole turns count.
   double joint_position(ObjectId joint, int axis = 0) const;
   double joint_velocity(ObjectId joint, int axis = 0) const;
+  /// The links that a joint connects, the parent first; kNoObject is the world.
+  std::pair<ObjectId, ObjectId> joint_links(ObjectId joint) const;
+  /// How many there are; none of a fixed or ball joint, nor of one that belongs to a static model.
+  int joint_axes(ObjectId joint) const;
   double target_position(ObjectId joint, int axis = 0) const;
   double target_velocity(ObjectId joint, int axis = 0) const;
   double max_force(ObjectId joint, int axis = 0) const;
+  /// Until the world is reset. The targets stay.
+  void set_motor_mode(ObjectId joint, MotorMode mode, int axis = 0);
   /// A target takes effect in the motor's mode: a position in a position-controlled joint, a velocity in the others.
   void set_target_position(ObjectId joint, double position, int axis = 0);
   void set_target_velocity(ObjectId joint, double velocity, int axis = 0);

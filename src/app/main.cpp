@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "bubblesim/child_scripts.hpp"
+#include "bubblesim/devices.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_participant.hpp"
@@ -91,6 +92,11 @@ int run_scene(const Options& options, int& argc, char** argv) {
   ChildScripts scripts(simulation, bridge.get(),
                        {options.child_scripts, options.script_paths, options.lua_unsafe, options.gazebo_compat,
                         options.watch, options.record, options.lockstep});
+  std::unique_ptr<Devices> devices;
+  if (bridge) {
+    devices = std::make_unique<Devices>(simulation, scripts);
+    simulation.add(*devices);
+  }
   simulation.add(scripts);
 
   int exit_code = kFine;

@@ -113,6 +113,17 @@ void bind_scan(py::module_& module) {
       .def_property_readonly(
           "angles", [](const HeldScan& s) { return angles(s->horizontal); }, "Of the samples, radians to the left.")
       .def_property_readonly(
+          "angle_min", [](const HeldScan& s) { return s->horizontal.min; }, "Of the first sample, radians to the left.")
+      .def_property_readonly(
+          "angle_max", [](const HeldScan& s) { return s->horizontal.max; }, "Of the last sample.")
+      .def_property_readonly(
+          "angle_increment",
+          [](const HeldScan& s) {
+            const ScanAngles& angles = s->horizontal;
+            return angles.samples > 1 ? (angles.max - angles.min) / (angles.samples - 1) : 0.0;
+          },
+          "Between samples, radians.")
+      .def_property_readonly(
           "elevations", [](const HeldScan& s) { return angles(s->vertical); }, "Of the rings, radians upwards.")
       .def_property_readonly(
           "min_range", [](const HeldScan& s) { return s->min_range; }, "Metres.")

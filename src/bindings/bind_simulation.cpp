@@ -4,7 +4,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
@@ -95,8 +97,27 @@ std::vector<ObjectView> all_objects(const py::object& simulation) {
   return views;
 }
 
+/// Adds parameters to a plugin, but those that it has.
+void complete(PluginDescription& plugin, const std::map<std::string, std::string>& parameters) {
+  for (const auto& [name, text] : parameters) {
+    const auto is_it = [&name = name](const PluginParameter& parameter) { return parameter.name == name; };
+    if (std::any_of(plugin.parameters.begin(), plugin.parameters.end(), is_it)) continue;
+    plugin.parameters.push_back({name, text, {}, plugin.source});
+  }
+}
+
+void complete_plugins(ModelDescription& model, const std::map<std::string, std::string>& parameters) {
+  for (PluginDescription& plugin : model.plugins) complete(plugin, parameters);
+  for (LinkDescription& link : model.links) {
+    for (SensorDescription& sensor : link.sensors) {
+      for (PluginDescription& plugin : sensor.plugins) complete(plugin, parameters);
+    }
+  }
+}
+
 ObjectView add_model(const py::object& owner, const std::string& text, const std::string& name,
-                     const NumpyArray& position, const NumpyArray& orientation) {
+                     const NumpyArray& position, const NumpyArray& orientation,
+                     const std::map<std::string, std::string>& plugin_parameters) {
   auto& simulation = owner.cast<Simulation&>();
   const Pose pose(to_vector(position, "position"), to_quaternion(orientation, "orientation"));
   ObjectId id = kNoObject;
@@ -104,6 +125,7 @@ ObjectView add_model(const py::object& owner, const std::string& text, const std
     const py::gil_scoped_release others_may_run;
     ModelDescription model = load_model(text, simulation.scene().file.parent_path());
     if (!name.empty()) model.name = name;
+    complete_plugins(model, plugin_parameters);
     model.pose = pose * model.pose;
     id = simulation.add_model(std::move(model));
   }
@@ -179,12 +201,14 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            "by bit.")
       .def("add_model", &add_model, py::arg("text"), py::kw_only(), py::arg("name") = "",
            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("orientation") = py::make_tuple(0, 0, 0, 1),
+           py::arg("plugin_parameters") = py::dict(),
            R"(Adds a model, when `reset_world` may be called, and returns it.
 
 :param text: of an SDFormat or URDF file with one model. Its child script lies in the folder of the scene.
 :param name: instead of the one in the text.
 :param position: m, of the frame in which the text places the model.
 :param orientation: quaternion x, y, z, w of that frame.
+:param plugin_parameters: for its <plugin> elements that do not have them.
 :raises SceneError: with all that is wrong with the model, also when its name is taken.)")
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
            "Removes a model with all that belongs to it, when `reset_world` may be called.\n\n"
@@ -193,6 +217,12 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
+      .def_property_readonly(
+          "is_model_file", [](const Simulation& s) { return s.scene().is_model_file; },
+          "Whether the scene is a single model, put on a ground plane.")
+      .def_property_readonly(
+          "plugins", [](const Simulation& s) { return s.scene().plugins; },
+          "The PluginDescriptions that stand directly in the world.")
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
       .def("start", &Simulation::start, "Asks whoever runs the passes to start, or to go on after a pause.")
       .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")

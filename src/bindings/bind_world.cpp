@@ -31,6 +31,17 @@ Pose7 pose_in(const World& world, ObjectId object, const Pose& frame) {
   return to_list(frame.Inverse() * world.pose(object));
 }
 
+std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
+  switch (world.tree().at(object).kind) {
+    case ObjectKind::kModel:
+      return world.description(object).plugins;
+    case ObjectKind::kSensor:
+      return world.sensor_description(object).plugins;
+    default:
+      return {};
+  }
+}
+
 /// The frame that positions relative to an object refer to: a joint's is the one that moves.
 Pose frame_of(const World& world, ObjectId object) {
   return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_moving_pose(object) : world.pose(object);
@@ -39,6 +50,10 @@ Pose frame_of(const World& world, ObjectId object) {
 }  // namespace
 
 void bind_world(py::module_& module) {
+  py::enum_<MotorMode>(module, "MotorMode", "What the motor of a joint's axis does.")
+      .value("NONE", MotorMode::kNone, "Nothing: the axis is free, but for friction and damping.")
+      .value("VELOCITY", MotorMode::kVelocity)
+      .value("POSITION", MotorMode::kPosition);
   py::class_<World>(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.")
       .def(
           "find",
@@ -54,6 +69,7 @@ void bind_world(py::module_& module) {
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
+      .def("plugins", &plugins, py::arg("handle"), "The PluginDescriptions that stand directly in a model or sensor.")
       .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
       .def(
           "pose_in", [](const World& w, ObjectId id, ObjectId frame) { return pose_in(w, id, frame_of(w, frame)); },
@@ -77,11 +93,20 @@ void bind_world(py::module_& module) {
              const Twist v = w.velocity(id);
              return std::make_pair(to_list(v.linear), to_list(v.angular));
            })
+      .def(
+          "acceleration", [](const World& w, ObjectId id) { return to_list(w.acceleration(id)); },
+          "Of the object's origin, world axes: the mean over the last pass.")
+      .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
+      .def("joint_links", &World::joint_links, py::arg("joint"),
+           "Handles of the links that it connects, the parent first; -1 is the world.")
+      .def("joint_axes", &World::joint_axes, py::arg("joint"), "How many it has.")
       .def("target_position", &World::target_position, py::arg("joint"), py::arg("axis") = 0)
       .def("target_velocity", &World::target_velocity, py::arg("joint"), py::arg("axis") = 0)
       .def("max_force", &World::max_force, py::arg("joint"), py::arg("axis") = 0)
+      .def("set_motor_mode", &World::set_motor_mode, py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
+           "A MotorMode, until the world is reset.")
       .def("set_target_position", &World::set_target_position, py::arg("joint"), py::arg("position"),
            py::arg("axis") = 0)
       .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),

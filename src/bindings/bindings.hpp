@@ -11,6 +11,7 @@ void bind_added_types(pybind11::module_& messages);
 void bind_bridge(pybind11::module_& core);
 void bind_simulation(pybind11::module_& core);
 void bind_objects(pybind11::module_& core);
+void bind_plugins(pybind11::module_& core);
 void bind_world(pybind11::module_& core);
 void bind_sensors(pybind11::module_& core);
 

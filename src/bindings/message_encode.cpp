@@ -58,6 +58,7 @@ class Encoder {
   bool field(const Field& field, PyObject* value) {
     if (field.array == ArrayKind::kNone) return element(field, value);
     if (is_number(field.kind)) return encode_numbers(field, value, out_, failure);
+    if (is_table_of(field, value)) return encode_table(field, value, out_, failure);
     const Ref held = Ref::borrow(value);
     const Ref items = as_items(field, value, failure);
     if (!items) return false;

@@ -6,6 +6,7 @@ PYBIND11_MODULE(_core, core) {
   core.doc() = "The compiled part of bubblesim.";
   bind_messages(core);
   bind_bridge(core);
+  bind_plugins(core);
   bind_world(core);
   bind_sensors(core);
   bind_objects(core);

@@ -4,11 +4,13 @@
 
 #include <numpy/arrayobject.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "python_values.hpp"
 
@@ -226,6 +228,28 @@ bool encode_numbers(const Field& field, PyObject* value, WireBuffer& out, Conver
   return items && with_type(field.kind, [&](auto element) {
            return encode_items<decltype(element)>(field, items.get(), out, failure);
          });
+}
+
+bool is_table_of(const Field& field, PyObject* value) {
+  if (field.kind != FieldKind::kMessage || !PyArray_Check(value)) return false;
+  auto* array = reinterpret_cast<PyArrayObject*>(value);
+  const std::vector<Field>& columns = field.message->fields;
+  const auto fits = [&columns](const Field& column) {
+    return column.kind == columns[0].kind && column.array == ArrayKind::kNone && is_number(column.kind);
+  };
+  return PyArray_NDIM(array) == 2 && !columns.empty() &&
+         static_cast<std::size_t>(PyArray_DIM(array, 1)) == columns.size() &&
+         std::all_of(columns.begin(), columns.end(), fits);
+}
+
+bool encode_table(const Field& field, PyObject* value, WireBuffer& out, ConversionFailure& failure) {
+  auto* array = reinterpret_cast<PyArrayObject*>(value);
+  if (!begin_array(field, static_cast<std::size_t>(PyArray_DIM(array, 0)), out, failure)) return false;
+  Field numbers;  // of a known length, which is not written
+  numbers.kind = field.message->fields[0].kind;
+  numbers.array = ArrayKind::kFixed;
+  numbers.fixed_length = static_cast<std::uint32_t>(PyArray_SIZE(array));
+  return encode_array(numbers, array, out, failure);
 }
 
 PyObject* decode_numbers(FieldKind kind, const std::uint8_t* bytes, std::size_t count) {

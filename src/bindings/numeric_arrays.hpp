@@ -31,6 +31,11 @@ Ref as_items(const messages::Field& field, PyObject* value, ConversionFailure& f
 bool encode_numbers(const messages::Field& field, PyObject* value, messages::WireBuffer& out,
                     ConversionFailure& failure);
 
+/// Whether `value` is a numpy array of n x k, for an array of messages that are k numbers of one kind as Point32 is.
+bool is_table_of(const messages::Field& field, PyObject* value);
+/// Writes its rows as n messages. False: described in `failure`, or a Python exception is set.
+bool encode_table(const messages::Field& field, PyObject* value, messages::WireBuffer& out, ConversionFailure& failure);
+
 /// `count` elements at `bytes` as a new bytes (uint8) or numpy array. nullptr: memory is out.
 PyObject* decode_numbers(messages::FieldKind kind, const std::uint8_t* bytes, std::size_t count);
 

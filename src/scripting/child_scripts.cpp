@@ -6,11 +6,11 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "interpreter.hpp"
+#include "child_scripts_python.hpp"
+#include "python_call.hpp"
 
 namespace bubblesim {
 namespace {
@@ -38,30 +38,12 @@ std::vector<std::pair<std::string, std::filesystem::path>> scripts_to_run(const 
   return scripts;
 }
 
-/// Takes the GIL and calls. A Python exception, which must not outlive the interpreter, becomes a plain one.
 template <class Action>
-auto with_python(Action action) {
-  const py::gil_scoped_acquire gil;
-  try {
-    return action();
-  } catch (const py::error_already_set& error) {
-    throw std::runtime_error(std::string("the script host failed: ") + error.what());
-  }
+void with_python(Action action) {
+  scripting::with_python("the script host", action);
 }
 
 }  // namespace
-
-struct ChildScripts::Python {
-  scripting::Interpreter interpreter;
-  py::object host;
-  py::object drain;    // none without a bridge
-  py::object publish;  // nor these
-  py::object close;
-  py::object actuate;
-  py::object sense;
-  py::object finish;
-  bool finished = false;
-};
 
 /// As with_python(), and remembers how many scripts have failed.
 template <class Action>

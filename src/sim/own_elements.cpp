@@ -24,6 +24,8 @@ const std::vector<OwnElement>& own_elements() {
       {"bubblesim:motor", {"axis", "axis2"}},            // velocity or position
       {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder
       {"bubblesim:antialias", {"camera"}},               // true or false
+      {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic
+      {"bubblesim:frame", {"sensor"}},                   // frame_id of what is published there
       {"bubblesim:checker_size", {"material"}},          // metres
       {"bubblesim:checker_color", {"material"}},         // red, green and blue
   };

@@ -43,6 +43,7 @@ class SceneLoader {
         reading_.report(source_of(root.WorldByIndex(1)->Element()), "", "a scene is one <world>: take the others out");
       }
     } else if (root.Model() != nullptr) {
+      scene.is_model_file = true;
       if (root.Model()->Name() != kGroundPlane) scene.models.push_back(ground_plane());
       scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose(), reading_));
     } else if (problems_.empty()) {

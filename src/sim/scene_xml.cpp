@@ -22,17 +22,27 @@ void visit(const tinyxml2::XMLElement& element, const Visitor& visitor) {
   }
 }
 
-/// The way from the root to an element, by tags and names: the same in the XML and in SDFormat's tree.
+constexpr std::string_view kPlugin = "plugin";
+
+/// The way from the root to an element, by tags and names: the same in the XML and in SDFormat's tree. That to a plugin
+/// and into it begins there, so that it is the same in URDF.
 std::string place(const tinyxml2::XMLElement& element) {
   const auto* parent = element.Parent() != nullptr ? element.Parent()->ToElement() : nullptr;
   const char* name = element.Attribute("name");
-  return (parent != nullptr ? place(*parent) : "") + "/" + element.Name() + ":" + (name != nullptr ? name : "");
+  return (parent != nullptr && element.Name() != kPlugin ? place(*parent) : "") + "/" + element.Name() + ":" +
+         (name != nullptr ? name : "");
 }
 
 std::string place(const sdf::ElementPtr& element) {
   const sdf::ElementPtr parent = element->GetParent();
   const std::string name = element->GetAttributeSet("name") ? element->GetAttribute("name")->GetAsString() : "";
-  return (parent != nullptr ? place(parent) : "") + "/" + element->GetName() + ":" + name;
+  return (parent != nullptr && element->GetName() != kPlugin ? place(parent) : "") + "/" + element->GetName() + ":" +
+         name;
+}
+
+/// SDFormat does not know the lines of elements that it does not know, nor those of URDF.
+bool needs_line(const std::string& name, const std::string& place) {
+  return is_own_element(name) || place.rfind("/" + std::string(kPlugin) + ":", 0) == 0;
 }
 
 /// `/Model/joint` from the names of an element and its ancestors.
@@ -79,13 +89,16 @@ void SceneXml::check(tinyxml2::XMLError result) const {
 void SceneXml::place_elements(const sdf::ElementPtr& root) const {
   std::multimap<std::string, int> lines;
   visit(*document_.RootElement(), [&lines](const tinyxml2::XMLElement& element) {
-    if (is_own_element(element.Name())) lines.emplace(place(element), element.GetLineNum());
+    const std::string where = place(element);
+    if (needs_line(element.Name(), where)) lines.emplace(where, element.GetLineNum());
   });
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
-    if (element->FilePath().empty()) element->SetFilePath(file_);
-    if (is_own_element(element->GetName())) {
-      const auto found = lines.find(place(element));
-      if (found != lines.end()) {
+    // SDFormat does not name the file when it has converted URDF.
+    if (element->FilePath().empty() || element->FilePath() == "urdf file") element->SetFilePath(file_);
+    const std::string where = place(element);
+    if (element->FilePath() == file_ && needs_line(element->GetName(), where)) {
+      const auto found = lines.lower_bound(where);
+      if (found != lines.end() && found->first == where) {
         element->SetLineNumber(found->second);
         lines.erase(found);
       }

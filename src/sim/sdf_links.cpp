@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "meshes/mesh_error.hpp"
+#include "own_elements.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_sensors.hpp"
@@ -86,6 +87,8 @@ std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const st
   description.pose = reading.resolved(sensor, path);
   description.update_rate = sensor.UpdateRate();
   description.plugins = read_plugins(sensor.Element());
+  description.topic = own_text(sensor.Element(), "bubblesim:topic").value_or("");
+  description.frame = own_text(sensor.Element(), "bubblesim:frame").value_or("");
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));
   };

@@ -15,6 +15,7 @@ std::vector<PluginParameter> read_parameters(const sdf::ElementPtr& element) {
     parameter.name = child->GetName();
     if (child->GetValue() != nullptr) parameter.text = child->GetValue()->GetAsString();
     parameter.children = read_parameters(child);
+    parameter.source = source_of(child);
     parameters.push_back(std::move(parameter));
   }
   return parameters;

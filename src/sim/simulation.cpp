@@ -117,6 +117,7 @@ void Simulation::reset_world() {
     sensors_[i].due = before[i].due;
     sensors_[i].wanted = before[i].wanted;
   }
+  for (Participant* participant : participants_) participant->reset();
 }
 
 void Simulation::reset() {
@@ -124,6 +125,7 @@ void Simulation::reset() {
   world_.reset();
   make_all_sensors();
   passes_ = 0;
+  for (Participant* participant : participants_) participant->reset();
 }
 
 ObjectId Simulation::add_model(ModelDescription model) {

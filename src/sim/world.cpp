@@ -4,6 +4,8 @@
 #include "bubblesim/world.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "bubblesim/error.hpp"
@@ -109,6 +111,19 @@ void World::remove_model(ObjectId model) {
 }
 
 const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }
+
+const SensorDescription& World::sensor_description(ObjectId sensor) const {
+  const Object& object = state_->tree.at(sensor);
+  if (object.kind != ObjectKind::kSensor) {
+    throw NoSuchObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
+  }
+  std::size_t before = 0;  // sensors of the links before
+  for (const LinkDescription& link : state_->model_of(sensor).description.links) {
+    if (object.index < before + link.sensors.size()) return link.sensors[object.index - before];
+    before += link.sensors.size();
+  }
+  throw std::logic_error("a sensor without a description");
+}
 
 const SceneTree& World::tree() const { return state_->tree; }
 

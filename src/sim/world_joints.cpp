@@ -61,6 +61,16 @@ double World::joint_velocity(ObjectId joint, int axis) const {
   return found.joint.velocity(found.index);
 }
 
+std::pair<ObjectId, ObjectId> World::joint_links(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return {placed.parent, placed.child};
+}
+
+int World::joint_axes(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return placed.joint == nullptr ? 0 : placed.joint->axis_count();
+}
+
 double World::target_position(ObjectId joint, int axis) const {
   const JointAxis found = joint_axis(*state_, joint, axis);
   return found.joint.target_position(found.index);
@@ -74,6 +84,11 @@ double World::target_velocity(ObjectId joint, int axis) const {
 double World::max_force(ObjectId joint, int axis) const {
   const JointAxis found = joint_axis(*state_, joint, axis);
   return found.joint.axis(found.index).max_force;
+}
+
+void World::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  found.joint.set_motor_mode(found.index, mode);
 }
 
 void World::set_target_position(ObjectId joint, double position, int axis) {

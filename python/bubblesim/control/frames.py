@@ -25,7 +25,7 @@ def state_in(world: Any, handle: int, reference: int | None) -> tuple[list[float
     carried = _cross(frame_angular, _difference(pose[:3], frame[:3]))
     relative = _difference(_difference(linear, frame_linear), carried)
     turning = _difference(angular, frame_angular)
-    return world.pose_in(handle, reference), _into(frame, relative), _into(frame, turning)
+    return world.pose_in(handle, reference), into(frame, relative), into(frame, turning)
 
 
 def state_from(
@@ -38,8 +38,8 @@ def state_from(
     frame_linear, frame_angular = world.velocity(reference)
     placed: list[float] = world.pose_from(pose, reference)
     carried = _cross(frame_angular, _difference(placed[:3], frame[:3]))
-    moving = _sum(_sum(frame_linear, carried), _out_of(frame, linear))
-    return placed, moving, _sum(frame_angular, _out_of(frame, angular))
+    moving = _sum(_sum(frame_linear, carried), out_of(frame, linear))
+    return placed, moving, _sum(frame_angular, out_of(frame, angular))
 
 
 def _sum(a: Sequence[float], b: Sequence[float]) -> Vector:
@@ -54,13 +54,13 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> Vector:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def _into(frame: Sequence[float], vector: Sequence[float]) -> Vector:
+def into(frame: Sequence[float], vector: Sequence[float]) -> Vector:
     """A vector in world axes as one in the axes of a frame."""
     columns = zip(*matrix(frame[3:]), strict=True)
     return [sum(x * y for x, y in zip(column, vector, strict=True)) for column in columns]
 
 
-def _out_of(frame: Sequence[float], vector: Sequence[float]) -> Vector:
+def out_of(frame: Sequence[float], vector: Sequence[float]) -> Vector:
     """A vector in the axes of a frame as one in world axes."""
     return [sum(x * y for x, y in zip(row, vector, strict=True)) for row in matrix(frame[3:])]
 

@@ -53,8 +53,13 @@ class GazeboServices:
         frame = find_frame(self._world, request["reference_frame"])
         if frame is not None:
             pose = self._world.pose_from(pose, frame)
+        namespace = request["robot_namespace"]
         self._simulation.add_model(
-            request["model_xml"], name=request["model_name"], position=pose[:3], orientation=pose[3:]
+            request["model_xml"],
+            name=request["model_name"],
+            position=pose[:3],
+            orientation=pose[3:],
+            plugin_parameters={"robotNamespace": namespace} if namespace else {},
         )
         return {"status_message": "SpawnModel: Successfully spawned entity"}
 

@@ -36,9 +36,13 @@ class Observer(Protocol):
 class ObservedBridge:
     """As the bridge that it stands before; see ``bubblesim._core.Bridge``."""
 
-    def __init__(self, bridge: Any, observers: list[Observer]) -> None:
-        """Nothing was published yet."""
+    def __init__(self, bridge: Any, observers: list[Observer], *, keeps_all: bool = False) -> None:
+        """Nothing was published yet.
+
+        :param keeps_all: also what nobody hears is of use.
+        """
         self.observers = observers
+        self.keeps_all = keeps_all
         self._bridge = bridge
         self._published: dict[int, tuple[str, str]] = {}  # topic and type by publisher
 
@@ -90,4 +94,4 @@ def observed(bridge: Any, simulation: Any, record: str, lockstep: list[str]) -> 
         observers.append(BagRecorder(Path(record), bridge))
     if lockstep:
         observers.append(LockStep(lockstep, bridge, simulation))
-    return ObservedBridge(bridge, observers)
+    return ObservedBridge(bridge, observers, keeps_all=bool(record))

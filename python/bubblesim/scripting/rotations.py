@@ -40,6 +40,15 @@ def quaternion_of_euler(angles: Sequence[float]) -> list[float]:
     return product(product(about_x, about_y), about_z)
 
 
+def quaternion_of_rpy(angles: Sequence[float]) -> list[float]:
+    """Of roll, pitch and yaw as URDF and SDFormat have them: Rz(yaw) Ry(pitch) Rx(roll)."""
+    roll, pitch, yaw = (angle / 2 for angle in angles)
+    about_x = [math.sin(roll), 0.0, 0.0, math.cos(roll)]
+    about_y = [0.0, math.sin(pitch), 0.0, math.cos(pitch)]
+    about_z = [0.0, 0.0, math.sin(yaw), math.cos(yaw)]
+    return product(about_z, product(about_y, about_x))
+
+
 def product(a: Sequence[float], b: Sequence[float]) -> list[float]:
     """The rotation b followed by a."""
     ax, ay, az, aw = a

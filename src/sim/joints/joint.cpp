@@ -68,6 +68,15 @@ void Joint::apply_motor(int index) {
   }
 }
 
+void Joint::set_motor_mode(int axis, MotorMode mode) {
+  AxisDescription& description = axes_[static_cast<std::size_t>(axis)].description;
+  description.motor = mode;
+  busy_.erase(std::remove(busy_.begin(), busy_.end(), axis), busy_.end());
+  if (needs_driving(description)) busy_.push_back(axis);
+  set_motor(axis, dParamCFM, 0);  // which a damped axis without a motor has
+  apply_motor(axis);
+}
+
 void Joint::set_target_position(int axis, double position) {
   axes_[static_cast<std::size_t>(axis)].target_position = position;
 }

@@ -34,6 +34,7 @@ class Joint {
 
   double target_position(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_position; }
   double target_velocity(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_velocity; }
+  void set_motor_mode(int axis, MotorMode mode);
   void set_target_position(int axis, double position);
   void set_target_velocity(int axis, double velocity);
   void set_max_force(int axis, double force);

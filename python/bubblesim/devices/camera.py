@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_camera: a camera's pictures and optics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim._core import read_camera
+from bubblesim.devices.camera_info import CameraInfo
+from bubblesim.devices.device import Device, Message, Place
+from bubblesim.devices.readings import NewReadings
+from bubblesim.scripting.image_codec import COMPRESSIONS, compress
+
+_QUEUE_SIZE = 2
+
+
+class Camera(Device):
+    """Parameters, topics and defaults are those of gazebo_ros_pkgs; a compressed topic lies below the picture's."""
+
+    image_topic = "image_raw"
+    info_topic = "camera_info"
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self.frame_id = self.frame(p.text("frameName", "/world"))
+        self._info = CameraInfo(p)
+        self._images = NewReadings(self, read_camera, p.number("updateRate", 0.0, least=0.0))
+        image = self.below_camera(p.text("imageTopicName", self.image_topic))
+        info = self.below_camera(p.text("cameraInfoTopicName", self.info_topic))
+        p.check()
+        self._image = self.advertise(image, "sensor_msgs/Image", _QUEUE_SIZE)
+        self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
+        self._infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
+        self._publishers = [self._image, self._compressed, *self._infos]
+
+    def below_camera(self, name: str) -> str:
+        """A topic in the namespace that the camera's name makes."""
+        camera = self.parameters.text("cameraName", "").strip("/")
+        return name if name.startswith("/") or not camera else f"{camera}/{name}"
+
+    def advertise_more(self, topic: str, message_type: str) -> int:
+        """A further topic of the same camera, listeners to which have it measure."""
+        publisher = self.advertise(self.below_camera(topic), message_type, _QUEUE_SIZE)
+        self._publishers.append(publisher)
+        return publisher
+
+    def advertise_more_infos(self, topic: str) -> None:
+        """A further topic that tells of the optics."""
+        self._infos.append(self.advertise_more(topic, "sensor_msgs/CameraInfo"))
+
+    def reset(self) -> None:
+        """Start over."""
+        self._images.reset()
+
+    def publish(self) -> None:
+        """Tell a new picture, and with it the optics."""
+        if any(map(self.wanted, self._publishers)) and (image := self._images.take()):
+            self.tell(image, self.header(self.frame_id))
+
+    def tell(self, image: Any, header: Message) -> None:
+        """Publish what somebody listens to."""
+        height, width = image.depth.shape
+        if image.rgb is not None:
+            if self.wanted(self._image):
+                self.bridge.publish(self._image, {"header": header, **image_message(image.rgb, "rgb8")})
+            if self.wanted(self._compressed):
+                data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
+                message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
+                self.bridge.publish(self._compressed, message)
+        listening = [publisher for publisher in self._infos if self.wanted(publisher)]
+        if listening:
+            info = {"header": header, **self._info.message(width, height, image.horizontal_fov)}
+            for publisher in listening:
+                self.bridge.publish(publisher, info)
+
+
+def image_message(pixels: Any, encoding: str) -> Message:
+    """A sensor_msgs/Image without its header, of an array of rows, which is copied once, into the message."""
+    height, width = pixels.shape[:2]
+    return {
+        "height": height,
+        "width": width,
+        "encoding": encoding,
+        "is_bigendian": 0,
+        "step": pixels.nbytes // height,
+        "data": pixels.view("u1") if pixels.dtype != "u1" else pixels,
+    }

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_imu_sensor, of an IMU sensor, and gazebo_ros_imu, of a link."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bubblesim._core import read_imu
+from bubblesim.control.frames import into, vector_message
+from bubblesim.devices.device import Device, Message, Place
+from bubblesim.devices.noise import Noise
+from bubblesim.devices.rate import Rate
+from bubblesim.devices.readings import NewReadings
+from bubblesim.scripting.rotations import product, quaternion_of_rpy
+
+
+class ImuSensor(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; the sensor's own noise comes first."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace(of_model=True)
+        if p.given("frameName") is None:
+            raise p.fail("frameName", "is missing")
+        self._frame = p.text("frameName", "")
+        self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
+        p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
+        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._readings.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell a new reading."""
+        if not (self.wanted(self._publisher) and (reading := self._readings.take())):
+            return
+        orientation = product(self._turn, reading.orientation.tolist())
+        message = imu_message(
+            orientation, reading.angular_velocity.tolist(), reading.linear_acceleration.tolist(), self._noise
+        )
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+
+
+class LinkImu(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs, what is measured is that of REP 145: g upwards at rest."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._link = self.link("bodyName", "")
+        self._frame = p.text("frameName", self.world.name(self._link))
+        self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
+        p.ignore("xyzOffset")
+        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        service = self.topic(p.text("serviceName", "/default_imu"))
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "/default_imu"), "sensor_msgs/Imu", 1)
+        self.offer(service, "std_srvs/Empty", lambda _: None)  # calibrates, in other drivers
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell how the link moves."""
+        if not (self.wanted(self._publisher) and self._rate.due(self.simulation.time)):
+            return
+        pose = self.world.pose(self._link)
+        pose[3:] = product(self._turn, pose[3:])
+        _, angular = self.world.velocity(self._link)
+        force = [a - g for a, g in zip(self.world.acceleration(self._link), self.world.gravity, strict=True)]
+        message = imu_message(pose[3:], into(pose, angular), into(pose, force), self._noise)
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+
+
+def imu_message(
+    orientation: Sequence[float], angular: Sequence[float], linear: Sequence[float], noise: Noise
+) -> Message:
+    """A sensor_msgs/Imu without its header."""
+    covariance = noise.covariance(3)
+    return {
+        "orientation": dict(zip("xyzw", orientation, strict=True)),
+        "orientation_covariance": covariance,
+        "angular_velocity": vector_message(noise.on(angular)),
+        "angular_velocity_covariance": covariance,
+        "linear_acceleration": vector_message(noise.on(linear)),
+        "linear_acceleration_covariance": covariance,
+    }

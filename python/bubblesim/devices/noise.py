@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Gaussian noise that plugins add by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bubblesim.devices.device import Device
+
+
+class Noise:
+    """Follows from the simulation's seed and the device's place alone: equal after each reset."""
+
+    def __init__(self, device: Device, deviation: float) -> None:
+        """``deviation``: standard deviation, in the unit of what it is added to."""
+        self._seed = [device.simulation.seed, device.place.owner]
+        self._deviation = deviation
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin again."""
+        self._random = np.random.default_rng(self._seed)
+
+    def on(self, values: Sequence[float]) -> list[float]:
+        """The values with noise."""
+        if self._deviation == 0.0:
+            return list(values)
+        return [value + float(self._random.normal(0.0, self._deviation)) for value in values]
+
+    def covariance(self, size: int) -> list[float]:
+        """The matrix of size x size that belongs to it."""
+        variance = self._deviation**2
+        return [variance if row == column else 0.0 for row in range(size) for column in range(size)]

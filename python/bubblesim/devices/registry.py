@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which plugin is which device."""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePosixPath
+
+from bubblesim.devices.block_laser import BlockLaser, VelodyneLaser
+from bubblesim.devices.camera import Camera
+from bubblesim.devices.depth_camera import DepthCamera, OpenniKinect
+from bubblesim.devices.device import Device
+from bubblesim.devices.diff_drive import DiffDrive
+from bubblesim.devices.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
+from bubblesim.devices.gps import Gps
+from bubblesim.devices.imu import ImuSensor, LinkImu
+from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.devices.laser import Laser
+from bubblesim.devices.p3d import P3D
+from bubblesim.devices.range import Range
+from bubblesim.devices.skid_steer_drive import SkidSteerDrive
+from bubblesim.devices.tricycle_drive import TricycleDrive
+from bubblesim.messages.names import did_you_mean, nearest_names
+
+# By the name of the library as ``library`` tells it.
+DEVICES: dict[str, type[Device]] = {
+    "DiffDrivePlugin": GazeboDiffDrive,
+    "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
+    "gazebo_ros_block_laser": BlockLaser,
+    "gazebo_ros_camera": Camera,
+    "gazebo_ros_depth_camera": DepthCamera,
+    "gazebo_ros_diff_drive": DiffDrive,
+    "gazebo_ros_gpu_laser": Laser,
+    "gazebo_ros_imu": LinkImu,
+    "gazebo_ros_imu_sensor": ImuSensor,
+    "gazebo_ros_joint_state_publisher": JointStatePublisher,
+    "gazebo_ros_laser": Laser,
+    "gazebo_ros_openni_kinect": OpenniKinect,
+    "gazebo_ros_p3d": P3D,
+    "gazebo_ros_range": Range,
+    "gazebo_ros_skid_steer_drive": SkidSteerDrive,
+    "gazebo_ros_tricycle_drive": TricycleDrive,
+    "hector_gazebo_ros_gps": Gps,
+    "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
+    "gazebo_ros_velodyne_laser": VelodyneLaser,
+    "gz-joint-state-publisher-system": GzJointStatePublisher,
+}
+
+# What is a part of the simulator here, or shows something in a window.
+NOT_NEEDED = frozenset(
+    {
+        "gazebo_ros_api_plugin",
+        "gazebo_ros_paths_plugin",
+        "gazebo_ros_init",
+        "gazebo_ros_factory",
+        "RayPlugin",
+        "CameraPlugin",
+        "DepthCameraPlugin",
+        "ImuSensorPlugin",
+        "ContactPlugin",
+        "gz-physics-system",
+        "gz-sensors-system",
+        "gz-scene-broadcaster-system",
+        "gz-user-commands-system",
+        "gz-contact-system",
+        "gz-imu-system",
+        "gz-forcetorque-system",
+        "gz-navsat-system",
+    }
+)
+
+# Why others have no device, and what to do instead.
+REASONS = {
+    "gazebo_ros_control": "there is no ros_control here: joints are driven by the drives' plugins, by child scripts "
+    "(sim.setJointTargetVelocity) or by topics that a child script subscribes to",
+}
+
+
+def library(filename: str) -> str:
+    """The library of a file name without what differs between systems and versions.
+
+    libgazebo_ros_laser.so -> gazebo_ros_laser; libignition-gazebo6-diff-drive-system.so -> gz-diff-drive-system
+    """
+    name = PurePosixPath(filename).name.removesuffix(".so").removeprefix("lib")
+    return re.sub(r"^(?:ignition-gazebo|gz-sim)\d*-", "gz-", name)
+
+
+def why_unknown(name: str) -> str:
+    """What to tell about a library that has no device."""
+    if name in REASONS:
+        return REASONS[name]
+    return f"there is no device for it{did_you_mean(nearest_names(name, sorted(DEVICES)))}; the model runs without it"

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The devices of all models, in the phases of a pass."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from bubblesim.devices.device import Device, PassTime, Place
+from bubblesim.devices.parameters import ParameterError, Parameters, where
+from bubblesim.devices.registry import DEVICES, NOT_NEEDED, library, why_unknown
+from bubblesim.devices.transforms import Transforms
+from bubblesim.scripting.output import write_line
+
+
+class Devices:
+    """Made by the simulator's node, which calls ``actuate`` and ``publish`` in every pass and tells of models."""
+
+    def __init__(self, simulation: Any, bridge: Any) -> None:
+        """Make the devices of the models that are there."""
+        self._simulation = simulation
+        self._bridge = bridge
+        self._pass_time = PassTime(bridge)
+        self._transforms = Transforms(bridge)
+        self._devices: list[Device] = []
+        self._warned: set[tuple[str, str, int]] = set()  # of several like models one is told of
+        for plugin in simulation.plugins:
+            self._look_for_device(plugin)
+        # A robot's file on its own is taken as gazebo_ros spawns it, with its topics at the root.
+        namespace = "" if simulation.is_model_file else None
+        for model in simulation.world.models:
+            self.add_model(model, namespace)
+
+    def add_model(self, model: int, namespace: str | None = None) -> None:
+        """Make the devices of a model that has come into the world, in a namespace if not each has its own."""
+        for owner, plugin in self._plugins_below(model):
+            kind = self._look_for_device(plugin)
+            if kind is not None:
+                self._make(kind, plugin, owner, model, namespace)
+
+    def remove_model(self, model: int) -> None:
+        """Close the devices of a model that is about to leave the world."""
+        leaving = [device for device in self._devices if device.place.model == model]
+        self._devices = [device for device in self._devices if device.place.model != model]
+        for device in leaving:
+            device.close()
+
+    def reset(self) -> None:
+        """The world was put back to its start."""
+        self._each("reset")
+
+    def actuate(self) -> None:
+        """Have all devices command their joints."""
+        self._each("actuate")
+
+    def publish(self) -> None:
+        """Have all devices tell what they measure."""
+        self._pass_time.begin_pass()
+        self._each("publish")
+        self._transforms.publish()
+
+    def _plugins_below(self, handle: int) -> Iterator[tuple[int, Any]]:
+        for plugin in self._simulation.world.plugins(handle):
+            yield handle, plugin
+        for child in self._simulation.world.children(handle):
+            yield from self._plugins_below(child)
+
+    def _look_for_device(self, plugin: Any) -> type[Device] | None:
+        name = library(plugin.filename)
+        if name not in DEVICES and name not in NOT_NEEDED:
+            self._warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}): {why_unknown(name)}")
+        return DEVICES.get(name)
+
+    def _make(self, kind: type[Device], plugin: Any, owner: int, model: int, namespace: str | None) -> None:
+        parameters = Parameters(plugin)
+        outside = self._bridge, self._pass_time, self._transforms
+        place = Place(self._simulation, *outside, owner, model, parameters, namespace)
+        try:
+            device = kind(place)
+            device.reset()
+        except (ValueError, LookupError, RuntimeError) as error:
+            place.close()
+            text = f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}"
+            write_line(sys.stderr, "\n".join(f"error: {line}" for line in text.splitlines()))
+            return
+        self._devices.append(device)
+        for hint in parameters.hints:
+            write_line(sys.stderr, f"warning: {hint}")
+        if unused := parameters.unused():
+            self._warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}) has no parameters {', '.join(unused)}")
+
+    def _warn(self, plugin: Any, text: str) -> None:
+        key = (text, plugin.file, plugin.line)
+        if key not in self._warned:
+            self._warned.add(key)
+            write_line(sys.stderr, f"warning: {where(plugin)}: {text}")
+
+    def _each(self, phase: str) -> None:
+        for device in list(self._devices):
+            try:
+                getattr(device, phase)()
+            except (ValueError, LookupError, RuntimeError) as error:  # one device must not end the others
+                write_line(sys.stderr, f"error: {device.parameters.title} failed in {phase} and is off: {error}")
+                self._devices.remove(device)
+                device.close()

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What devices tell on /tf, in one message a pass."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+_QUEUE_SIZE = 100
+
+
+class Transforms:
+    """Gathers transforms; the topic is there from the first one on."""
+
+    def __init__(self, bridge: Any) -> None:
+        """Use this bridge."""
+        self._bridge = bridge
+        self._publisher: int | None = None
+        self._waiting: list[dict[str, Any]] = []
+
+    def add(self, header: dict[str, Any], child: str, pose: Sequence[float]) -> None:
+        """Pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
+        x, y, z, qx, qy, qz, qw = pose
+        self._waiting.append(
+            {
+                "header": header,
+                "child_frame_id": child,
+                "transform": {
+                    "translation": {"x": x, "y": y, "z": z},
+                    "rotation": {"x": qx, "y": qy, "z": qz, "w": qw},
+                },
+            }
+        )
+
+    def publish(self) -> None:
+        """Send those of this pass."""
+        if not self._waiting:
+            return
+        if self._publisher is None:
+            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
+        self._bridge.publish(self._publisher, {"transforms": self._waiting})
+        self._waiting = []

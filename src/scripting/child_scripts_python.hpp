@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What ChildScripts holds of Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "bubblesim/child_scripts.hpp"
+#include "interpreter.hpp"
+
+namespace bubblesim {
+
+struct ChildScripts::Python {
+  scripting::Interpreter interpreter;
+  pybind11::object host;
+  pybind11::object drain;    // none without a bridge
+  pybind11::object publish;  // nor these
+  pybind11::object close;
+  pybind11::object actuate;
+  pybind11::object sense;
+  pybind11::object finish;
+  bool finished = false;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How C++ calls what the simulator has in Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace bubblesim::scripting {
+
+/// Takes the GIL and calls. A Python exception, which must not outlive the interpreter, becomes a plain one.
+template <class Action>
+auto with_python(const char* whose, Action action) {
+  const pybind11::gil_scoped_acquire gil;
+  try {
+    return action();
+  } catch (const pybind11::error_already_set& error) {
+    throw std::runtime_error(std::string(whose) + " failed: " + error.what());
+  }
+}
+
+}  // namespace bubblesim::scripting

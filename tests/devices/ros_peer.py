@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rospy node at the other end of a robot's topics, in a process of its own."""
+
+import base64
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from ros_support import DEADLINE, RosCore, start, stop, wait_until
+
+Message = dict[str, Any]
+
+
+class Peer:
+    """Says and hears messages as dicts; bytes are bytes."""
+
+    def __init__(self, core: RosCore, log: Path) -> None:
+        self._log = log
+        self._read = 0
+        self._heard: dict[str, list[Message]] = {}
+        self._subscribed = {"response"}
+        with log.open("w") as output:
+            self._process = start(
+                [sys.executable, "-u", str(Path(__file__).with_name("ros_peer_node.py"))],
+                core.env,
+                stdin=subprocess.PIPE,
+                stdout=output,
+            )
+
+    def say(self, topic: str, message_type: str, message: Message) -> None:
+        """Publishes once the topic has a subscriber."""
+        self._send(do="say", topic=topic, type=message_type, message=message)
+
+    def drive(self, topic: str, forward: float, turning: float) -> None:
+        self.say(topic, "geometry_msgs/Twist", {"linear": {"x": forward}, "angular": {"z": turning}})
+
+    def heard(self, topic: str, message_type: str = "") -> list[Message]:
+        """All messages since the topic was first asked for, which has to name its type."""
+        if topic not in self._subscribed:
+            self._subscribed.add(topic)
+            self._send(do="hear", topic=topic, type=message_type)
+        self._take_in()
+        return self._heard.setdefault(topic, [])
+
+    def next(self, topic: str, message_type: str = "", *, count: int = 1) -> Message:
+        """The count-th message after those heard so far."""
+        before = len(self.heard(topic, message_type))
+        wait_until(lambda: len(self.heard(topic)) >= before + count, f"{topic}, {count} times")
+        return self.heard(topic)[-1]
+
+    def wait_for(self, topic: str, message_type: str, holds: Callable[[Message], bool], what: str) -> Message:
+        """The first message from now on of which `holds` is true."""
+        before = len(self.heard(topic, message_type))
+        found: list[Message] = []
+
+        def look() -> bool:
+            found.extend(message for message in self.heard(topic)[before:] if holds(message))
+            return bool(found)
+
+        wait_until(look, what, 3 * DEADLINE)
+        return found[0]
+
+    def call(self, service: str, **request: Any) -> Message:
+        """The response of a service, when it is there."""
+        number = len(self._heard.setdefault("response", []))
+        self._send(do="call", topic=service, request=request)
+        wait_until(lambda: len(self.heard("response")) > number, f"a response of {service}")
+        return self._heard["response"][number]
+
+    def _send(self, **command: Any) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps(command) + "\n")
+        self._process.stdin.flush()
+
+    def _take_in(self) -> None:
+        with self._log.open("rb") as log:
+            log.seek(self._read)
+            for line in log:
+                if not line.endswith(b"\n"):
+                    break  # not written to its end yet
+                self._read += len(line)
+                topic, message = json.loads(line, object_hook=_with_bytes)
+                self._heard.setdefault(topic, []).append(message)
+
+    def __enter__(self) -> "Peer":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        stop(self._process)
+
+
+def _with_bytes(found: dict[str, Any]) -> Any:
+    return base64.b64decode(found["base64"]) if found.keys() == {"base64"} else found

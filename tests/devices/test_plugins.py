@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is told about plugins that cannot work as they stand."""
+
+from pathlib import Path
+
+import pytest
+
+from node_support import Node, write
+from ros_support import RosCore
+
+MODEL = """\
+<sdf version="1.9">
+  <model name="robot">
+    <link name="body">
+      <inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
+      <collision name="ball"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+    </link>
+    <link name="wheel"><pose>0 0.2 0 0 0 0</pose></link>
+    <joint name="wheel_joint" type="revolute">
+      <parent>body</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint>
+    {plugin}
+  </model>
+</sdf>
+"""
+
+
+@pytest.mark.parametrize(
+    ("plugin", "told"),
+    [
+        (
+            '<plugin name="arm" filename="libmy_arm.so"/>',
+            "warning: {file}:10: plugin 'arm' (libmy_arm.so): there is no device for it; the model runs without it",
+        ),
+        (
+            '<plugin name="drive" filename="libgazebo_ros_dif_drive.so"/>',
+            "there is no device for it; did you mean gazebo_ros_diff_drive?; the model runs without it",
+        ),
+        (
+            '<plugin name="control" filename="libgazebo_ros_control.so"/>',
+            "warning: {file}:10: plugin 'control' (libgazebo_ros_control.so): there is no ros_control here",
+        ),
+        (
+            '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
+            "<jointName>weel_joint</jointName></plugin>",
+            "error: {file}:11: plugin 'joints': <jointName> names no joint of /robot: it has no 'weel_joint'; did you "
+            "mean wheel_joint?",
+        ),
+        (
+            '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
+            "<updateRate>often</updateRate></plugin>",
+            "error: {file}:11: plugin 'joints': <updateRate> is 'often', it must be a number of at least 0",
+        ),
+        (
+            '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
+            "<updateRat>5</updateRat></plugin>",
+            "warning: {file}:10: plugin 'joints' (libgazebo_ros_joint_state_publisher.so) has no parameters updateRat; "
+            "did you mean update_rate?",
+        ),
+    ],
+)
+def test_the_file_and_line_are_told_once_and_the_model_runs_on(
+    shared_core: RosCore, tmp_path: Path, plugin: str, told: str
+) -> None:
+    file = write(tmp_path / "robot.sdf", MODEL.replace("{plugin}", plugin))
+    with Node(shared_core.env, tmp_path / "log", file, "--until", "0.5", "--speed", "max") as node:
+        assert node.process.wait(60) == 0
+    assert node.output.count(told.format(file=file)) == 1, node.output
