@@ -186,6 +186,13 @@ void bind_sensors(py::module_& module) {
   bind_imu(module);
 
   module.def(
+      "read_sensor",
+      [](Simulation& s, ObjectId sensor) {
+        const std::shared_ptr<const Reading> reading = s.read(sensor);
+        return std::make_pair(reading->time, std::visit(ToPython{reading}, reading->measurement));
+      },
+      "What a sensor of any kind measured last: the simulated time, s, and the reading.");
+  module.def(
       "read_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.read_proximity(sensor)); },
       "(detected, distance, point, handle, normal) as last measured.");
   module.def(

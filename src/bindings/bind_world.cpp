@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <variant>
 
 #include "bindings.hpp"
 #include "bubblesim/simulation.hpp"
@@ -69,6 +70,20 @@ void bind_world(py::module_& module) {
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
+      .def(
+          "sensor_topic",
+          [](const World& w, ObjectId id) {
+            const SensorDescription& sensor = w.sensor_description(id);
+            return py::make_tuple(sensor.topic, sensor.frame, sensor.update_rate);
+          },
+          py::arg("sensor"), "Its <bubblesim:topic>, its <bubblesim:frame>, both may be empty, and its rate in Hz.")
+      .def(
+          "sonar_limits",
+          [](const World& w, ObjectId id) {
+            const auto& sonar = std::get<SonarDescription>(w.sensor_description(id).kind);
+            return py::make_tuple(sonar.min_range, sonar.max_range, sonar.half_angle);
+          },
+          py::arg("sensor"), "Of a proximity sensor: the least and the greatest range, m, and half its angle, rad.")
       .def("plugins", &plugins, py::arg("handle"), "The PluginDescriptions that stand directly in a model or sensor.")
       .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
       .def(

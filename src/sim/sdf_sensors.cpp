@@ -74,7 +74,9 @@ CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const 
   description.horizontal_fov = camera.HorizontalFov().Radian();
   description.near = depth_only && camera.HasDepthNearClip() ? camera.DepthNearClip() : camera.NearClip();
   description.far = depth_only && camera.HasDepthFarClip() ? camera.DepthFarClip() : camera.FarClip();
-  description.color = !depth_only;
+  // Plugins of depth cameras publish pictures, too.
+  const sdf::ElementPtr sensor = camera.Element()->GetParent();
+  description.color = !depth_only || (sensor != nullptr && sensor->HasElement("plugin"));
   description.noise = read_noise(camera.ImageNoise());
   // SDFormat keeps a plain true as 1.
   const std::string antialias = own_text(camera.Element(), "bubblesim:antialias").value_or("false");

@@ -77,25 +77,32 @@ class VelodyneLaser(BlockLaser):
 
     def cloud(self, scan: Any) -> Message:
         """The message without its header; an organized cloud has rays that meet nothing as not a number."""
-        met = np.isfinite(scan.ranges) & (scan.ranges > self._least) & (scan.ranges < self._most)
-        points = np.zeros(scan.ranges.shape, _POINT)
-        places = self.directions(scan) * np.where(met, scan.ranges, np.float32(np.nan))[:, :, None]
-        points["x"], points["y"], points["z"] = np.moveaxis(places, 2, 0)
-        points["intensity"] = scan.intensities
-        points["ring"] = np.arange(len(points))[:, None]
-        if not self._organized:
-            points = points[met][None, :]
-        height, width = points.shape
-        return {
-            "height": height,
-            "width": width,
-            "fields": _FIELDS,
-            "is_bigendian": False,
-            "point_step": _POINT.itemsize,
-            "row_step": _POINT.itemsize * width,
-            "data": np.ascontiguousarray(points).view(np.uint8),
-            "is_dense": not self._organized,
-        }
+        return cloud_of_returns(scan, self.directions(scan), self._least, self._most, organized=self._organized)
+
+
+def cloud_of_returns(
+    scan: Any, rays: Array, least: float = 0.0, most: float = np.inf, *, organized: bool = False
+) -> Message:
+    """A sensor_msgs/PointCloud2 without its header, of what was met between two ranges."""
+    met = np.isfinite(scan.ranges) & (scan.ranges > least) & (scan.ranges < most)
+    points = np.zeros(scan.ranges.shape, _POINT)
+    places = rays * np.where(met, scan.ranges, np.float32(np.nan))[:, :, None]
+    points["x"], points["y"], points["z"] = np.moveaxis(places, 2, 0)
+    points["intensity"] = scan.intensities
+    points["ring"] = np.arange(len(points))[:, None]
+    if not organized:
+        points = points[met][None, :]
+    height, width = points.shape
+    return {
+        "height": height,
+        "width": width,
+        "fields": _FIELDS,
+        "is_bigendian": False,
+        "point_step": _POINT.itemsize,
+        "row_step": _POINT.itemsize * width,
+        "data": np.ascontiguousarray(points).view(np.uint8),
+        "is_dense": not organized,
+    }
 
 
 def directions(scan: Any) -> Array:

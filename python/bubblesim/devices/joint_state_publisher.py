@@ -49,4 +49,4 @@ class GzJointStatePublisher(JointStatePublisher):
     def default_topic(self) -> str:
         """As it is in Gazebo's transport."""
         default = f"/world/{self.simulation.scene_name}/model/{self.world.name(self.place.model)}/joint_state"
-        return self.parameters.text("topic", default)
+        return "/" + self.parameters.text("topic", default).lstrip("/")

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePosixPath
 
+from bubblesim.devices.ackermann_drive import AckermannDrive
 from bubblesim.devices.block_laser import BlockLaser, VelodyneLaser
 from bubblesim.devices.camera import Camera
 from bubblesim.devices.depth_camera import DepthCamera, OpenniKinect
@@ -13,6 +14,8 @@ from bubblesim.devices.device import Device
 from bubblesim.devices.diff_drive import DiffDrive
 from bubblesim.devices.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
 from bubblesim.devices.gps import Gps
+from bubblesim.devices.gz_diff_drive import GzDiffDrive
+from bubblesim.devices.gz_odometry_publisher import GzOdometryPublisher
 from bubblesim.devices.imu import ImuSensor, LinkImu
 from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
 from bubblesim.devices.laser import Laser
@@ -26,6 +29,7 @@ from bubblesim.messages.names import did_you_mean, nearest_names
 DEVICES: dict[str, type[Device]] = {
     "DiffDrivePlugin": GazeboDiffDrive,
     "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
+    "gazebo_ros_ackermann_drive": AckermannDrive,
     "gazebo_ros_block_laser": BlockLaser,
     "gazebo_ros_camera": Camera,
     "gazebo_ros_depth_camera": DepthCamera,
@@ -43,6 +47,8 @@ DEVICES: dict[str, type[Device]] = {
     "hector_gazebo_ros_gps": Gps,
     "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
     "gazebo_ros_velodyne_laser": VelodyneLaser,
+    "gz-diff-drive-system": GzDiffDrive,
+    "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-joint-state-publisher-system": GzJointStatePublisher,
 }
 

@@ -10,6 +10,7 @@ from typing import Any
 from bubblesim.devices.device import Device, PassTime, Place
 from bubblesim.devices.parameters import ParameterError, Parameters, where
 from bubblesim.devices.registry import DEVICES, NOT_NEEDED, library, why_unknown
+from bubblesim.devices.sensor_topic import OwnTopic, SensorTopic
 from bubblesim.devices.transforms import Transforms
 from bubblesim.scripting.output import write_line
 
@@ -38,6 +39,9 @@ class Devices:
             kind = self._look_for_device(plugin)
             if kind is not None:
                 self._make(kind, plugin, owner, model, namespace)
+        for sensor in self._sensors_below(model):
+            if self._simulation.world.sensor_topic(sensor)[0]:
+                self._make(SensorTopic, OwnTopic(self._simulation.world.path(sensor)), sensor, model, namespace)
 
     def remove_model(self, model: int) -> None:
         """Close the devices of a model that is about to leave the world."""
@@ -65,6 +69,12 @@ class Devices:
             yield handle, plugin
         for child in self._simulation.world.children(handle):
             yield from self._plugins_below(child)
+
+    def _sensors_below(self, handle: int) -> Iterator[int]:
+        if self._simulation.world.kind(handle) == "sensor":
+            yield handle
+        for child in self._simulation.world.children(handle):
+            yield from self._sensors_below(child)
 
     def _look_for_device(self, plugin: Any) -> type[Device] | None:
         name = library(plugin.filename)

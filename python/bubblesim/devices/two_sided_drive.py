@@ -23,10 +23,10 @@ class TwoSidedDrive:
         left: Sequence[int],
         right: Sequence[int],
         *,
-        torque: float,
+        torque: float | None = None,
         acceleration: float = 0.0,
     ) -> None:
-        """Joints on both sides; torque in N m, acceleration of the wheels' rims in m/s^2, 0 for any."""
+        """Joints on both sides; torque in N m, None for the joints' own; acceleration of the rims in m/s^2, 0: any."""
         self._device = device
         self._drive = drive
         self._left = left
@@ -54,8 +54,12 @@ class TwoSidedDrive:
             self.wanted = Velocity(forward, turning)
 
     def actuate(self) -> None:
+        """Command the wheels as the Twist wants it."""
+        self.command(self.wanted)
+
+    def command(self, velocity: Velocity) -> None:
         """Command the wheels."""
-        wanted = wheel_speeds(self._drive, self.wanted)
+        wanted = wheel_speeds(self._drive, velocity)
         speeds = self._ramp.update((wanted.left, wanted.right), self._device.simulation.time_step)
         for joints, speed in zip((self._left, self._right), speeds, strict=True):
             for joint in joints:

@@ -10,11 +10,12 @@ from bubblesim._core import MotorMode
 from bubblesim.devices.device import Device, Message
 
 
-def drive_by_velocity(world: Any, joints: Sequence[int], torque: float) -> None:
-    """Have joints hold a velocity, 0 to begin with, by a motor of a torque (N m)."""
+def drive_by_velocity(world: Any, joints: Sequence[int], torque: float | None = None) -> None:
+    """Have joints hold a velocity, 0 to begin with, by a motor of a torque (N m), None for the joint's."""
     for joint in joints:
         world.set_motor_mode(joint, MotorMode.VELOCITY)
-        world.set_max_force(joint, torque)
+        if torque is not None:
+            world.set_max_force(joint, torque)
         world.set_target_velocity(joint, 0.0)
 
 

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives of other kinds than the rover's, side by side in one world."""
+
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from ros_peer import Message, Peer
+
+from node_support import write
+from ros_support import wait_until
+
+RADIUS, TRACK, WHEELBASE = 0.1, 0.4, 0.5  # m
+INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
+
+
+def link(name: str, x: float, y: float, z: float, mass: float, inertia: float, shape: str = "") -> str:
+    collision = f'<collision name="shape"><geometry>{shape}</geometry></collision>' if shape else ""
+    inertial = f"<inertial><mass>{mass}</mass>{INERTIA.format(inertia)}</inertial>"
+    return f'<link name="{name}"><pose>{x} {y} {z} 0 0 0</pose>{inertial}{collision}</link>'
+
+
+def joint(name: str, parent: str, child: str, axis: str, limit: float = 1e16) -> str:
+    limits = f"<limit><lower>{-limit}</lower><upper>{limit}</upper></limit>"
+    ends = f"<parent>{parent}</parent><child>{child}</child>"
+    return f'<joint name="{name}" type="revolute">{ends}<axis><xyz>{axis}</xyz>{limits}</axis></joint>'
+
+
+def wheel(name: str, x: float, y: float, parent: str = "body") -> str:
+    sphere = f"<sphere><radius>{RADIUS}</radius></sphere>"
+    return link(name, x, y, RADIUS, 1, 0.004, sphere) + joint(f"{name}_joint", parent, name, "0 1 0")
+
+
+def steered(name: str, x: float, y: float) -> str:
+    """A wheel below a part that turns about the vertical."""
+    knuckle = link(f"{name}_knuckle", x, y, RADIUS, 0.5, 0.002) + joint(
+        f"{name}_steering", "body", f"{name}_knuckle", "0 0 1", 0.7
+    )
+    return knuckle + wheel(name, x, y, f"{name}_knuckle")
+
+
+def robot(name: str, y: float, parts: str, plugin: str) -> str:
+    body = link("body", WHEELBASE / 2, 0, 0.2, 5, 0.2, "<box><size>0.6 0.3 0.1</size></box>")
+    return f'<model name="{name}"><pose>0 {y} 0 0 0 0</pose>{body}{parts}{plugin}</model>'
+
+
+def plugin(filename: str, **parameters: str) -> str:
+    elements = "".join(f"<{name}>{value}</{name}>" for name, value in parameters.items())
+    return f'<plugin name="drive" filename="{filename}">{elements}</plugin>'
+
+
+REAR = wheel("left", 0, TRACK / 2) + wheel("right", 0, -TRACK / 2)
+FOUR = REAR + wheel("front_left", WHEELBASE, TRACK / 2) + wheel("front_right", WHEELBASE, -TRACK / 2)
+SKID = plugin(
+    "libgazebo_ros_skid_steer_drive.so",
+    robotNamespace="skid",
+    leftFrontJoint="front_left_joint",
+    rightFrontJoint="front_right_joint",
+    leftRearJoint="left_joint",
+    rightRearJoint="right_joint",
+    wheelSeparation=str(TRACK),
+    wheelDiameter=str(2 * RADIUS),
+    torque="20",
+    robotBaseFrame="body",
+    broadcastTF="1",
+)
+TRICYCLE = plugin(
+    "libgazebo_ros_tricycle_drive.so",
+    steeringJoint="front_steering",
+    actuatedWheelJoint="front_joint",
+    encoderWheelLeftJoint="left_joint",
+    encoderWheelRightJoint="right_joint",
+    actuatedWheelDiameter=str(2 * RADIUS),
+    encoderWheelDiameter=str(2 * RADIUS),
+    encoderWheelSeparation=str(TRACK),
+    wheelTorque="20",
+    odometrySource="encoder",
+    publishWheelJointState="true",
+)
+ACKERMANN = plugin(
+    "libgazebo_ros_ackermann_drive.so",
+    front_left_joint="car_left_joint",
+    front_right_joint="car_right_joint",
+    rear_left_joint="left_joint",
+    rear_right_joint="right_joint",
+    left_steering_joint="car_left_steering",
+    right_steering_joint="car_right_steering",
+    publish_odom="true",
+).replace("<front_left", "<ros><namespace>/car</namespace></ros><front_left")
+GZ = plugin(
+    "ignition-gazebo-diff-drive-system",
+    wheel_separation=str(TRACK),
+    wheel_radius=str(RADIUS),
+    max_linear_velocity="0.4",
+    left_joint="left_joint",
+    right_joint="right_joint",
+) + plugin("gz-sim-joint-state-publisher-system", topic="gz/joints", joint_name="left_joint")
+GAZEBO = plugin("libDiffDrivePlugin.so", left_joint="left_joint", right_joint="right_joint", torque="20")
+CASTER = (
+    link("ball", WHEELBASE, 0, 0.05, 0.2, 0.0002, "<sphere><radius>0.05</radius></sphere>").replace(
+        "</geometry>", "</geometry><surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>"
+    )
+    + '<joint name="ball_joint" type="fixed"><parent>body</parent><child>ball</child></joint>'
+)
+
+WORLD = "".join(
+    [
+        '<sdf version="1.9"><world name="drives"><model name="floor"><static>true</static><link name="link">',
+        '<collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>',
+        robot("skid", 0, FOUR, SKID),
+        robot("tricycle", 10, REAR + steered("front", WHEELBASE, 0), TRICYCLE),
+        robot(
+            "car",
+            20,
+            REAR + steered("car_left", WHEELBASE, TRACK / 2) + steered("car_right", WHEELBASE, -TRACK / 2),
+            ACKERMANN,
+        ),
+        robot("gz", 30, REAR + CASTER, GZ),
+        robot("plain", 40, REAR + CASTER, GAZEBO),
+        "</world></sdf>",
+    ]
+)
+
+
+@pytest.fixture(scope="module")
+def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Any:
+    world = write(tmp_path_factory.mktemp("drives") / "drives.sdf", WORLD)
+    return run(world, "--speed", "4", "--gazebo-compat")
+
+
+@pytest.fixture
+def peer(running: Any) -> Peer:
+    peer: Peer = running.peer
+    peer.call("/gazebo/reset_world")
+    return peer
+
+
+def moving(peer: Peer, topic: str, name: str, least: float) -> Message:
+    """The odometry, once a velocity has come up to its value."""
+
+    def fast(message: Message) -> bool:
+        twist = message["twist"]["twist"]
+        return abs(twist["linear"]["x"] if name == "x" else twist["angular"]["z"]) > least
+
+    peer.wait_for(topic, "nav_msgs/Odometry", fast, f"{topic} to tell of motion")
+    return peer.next(topic, count=5)
+
+
+def velocity(message: Message) -> tuple[float, float]:
+    twist = message["twist"]["twist"]
+    return twist["linear"]["x"], twist["angular"]["z"]
+
+
+def test_a_skid_steer_drive_drives_and_turns(running: Any, peer: Peer) -> None:
+    peer.drive("/skid/cmd_vel", 0.5, 0.0)
+    odom = moving(peer, "/skid/odom", "x", 0.45)
+    assert velocity(odom) == pytest.approx((0.5, 0.0), abs=0.02)
+    assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("odom", "body")
+    peer.drive("/skid/cmd_vel", 0.0, 1.0)
+    assert velocity(moving(peer, "/skid/odom", "yaw", 0.1))[1] > 0, "to the left; slower than asked, for it skids"
+    assert "error" not in running.node.output, running.node.output
+
+
+def test_a_tricycle_turns_about_where_its_axles_meet(peer: Peer) -> None:
+    peer.drive("/tricycle/cmd_vel", 0.5, 0.5)
+    odom = moving(peer, "/tricycle/odom", "yaw", 0.4)
+    # The front wheel rolls at 0.5 m/s, 0.5 rad to the left: v = 0.5 cos(0.5), w = 0.5 sin(0.5) / wheelbase.
+    assert velocity(odom) == pytest.approx((0.5 * math.cos(0.5), 0.5 * math.sin(0.5) / WHEELBASE), rel=0.03)
+    assert odom["header"]["frame_id"] == "tricycle/odom"
+    states = peer.next("/tricycle/joint_states", "sensor_msgs/JointState")
+    assert states["position"][states["name"].index("front_steering")] == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_car_turns_about_where_its_axles_meet(peer: Peer) -> None:
+    peer.drive("/car/cmd_vel", 0.5, 0.3)
+    odom = moving(peer, "/car/odom", "yaw", 0.2)
+    forward, turning = velocity(odom)
+    # The rear wheels run at 0.5 m/s: w = v tan(0.3) / wheelbase.
+    assert forward == pytest.approx(0.5, rel=0.05)
+    assert turning == pytest.approx(forward * math.tan(0.3) / WHEELBASE, rel=0.05)
+
+
+def test_gz_sims_drive_keeps_to_its_limits(peer: Peer) -> None:
+    peer.drive("/model/gz/cmd_vel", 1.0, 0.0)
+    odom = moving(peer, "/model/gz/odometry", "x", 0.35)
+    assert velocity(odom) == pytest.approx((0.4, 0.0), abs=0.01)
+    assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("gz/odom", "gz/base_link")
+    assert peer.next("/gz/joints", "sensor_msgs/JointState")["velocity"] == pytest.approx([0.4 / RADIUS], rel=0.02)
+
+
+def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None:
+    peer.drive("/plain/cmd_vel", 0.5, 0.5)
+    peer.heard("/gazebo/model_states", "gazebo_msgs/ModelStates")
+
+    def twist() -> tuple[float, float]:
+        states = peer.next("/gazebo/model_states")
+        found = states["twist"][states["name"].index("plain")]
+        return math.hypot(found["linear"]["x"], found["linear"]["y"]), found["angular"]["z"]
+
+    wait_until(lambda: twist() == pytest.approx((0.5, 0.5), rel=0.05), "the speeds of the Twist")
+
+
+@pytest.mark.skipif(not os.environ.get("BUBBLESIM_ZOO"), reason="BUBBLESIM_ZOO names no folder of Gazebo's models")
+@pytest.mark.parametrize("model", ["pioneer2dx", "pioneer3at"])
+def test_gazebos_pioneers_drive(peer: Peer, model: str) -> None:
+    text = (Path(os.environ["BUBBLESIM_ZOO"]) / model / "model.sdf").read_text()
+    response = peer.call(
+        "/gazebo/spawn_sdf_model",
+        model_name=model,
+        model_xml=text,
+        initial_pose={"position": {"y": -10.0, "z": 0.01}, "orientation": {"w": 1.0}},
+    )
+    assert response["success"], response["status_message"]
+    peer.drive(f"/{model}/cmd_vel", 0.3, 0.0)
+    peer.heard("/gazebo/model_states", "gazebo_msgs/ModelStates")
+
+    def ahead() -> float:
+        states = peer.next("/gazebo/model_states")
+        x: float = states["pose"][states["name"].index(model)]["position"]["x"]
+        return x
+
+    wait_until(lambda: ahead() > 0.5, "half a metre of driving")
+    assert peer.call("/gazebo/delete_model", model_name=model)["success"]
