@@ -20,7 +20,6 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::maps::CSimplePointsMap;
 
-// Measured on simulated rooms: matching each scan keeps the map sharper than matching some, and costs about 2 ms.
 constexpr double kLeastGoodness = 0.4;   // share of a scan's points that must fit for a match to count
 constexpr float kPointDistance = 0.02F;  // m between points that scans are matched to
 constexpr double kCatch = 0.4;           // m that a point may be off before matching, and ...
@@ -37,7 +36,7 @@ void configure(mrpt::slam::CMetricMapBuilderICP& builder, const ScanMapperOption
   how.matchAgainstTheGrid = false;
   how.insertionLinDistance = options.linear_update;
   how.insertionAngDistance = options.angular_update;
-  how.localizationLinDistance = 0.0;
+  how.localizationLinDistance = 0.0;  // each scan is matched: see docs/adr/0014
   how.localizationAngDistance = 0.0;
   how.minICPgoodnessToAccept = kLeastGoodness;
 
