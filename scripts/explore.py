@@ -78,8 +78,7 @@ class Explore:
         goal = PoseStamped()
         goal.header.frame_id = self._map_frame
         goal.header.stamp = rospy.Time.now()
-        goal.pose.position.x, goal.pose.position.y = point
-        goal.pose.orientation.w = 1.0
+        goal.pose.position.x, goal.pose.position.y = point  # without an orientation: any heading is good
         self._goal.publish(goal)
 
 

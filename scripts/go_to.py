@@ -26,7 +26,7 @@ from bubblesim.navigation.driving import Driving, GaveUpError
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_following import STANDING, Driver
 from bubblesim.navigation.path_planning import Footprint
-from bubblesim.navigation.planar import Point, hits, placed, pose_of
+from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
 from bubblesim.nodes.twist_commands import TwistCommands
 
 RATE = 10.0  # Hz, of commands
@@ -69,8 +69,11 @@ class GoTo:
         if frame is None:
             rospy.logwarn(f"the goal's frame {goal.header.frame_id} has no place in {self._map_frame}: ignored")
             return
+        place, turn = goal.pose.position, goal.pose.orientation
+        no_heading = turn.x == turn.y == turn.z == turn.w == 0.0  # which is no orientation
+        heading = None if no_heading else heading_of(turn) + frame.heading
         with self._lock:
-            self._driving.start(placed(frame, (goal.pose.position.x, goal.pose.position.y)), rospy.get_time())
+            self._driving.start(placed(frame, (place.x, place.y)), rospy.get_time(), heading)
 
     def _on_time(self) -> None:
         place = self._place_of(self._base_frame, self._map_frame)

@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
     }
     ros::requestShutdown();
   };
+  std::fprintf(stderr, "waiting for a map on %s\n", node.resolveName("map").c_str());
   const ros::Subscriber maps = node.subscribe<nav_msgs::OccupancyGrid>("map", 1, save);
   ros::spin();
   return code;

@@ -56,6 +56,15 @@ def test_it_comes_to_its_goal(driver: Driver) -> None:
     assert pilot.goal is None
 
 
+@pytest.mark.parametrize("heading", [-3.0, 0.0, 1.5])
+def test_it_turns_to_the_heading_that_is_asked_for(heading: float) -> None:
+    pilot = driving()
+    pilot.start(GOAL, 0.0, heading)
+    end, _ = drive(pilot, [])
+    assert math.dist((end.x, end.y), GOAL) <= pilot.driver.tolerance
+    assert abs(math.remainder(end.heading - heading, math.tau)) <= 0.1
+
+
 def test_it_goes_round_what_is_not_in_the_map() -> None:
     pilot = driving()
     pilot.start(GOAL, 0.0)

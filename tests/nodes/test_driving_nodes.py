@@ -53,7 +53,7 @@ def live():
         last_map = time.monotonic()
     if sends_goal and goal_topic.get_num_connections() > 1:
         goal = PoseStamped(header=Header(frame_id="map"))
-        goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.w = 4.0, 1.0, 1.0
+        goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.z = 4.0, 1.0, 1.0
         goal_topic.publish(goal)
         sends_goal = False
     time.sleep(0.04)
@@ -61,7 +61,7 @@ def live():
 
 wait_until(live, "the end")
 print(json.dumps({
-    "arrived": [m.data for m in arrived], "place": [x, y], "goals": len(goals), "done": bool(done),
+    "arrived": [m.data for m in arrived], "place": [x, y, math.cos(heading)], "goals": len(goals), "done": bool(done),
     "path": max(len(path.poses) for path in paths), "frame": paths[0].header.frame_id,
     "last": [commands[-1].linear.x, commands[-1].angular.z],
 }))
@@ -72,7 +72,8 @@ def test_a_goal_is_driven_to(node: Start, ask: Ask) -> None:
     node("go_to.py", "__ns:=/a", "_max_speed:=1.0", "_acceleration:=1.0")
     seen = ask(ROBOT, "/a", "goal")
     assert seen["arrived"] == [True]
-    assert seen["place"] == pytest.approx([4.0, 1.0], abs=0.15)
+    assert seen["place"][:2] == pytest.approx([4.0, 1.0], abs=0.15)
+    assert seen["place"][2] == pytest.approx(-1.0, abs=0.05)  # it looks back, as the goal says
     assert seen["path"] > 20
     assert (seen["frame"], seen["last"]) == ("map", [0.0, 0.0])
 

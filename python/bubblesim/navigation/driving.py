@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
 from bubblesim.navigation.grid_map import GridMap
-from bubblesim.navigation.path_following import STANDING, Driver, face, follow, is_blocked
+from bubblesim.navigation.path_following import STANDING, Driver, face, follow, is_blocked, turn
 from bubblesim.navigation.path_planning import Footprint, NoPathError, is_clear, plan
 from bubblesim.navigation.planar import Point, placed
 
@@ -28,6 +28,7 @@ class Driving:
     grid: GridMap | None = None
     obstacles: list[Point] = field(default_factory=list)  # as the robot sees them
     goal: Point | None = None
+    heading: float | None = None  # rad, at the goal; None: any
     path: list[Point] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -37,9 +38,10 @@ class Driving:
         self._why = ""  # it cannot drive
         self._checked: GridMap | None = None  # the map that the path is known to be clear on
 
-    def start(self, goal: Point, now: float) -> None:
-        """Drive there from now on."""
+    def start(self, goal: Point, now: float, heading: float | None = None) -> None:
+        """Drive there from now on. A heading is only turned to by robots that can turn on the spot."""
         self.goal = goal
+        self.heading = heading
         self.path = []
         self._planned_at = -math.inf
         self._moved_at = now
@@ -49,7 +51,7 @@ class Driving:
         if self.goal is None:
             return None
         if now < self._planned_at:  # time has started anew
-            self.start(self.goal, now)
+            self.start(self.goal, now, self.heading)
         if self._path_is_stale(pose):
             self.path = []
         if self.grid is None:
@@ -61,8 +63,10 @@ class Driving:
                 self._why = str(error)
         command = self._command(pose) if self.path else STANDING
         if command is None:
-            self.goal = None
-            return None
+            command = STANDING if self.heading is None else self._turn_at_goal(pose, self.heading)
+            if command == STANDING:
+                self.goal = None
+                return None
         if command != STANDING:
             self._moved_at = now
         elif now - self._moved_at > self.patience:
@@ -84,6 +88,9 @@ class Driving:
         if command == STANDING:
             self.path = []  # another way has to be found
         return command
+
+    def _turn_at_goal(self, pose: Pose2D, heading: float) -> Velocity:
+        return turn(math.remainder(heading - pose.heading, math.tau), self.driver)
 
     def _path_is_stale(self, pose: Pose2D) -> bool:
         if not self.path or self.grid is None or self.grid is self._checked:

@@ -47,7 +47,11 @@ def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | No
 def face(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity:
     """A turn on the spot towards the path, which makes room beside; STANDING when it looks there, or cannot turn so."""
     forward, left = seen_from(pose, _target(path, pose, driver.lookahead))
-    angle = math.atan2(left, forward)
+    return turn(math.atan2(left, forward), driver)
+
+
+def turn(angle: float, driver: Driver) -> Velocity:
+    """A turn on the spot by an angle; STANDING when that is small, or the robot cannot turn so."""
     return STANDING if driver.turning_radius > 0.0 or abs(angle) < ALIGNED else _turn(angle, driver)
 
 
