@@ -171,6 +171,17 @@ def test_arrays_of_strings_take_numpy_arrays() -> None:
     assert codec.decode("sensor_msgs/JointState", data)["name"] == ["a", "bc"]
 
 
+def test_messages_of_numbers_take_the_rows_of_a_numpy_array() -> None:
+    rows = np.arange(6.0).reshape(2, 3)
+    points = [{"x": 0.0, "y": 1.0, "z": 2.0}, {"x": 3.0, "y": 4.0, "z": 5.0}]
+    for values in (rows, rows.astype(np.float32), rows[::-1][::-1], rows.astype(int)):
+        encoded = codec.encode("sensor_msgs/PointCloud", {"points": values})
+        assert encoded == codec.encode("sensor_msgs/PointCloud", {"points": points})
+    assert codec.encode("sensor_msgs/PointCloud", {"points": rows[:0]}) == codec.encode("sensor_msgs/PointCloud", {})
+    with pytest.raises(ValueError, match="points"):
+        codec.encode("sensor_msgs/PointCloud", {"points": rows[:, :2]})
+
+
 def test_empty_arrays_come_back() -> None:
     assert len(back("std_msgs/Float64MultiArray", [])) == 0
     assert len(back("std_msgs/Float64MultiArray", np.array([]))) == 0

@@ -79,6 +79,36 @@ def test_joints_are_driven(tricycle: bubblesim.Simulation) -> None:
     assert (steering.target_position, motor.target_velocity, motor.max_force) == (0.3, 2.0, 40.0)
 
 
+def test_an_axis_gets_a_motor_until_the_world_is_reset() -> None:
+    simulation = bubblesim.Simulation("ball")
+    simulation.add_model(
+        """<sdf version="1.9"><model name="fan"><static>false</static>
+        <link name="stand"><inertial><mass>100</mass></inertial></link>
+        <link name="wheel"><pose>0 0 1 0 0 0</pose></link>
+        <joint name="foot" type="fixed"><parent>world</parent><child>stand</child></joint>
+        <joint name="hub" type="revolute"><parent>stand</parent><child>wheel</child><axis><xyz>0 0 1</xyz>
+        <dynamics><damping>0.1</damping></dynamics></axis></joint></model></sdf>"""
+    )
+    world = simulation.world
+    hub = simulation.object("/hub").handle
+    names = [world.name(handle) for handle in world.joint_links(hub)]
+    assert (names, world.joint_axes(hub)) == (["stand", "wheel"], 1)
+    world.set_target_velocity(hub, 3.0)
+    simulation.step()
+    assert world.joint_velocity(hub) == 0.0, "it has no motor"
+    world.set_motor_mode(hub, bubblesim._core.MotorMode.VELOCITY)
+    simulation.step(2)
+    assert world.joint_velocity(hub) == pytest.approx(3.0)
+    world.set_motor_mode(hub, bubblesim._core.MotorMode.POSITION)
+    world.set_target_position(hub, 1.0)
+    simulation.step(40)
+    assert world.joint_position(hub) == pytest.approx(1.0, abs=1e-3)
+    simulation.reset()
+    world.set_target_velocity(hub, 3.0)
+    simulation.step()
+    assert world.joint_velocity(hub) == 0.0
+
+
 def test_objects_know_their_place(tricycle: bubblesim.Simulation) -> None:
     sonar = tricycle.object("/FrontSonar")
     assert (sonar.name, sonar.kind, sonar.path) == ("FrontSonar", "sensor", "/Tricycle/base_link/FrontSonar")
