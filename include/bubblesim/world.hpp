@@ -79,6 +79,9 @@ class World {
   void set_pose(ObjectId object, const Pose& pose);
   /// Of a model (all its links move as one rigid body) or a single link.
   void set_velocity(ObjectId object, const Twist& velocity);
+  /// Has a model move in the plane as a whole, m/s along the world's x and y and rad/s about its z, pushed by as much
+  /// as twenty times its mass, until the world is reset. It may still fall, tilt and be stopped.
+  void drive_in_plane(ObjectId model, double x, double y, double turning);
   /// Both at once, or none.
   void set_state(ObjectId object, const Pose& pose, const Twist& velocity);
 

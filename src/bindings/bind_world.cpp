@@ -103,6 +103,9 @@ void bind_world(py::module_& module) {
             w.set_state(id, to_pose(pose), {to_vector(linear), to_vector(angular)});
           },
           "Pose, linear and angular velocity at once.")
+      .def(
+          "drive_in_plane", &World::drive_in_plane, py::arg("model"), py::arg("x"), py::arg("y"), py::arg("turning"),
+          "Has a model move as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
       .def("velocity",
            [](const World& w, ObjectId id) {
              const Twist v = w.velocity(id);

@@ -48,6 +48,12 @@ struct PlacedJoint {
   Pose in_child;
 };
 
+/// Holds a velocity of a body in the plane; without joints until somebody wants one.
+struct PlanarMotor {
+  ode::JointHandle linear;
+  ode::JointHandle angular;
+};
+
 /// A model with what ODE has of it; links, joints and sensors by Object::index. Members are destroyed in the reverse
 /// order: joints and geoms before bodies.
 struct PlacedModel {
@@ -59,6 +65,7 @@ struct PlacedModel {
   std::deque<Collider> colliders;  // too
   std::vector<PlacedJoint> joints;
   std::vector<Pose> sensors;  // in their link's frame
+  PlanarMotor planar_motor;
 };
 
 struct World::State {

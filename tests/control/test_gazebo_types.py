@@ -7,6 +7,8 @@ from bubblesim import _core
 
 # As other generators' code for gazebo_msgs 2.9 has them: rosserial, rosnodejs, roslisp.
 MESSAGES = {
+    "ContactState": "48c0ffb054b8c444f870cecea1ee50d9",
+    "ContactsState": "acbcb1601a8e525bf72509f18e6f668d",
     "LinkState": "0818ebbf28ce3a08d48ab1eaa7309ebe",
     "LinkStates": "48c080191eb15c41858319b4d8a609c2",
     "ModelState": "9330fd35f2fcd82d457e54bd54e10593",

@@ -106,6 +106,9 @@ CASTER = (
     + '<joint name="ball_joint" type="fixed"><parent>body</parent><child>ball</child></joint>'
 )
 
+PLANAR = plugin("libgazebo_ros_planar_move.so", robotNamespace="sledge", odometryFrame="odom", robotBaseFrame="body")
+BOX = link("body", 0, 0, 0, 5, 0.1, "<box><size>0.5 0.5 0.1</size></box>")
+
 WORLD = "".join(
     [
         '<sdf version="1.9"><world name="drives"><model name="floor"><static>true</static><link name="link">',
@@ -120,6 +123,7 @@ WORLD = "".join(
         ),
         robot("gz", 30, REAR + CASTER, GZ),
         robot("plain", 40, REAR + CASTER, GAZEBO),
+        f'<model name="sledge"><pose>0 50 0.05 0 0 0</pose>{BOX}{PLANAR}</model>',
         "</world></sdf>",
     ]
 )
@@ -201,6 +205,14 @@ def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None
         return math.hypot(found["linear"]["x"], found["linear"]["y"]), found["angular"]["z"]
 
     wait_until(lambda: twist() == pytest.approx((0.5, 0.5), rel=0.05), "the speeds of the Twist")
+
+
+def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
+    peer.say("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
+    twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]
+    # At the end of a pass it has turned by half a pass's angle more than it was pushed for.
+    assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.3, 0.2), abs=0.01)
+    assert twist["angular"]["z"] == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.skipif(not os.environ.get("BUBBLESIM_ZOO"), reason="BUBBLESIM_ZOO names no folder of Gazebo's models")

@@ -8,10 +8,12 @@ from pathlib import PurePosixPath
 
 from bubblesim.devices.ackermann_drive import AckermannDrive
 from bubblesim.devices.block_laser import BlockLaser, VelodyneLaser
+from bubblesim.devices.bumper import Bumper
 from bubblesim.devices.camera import Camera
 from bubblesim.devices.depth_camera import DepthCamera, OpenniKinect
 from bubblesim.devices.device import Device
 from bubblesim.devices.diff_drive import DiffDrive
+from bubblesim.devices.ft_sensor import FtSensor
 from bubblesim.devices.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
 from bubblesim.devices.gps import Gps
 from bubblesim.devices.gz_diff_drive import GzDiffDrive
@@ -20,6 +22,7 @@ from bubblesim.devices.imu import ImuSensor, LinkImu
 from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
 from bubblesim.devices.laser import Laser
 from bubblesim.devices.p3d import P3D
+from bubblesim.devices.planar_move import PlanarMove
 from bubblesim.devices.range import Range
 from bubblesim.devices.skid_steer_drive import SkidSteerDrive
 from bubblesim.devices.tricycle_drive import TricycleDrive
@@ -31,9 +34,11 @@ DEVICES: dict[str, type[Device]] = {
     "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
     "gazebo_ros_ackermann_drive": AckermannDrive,
     "gazebo_ros_block_laser": BlockLaser,
+    "gazebo_ros_bumper": Bumper,
     "gazebo_ros_camera": Camera,
     "gazebo_ros_depth_camera": DepthCamera,
     "gazebo_ros_diff_drive": DiffDrive,
+    "gazebo_ros_ft_sensor": FtSensor,
     "gazebo_ros_gpu_laser": Laser,
     "gazebo_ros_imu": LinkImu,
     "gazebo_ros_imu_sensor": ImuSensor,
@@ -41,6 +46,7 @@ DEVICES: dict[str, type[Device]] = {
     "gazebo_ros_laser": Laser,
     "gazebo_ros_openni_kinect": OpenniKinect,
     "gazebo_ros_p3d": P3D,
+    "gazebo_ros_planar_move": PlanarMove,
     "gazebo_ros_range": Range,
     "gazebo_ros_skid_steer_drive": SkidSteerDrive,
     "gazebo_ros_tricycle_drive": TricycleDrive,

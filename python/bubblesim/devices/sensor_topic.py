@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim._core import CameraImage, ImuReading, LidarScan, ProximityReading, read_sensor
+from bubblesim._core import CameraImage, read_sensor
+from bubblesim.control.frames import vector_message
 from bubblesim.devices.block_laser import cloud_of_returns, directions
 from bubblesim.devices.camera import image_message
 from bubblesim.devices.camera_info import CameraInfo
@@ -34,7 +35,8 @@ class SensorTopic(Device):
     """The type follows from the kind of sensor, and the frame is the sensor's link unless <bubblesim:frame> names one.
 
     A sonar gives a Range, infinite for nothing in range (REP 117); a lidar of one ring a LaserScan, of several a
-    PointCloud2; a camera an Image, in metres from a depth camera, with a camera_info beside it; an IMU an Imu.
+    PointCloud2; a camera an Image, in metres from a depth camera, with a camera_info beside it; an IMU an Imu; a GPS
+    receiver a NavSatFix; a force-torque sensor a WrenchStamped.
     """
 
     def __init__(self, place: Place) -> None:
@@ -73,23 +75,27 @@ class SensorTopic(Device):
 
     def _form(self, reading: Any) -> tuple[str, Callable[[Any], Message]]:
         """The type of the message, and what makes it."""
-        match reading:
-            case ProximityReading():
+        match type(reading).__name__:
+            case "ProximityReading":
                 return "sensor_msgs/Range", self._range
-            case LidarScan() if len(reading.elevations) == 1:
+            case "LidarScan" if len(reading.elevations) == 1:
                 return "sensor_msgs/LaserScan", laser_scan
-            case LidarScan():
+            case "LidarScan":
                 rays = directions(reading)
                 return "sensor_msgs/PointCloud2", lambda scan: cloud_of_returns(scan, rays)
-            case CameraImage():
+            case "CameraImage":
                 return "sensor_msgs/Image", _picture
-            case ImuReading():
+            case "ImuReading":
                 exact = Noise(self, 0.0)
                 return "sensor_msgs/Imu", lambda imu: imu_message(
                     imu.orientation.tolist(), imu.angular_velocity.tolist(), imu.linear_acceleration.tolist(), exact
                 )
-            case _:
-                raise ValueError(f"a {type(reading).__name__} has no message")
+            case "NavSatReading":
+                return "sensor_msgs/NavSatFix", _fix
+            case "ForceTorqueReading":
+                return "geometry_msgs/WrenchStamped", _wrench
+            case kind:
+                raise ValueError(f"there is no message for a {kind}: take it out, or read it in a script")
 
     def _range(self, reading: Any) -> Message:
         least, most, angle = self.world.sonar_limits(self.place.owner)
@@ -104,6 +110,20 @@ class SensorTopic(Device):
 
 def _picture(image: Any) -> Message:
     return image_message(image.depth, "32FC1") if image.rgb is None else image_message(image.rgb, "rgb8")
+
+
+def _fix(reading: Any) -> Message:
+    return {
+        "status": {"status": 0, "service": 1},  # a fix, by GPS
+        "latitude": reading.latitude,
+        "longitude": reading.longitude,
+        "altitude": reading.altitude,
+    }
+
+
+def _wrench(reading: Any) -> Message:
+    parts = {"force": reading.force, "torque": reading.torque}
+    return {"wrench": {name: vector_message(vector.tolist()) for name, vector in parts.items()}}
 
 
 def _beside(topic: str, name: str) -> str:

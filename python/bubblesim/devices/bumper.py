@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_bumper: what a contact sensor's link touches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bubblesim._core import read_sensor
+from bubblesim.control.frames import into, vector_message
+from bubblesim.devices.device import Device, Message, Place
+from bubblesim.devices.readings import NewReadings
+
+_WORLD = ("/world", "world", "/map", "map")
+
+
+class Bumper(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs: places and forces are in the frame of a link."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._frame = p.text("frameName", "world")
+        self._reference = None if self._frame in _WORLD else self.link("frameName", "")
+        self._readings = NewReadings(self, lambda *sensor: read_sensor(*sensor)[1], p.number("updateRate", 0.0))
+        p.check()
+        self._publisher = self.advertise(p.text("bumperTopicName", "bumper_states"), "gazebo_msgs/ContactsState", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._readings.reset()
+
+    def publish(self) -> None:
+        """Tell what is touched, also that it is nothing."""
+        if self.wanted(self._publisher) and (reading := self._readings.take()):
+            states = [self._state(contact) for contact in reading.contacts]
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame.lstrip("/")), "states": states})
+
+    def _state(self, contact: Any) -> Message:
+        forces = [self._turned(point.force.tolist()) for point in contact.points]
+        total = [sum(along) for along in zip(*forces, strict=True)] if forces else [0.0, 0.0, 0.0]
+        own = f"{self._scoped(self.world.parent(self.place.owner))}::{contact.collision}"
+        other = f"{self._scoped(contact.other)}::{contact.other_collision}"
+        return {
+            "info": f"{own} touches {other}",
+            "collision1_name": own,
+            "collision2_name": other,
+            "wrenches": [{"force": vector_message(force)} for force in forces],
+            "total_wrench": {"force": vector_message(total)},
+            "contact_positions": [vector_message(self._placed(point.position.tolist())) for point in contact.points],
+            "contact_normals": [vector_message(self._turned(point.normal.tolist())) for point in contact.points],
+            "depths": [point.depth for point in contact.points],
+        }
+
+    def _scoped(self, link: int) -> str:
+        return f"{self.world.name(self.world.model_of(link))}::{self.world.name(link)}"
+
+    def _turned(self, vector: Sequence[float]) -> Sequence[float]:
+        return vector if self._reference is None else into(self.world.pose(self._reference), vector)
+
+    def _placed(self, position: Sequence[float]) -> Sequence[float]:
+        if self._reference is None:
+            return position
+        origin = self.world.pose(self._reference)[:3]
+        return self._turned([at - start for at, start in zip(position, origin, strict=True)])
