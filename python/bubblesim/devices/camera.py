@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any
 
 from bubblesim._core import read_camera
@@ -32,9 +33,12 @@ class Camera(Device):
         info = self.below_camera(p.text("cameraInfoTopicName", self.info_topic))
         p.check()
         self._image = self.advertise(image, "sensor_msgs/Image", _QUEUE_SIZE)
-        self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
+        self._compressed: int | None = None
+        if find_spec("cv2") is not None:  # Debian's python3-opencv, which compresses
+            self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
         self._infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
-        self._publishers = [self._image, self._compressed, *self._infos]
+        pictures = [self._image] if self._compressed is None else [self._image, self._compressed]
+        self._publishers = [*pictures, *self._infos]
 
     def below_camera(self, name: str) -> str:
         """A topic in the namespace that the camera's name makes."""
@@ -66,7 +70,7 @@ class Camera(Device):
         if image.rgb is not None:
             if self.wanted(self._image):
                 self.bridge.publish(self._image, {"header": header, **image_message(image.rgb, "rgb8")})
-            if self.wanted(self._compressed):
+            if self._compressed is not None and self.wanted(self._compressed):
                 data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
                 message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
                 self.bridge.publish(self._compressed, message)

@@ -112,7 +112,15 @@ class Device:
 
     def subscribe(self, topic: str, message_type: str, callback: Callable[[Message], None]) -> None:
         """Have the newest message of each pass handed over until the device is closed."""
-        subscriber = self.bridge.subscribe(self.topic(topic), message_type, callback, 1, _core.messages.TimeForm.FLOAT)
+        name = self.topic(topic)
+
+        def deliver(message: Message) -> None:
+            try:
+                callback(message)
+            except Exception as error:  # one device must not end the others
+                write_line(sys.stderr, f"error: {self.parameters.title} cannot take a message on {name}: {error}")
+
+        subscriber = self.bridge.subscribe(name, message_type, deliver, 1, _core.messages.TimeForm.FLOAT)
         self.place.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
 
     def offer(self, service: str, service_type: str, answer: Callable[[Message], Message | None]) -> None:

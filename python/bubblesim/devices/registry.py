@@ -19,6 +19,7 @@ from bubblesim.devices.gps import Gps
 from bubblesim.devices.gz_diff_drive import GzDiffDrive
 from bubblesim.devices.gz_odometry_publisher import GzOdometryPublisher
 from bubblesim.devices.imu import ImuSensor, LinkImu
+from bubblesim.devices.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
 from bubblesim.devices.laser import Laser
 from bubblesim.devices.p3d import P3D
@@ -42,6 +43,7 @@ DEVICES: dict[str, type[Device]] = {
     "gazebo_ros_gpu_laser": Laser,
     "gazebo_ros_imu": LinkImu,
     "gazebo_ros_imu_sensor": ImuSensor,
+    "gazebo_ros_joint_pose_trajectory": JointPoseTrajectory,
     "gazebo_ros_joint_state_publisher": JointStatePublisher,
     "gazebo_ros_laser": Laser,
     "gazebo_ros_openni_kinect": OpenniKinect,

@@ -89,7 +89,7 @@ class Devices:
         try:
             device = kind(place)
             device.reset()
-        except (ValueError, LookupError, RuntimeError) as error:
+        except Exception as error:
             place.close()
             text = f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}"
             write_line(sys.stderr, "\n".join(f"error: {line}" for line in text.splitlines()))
@@ -110,7 +110,7 @@ class Devices:
         for device in list(self._devices):
             try:
                 getattr(device, phase)()
-            except (ValueError, LookupError, RuntimeError) as error:  # one device must not end the others
+            except Exception as error:  # one device must not end the others
                 write_line(sys.stderr, f"error: {device.parameters.title} failed in {phase} and is off: {error}")
                 self._devices.remove(device)
                 device.close()
