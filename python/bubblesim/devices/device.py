@@ -11,7 +11,7 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.devices.parameters import Parameters
-from bubblesim.devices.transforms import Transforms
+from bubblesim.devices.transforms import Transforms, wanted
 from bubblesim.messages.names import did_you_mean, nearest_names
 from bubblesim.scripting.output import write_line
 
@@ -130,7 +130,7 @@ class Device:
 
     def wanted(self, publisher: int) -> bool:
         """Whether somebody listens, or a bag keeps all."""
-        return bool(self.bridge.wants_messages(publisher) or getattr(self.bridge, "keeps_all", False))
+        return wanted(self.bridge, publisher)
 
     def header(self, frame: str) -> Message:
         """A std_msgs/Header of this pass."""

@@ -60,6 +60,8 @@ class Devices:
 
     def publish(self) -> None:
         """Have all devices tell what they measure."""
+        if not self._devices:
+            return
         self._pass_time.begin_pass()
         self._each("publish")
         self._transforms.publish()

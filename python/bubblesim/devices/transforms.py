@@ -9,6 +9,11 @@ from typing import Any
 _QUEUE_SIZE = 100
 
 
+def wanted(bridge: Any, publisher: int) -> bool:
+    """Whether somebody listens, or a bag keeps all."""
+    return bool(bridge.wants_messages(publisher) or getattr(bridge, "keeps_all", False))
+
+
 class Transforms:
     """Gathers transforms; the topic is there from the first one on."""
 
@@ -20,6 +25,10 @@ class Transforms:
 
     def add(self, header: dict[str, Any], child: str, pose: Sequence[float]) -> None:
         """Pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
+        if self._publisher is None:
+            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
+        if not wanted(self._bridge, self._publisher):
+            return
         x, y, z, qx, qy, qz, qw = pose
         self._waiting.append(
             {
@@ -34,9 +43,6 @@ class Transforms:
 
     def publish(self) -> None:
         """Send those of this pass."""
-        if not self._waiting:
-            return
-        if self._publisher is None:
-            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
-        self._bridge.publish(self._publisher, {"transforms": self._waiting})
-        self._waiting = []
+        if self._waiting:
+            self._bridge.publish(self._publisher, {"transforms": self._waiting})
+            self._waiting = []
