@@ -84,14 +84,32 @@ struct VisualDescription {
   Geometry geometry;
   Material material;
   bool keeps_mesh_materials = false;  ///< those that the mesh brings count, where it brings any
-  double laser_retro = 0;             ///< intensity of a lidar's return
+  bool cast_shadows = true;
+  double laser_retro = 0;  ///< intensity of a lidar's return
   Source source;
 };
 
-struct DirectionalLight {
-  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines, world axes
+enum class LightKind {
+  kDirectional,  ///< from infinitely far away
+  kPoint,        ///< to all sides
+  kSpot,         ///< in a cone
+};
+
+struct Light {
+  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines, world axes; of no meaning to a point light
   Color diffuse{0.8F, 0.8F, 0.8F};
   bool cast_shadows = true;
+  LightKind kind = LightKind::kDirectional;
+  // Of point lights and spotlights:
+  Vector3 position;                  ///< in the world
+  double range = 10;                 ///< m, beyond which it does not shine
+  double constant_attenuation = 1;   ///< it shines with 1 / (constant + linear d + quadratic d^2) at a distance of d
+  double linear_attenuation = 0;     ///< 1/m
+  double quadratic_attenuation = 0;  ///< 1/m^2
+  // Of spotlights:
+  double inner_angle = 0;  ///< rad across, within which it is at its brightest
+  double outer_angle = 0;  ///< rad across, beyond which it does not shine
+  double falloff = 1;      ///< exponent of the brightness between the two
 };
 
 /// Light and background of the scene, as cameras see it.
@@ -100,7 +118,7 @@ struct Environment {
   Color background{0.7F, 0.7F, 0.7F};
   bool sky = false;  ///< a gradient from the horizon up in place of the background
   bool shadows = true;
-  std::vector<DirectionalLight> lights{DirectionalLight{}};
+  std::vector<Light> lights{Light{}};
 };
 
 /// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
@@ -194,7 +212,8 @@ struct SensorDescription {
 
 struct LinkDescription {
   std::string name;
-  Pose pose;  ///< in the model's frame
+  bool has_weight = true;  ///< gravity pulls it
+  Pose pose;               ///< in the model's frame
   double mass = 1;
   Vector3 centre_of_mass;  ///< in the link's frame
   /// About the centre of mass, along the link's axes: xx, yy, zz, then xy, xz, yz. kg m^2

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -176,10 +177,17 @@ class SceneChecker {
   void check_environment(const Environment& environment) {
     check_color("the ambient light", environment.ambient);
     check_color("the background", environment.background);
-    for (const DirectionalLight& light : environment.lights) {
+    for (const Light& light : environment.lights) {
       check_color("the light's colour", light.diffuse);
       require(within(light.direction, 1e6) && light.direction.Length() > 1e-9, "the light's direction",
               text(light.direction), "a direction");
+      require(within(light.position, kMaxDistance), "the light's position", text(light.position),
+              "finite and within 1e6 m");
+      require(light.range >= 0, "the light's range", text(light.range) + " m", "0 or more");
+      const double weakest =
+          std::min({light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation});
+      require(weakest >= 0, "the light's attenuation", text(weakest), "0 or more");
+      require(light.falloff >= 0, "the light's falloff", text(light.falloff), "0 or more");
     }
   }
 

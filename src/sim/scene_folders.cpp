@@ -64,7 +64,8 @@ std::vector<std::string> scene_names() {
 
 fs::path find_scene(const std::string& name_or_path) {
   const fs::path path(name_or_path);
-  if (path.has_parent_path() || path.extension() == ".sdf") {
+  const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro"};
+  if (path.has_parent_path() || extensions.count(path.extension()) > 0) {
     if (fs::is_regular_file(path)) return fs::absolute(path);
     throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "no such file"}});
   }

@@ -2,6 +2,7 @@
 // Reads SDFormat through its own DOM and reports all that is wrong with a file at once.
 #include "bubblesim/scene_loader.hpp"
 
+#include <optional>
 #include <sdf/sdf.hh>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "scene_check.hpp"
 #include "scene_folders.hpp"
 #include "scene_reading.hpp"
+#include "scene_text.hpp"
 #include "sdf_models.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_source.hpp"
@@ -28,11 +30,15 @@ constexpr const char* kGroundPlane = "ground_plane";
 class SceneLoader {
  public:
   explicit SceneLoader(const fs::path& file) : reading_(file) {}
-  SceneLoader(const std::string& text, const fs::path& folder) : reading_(text, kText, folder) {}
+  /// `name` is what errors call the text, whose files lie in `folder`.
+  SceneLoader(const std::string& text, const std::string& name, const fs::path& folder)
+      : reading_(text, name, folder) {}
 
-  SceneDescription load_scene(const fs::path& file) {
+  /// From the file, or from what is to be read in its place.
+  SceneDescription load_scene(const fs::path& file, const std::optional<SceneText>& text) {
     sdf::Root root;
-    reading_.take(root.Load(file.string(), parser_config()), "");
+    reading_.take(text ? root.LoadSdfString(text->text, parser_config()) : root.Load(file.string(), parser_config()),
+                  "");
     SceneDescription scene;
     scene.name = file.stem().string();
     scene.file = file;
@@ -109,10 +115,10 @@ class SceneLoader {
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
-    std::vector<DirectionalLight> lights;
+    std::vector<Light> lights;
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
       const sdf::Light& light = *world.LightByIndex(i);
-      if (const auto read = read_light(light, reading_.resolved(light, "/" + light.Name()))) lights.push_back(*read);
+      lights.push_back(read_light(light, reading_.resolved(light, "/" + light.Name())));
     }
     if (!lights.empty()) scene.environment.lights = lights;
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
@@ -129,11 +135,13 @@ class SceneLoader {
 
 SceneDescription load_scene(const std::string& name_or_path) {
   const fs::path file = find_scene(name_or_path);
-  return SceneLoader(file).load_scene(file);
+  const std::optional<SceneText> text = scene_text(file);
+  if (!text) return SceneLoader(file).load_scene(file, text);
+  return SceneLoader(text->text, text->name, file.parent_path()).load_scene(file, text);
 }
 
 ModelDescription load_model(const std::string& text, const fs::path& folder) {
-  return SceneLoader(text, folder).load_model(text);
+  return SceneLoader(text, kText, folder).load_model(text);
 }
 
 }  // namespace bubblesim

@@ -13,6 +13,9 @@
 namespace bubblesim {
 namespace {
 
+// What SDFormat calls a text that came from no file.
+constexpr const char* kText = "<data-string>";
+
 using Visitor = std::function<void(const tinyxml2::XMLElement&)>;
 
 void visit(const tinyxml2::XMLElement& element, const Visitor& visitor) {
@@ -93,8 +96,9 @@ void SceneXml::place_elements(const sdf::ElementPtr& root) const {
     if (needs_line(element.Name(), where)) lines.emplace(where, element.GetLineNum());
   });
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
-    // SDFormat does not name the file when it has converted URDF.
-    if (element->FilePath().empty() || element->FilePath() == "urdf file") element->SetFilePath(file_);
+    // SDFormat does not name the file of a text, nor when it has converted URDF.
+    const std::string& named = element->FilePath();
+    if (named.empty() || named == kText || named == "urdf file") element->SetFilePath(file_);
     const std::string where = place(element);
     if (element->FilePath() == file_ && needs_line(element->GetName(), where)) {
       const auto found = lines.lower_bound(where);
@@ -152,6 +156,11 @@ int SceneXml::line_of_object(const std::string& path) const {
   return line;
 }
 
+std::string SceneXml::file_of(const sdf::Error& error) const {
+  const std::string file = error.FilePath().value_or(kText);
+  return file == kText ? file_ : file;
+}
+
 std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::string& object) const {
   static const std::regex unread("Error reading element <(.*)>");
   std::vector<Problem> problems;
@@ -170,11 +179,11 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     const bool known = std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
       return (line > 0 && problem.line == line) || problem.message == error.Message();
     });
-    if (!known) problems.push_back({error.FilePath().value_or(file_), line, object, error.Message()});
+    if (!known) problems.push_back({file_of(error), line, object, error.Message()});
   }
   if (!problems.empty() || errors.empty() || harmless) return problems;
   const sdf::Error& first = errors.front();
-  const std::string file = first.FilePath().value_or(file_);
+  const std::string file = file_of(first);
   const int line = first.LineNumber().value_or(object.empty() ? 0 : line_of_object(object));
   std::smatch match;
   const std::string message = first.Message();

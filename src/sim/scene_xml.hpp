@@ -35,6 +35,7 @@ class SceneXml {
 
  private:
   void check(tinyxml2::XMLError result) const;
+  std::string file_of(const sdf::Error& error) const;
   int line_of_named(const std::string& message) const;
   int line_of_object(const std::string& path) const;
   std::string unusable_text(const std::string& element, int line) const;

@@ -52,8 +52,11 @@ void read_visual(const sdf::Visual& visual, const std::string& link_path, bool i
   VisualDescription description;
   description.name = visual.Name();
   description.source = source_of(visual.Element());
-  description.material = read_material(visual, reading.problems());
-  description.keeps_mesh_materials = visual.Material() == nullptr;
+  if (visual.Transparency() >= 1) return;
+  const std::optional<Material> material = read_material(visual, reading);
+  description.material = material.value_or(Material{});
+  description.keeps_mesh_materials = !material;
+  description.cast_shadows = visual.CastShadows();
   description.laser_retro = visual.LaserRetro();
   const std::string path = link_path + "/" + visual.Name();
   try {
@@ -104,6 +107,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.name = link.Name();
   description.pose = reading.resolved(link, path);
   description.source = source_of(link.Element());
+  description.has_weight = link.Element()->Get<bool>("gravity", true).first;
   const auto& inertial = link.Inertial();
   const ignition::math::Matrix3d inertia = inertial.Moi();
   description.mass = inertial.MassMatrix().Mass();

@@ -51,7 +51,8 @@ LidarDescription read_lidar(const sdf::Lidar& lidar) {
                                      lidar.VerticalScanMinAngle().Radian(), lidar.VerticalScanMaxAngle().Radian());
   description.min_range = lidar.RangeMin();
   description.max_range = lidar.RangeMax();
-  description.resolution = lidar.RangeResolution();
+  // Some models have one that would leave no range at all.
+  description.resolution = lidar.RangeResolution() < lidar.RangeMax() ? lidar.RangeResolution() : 0;
   description.noise = read_noise(lidar.LidarNoise());
   return description;
 }

@@ -2,8 +2,14 @@
 #include "sdf_visuals.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <sdf/Material.hh>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "material_scripts.hpp"
+#include "model_folders.hpp"
 #include "named_materials.hpp"
 #include "own_elements.hpp"
 
@@ -17,22 +23,43 @@ Color brightened(const ignition::math::Color& color, double factor) {
   return {part(color.R()), part(color.G()), part(color.B())};
 }
 
+/// Of the script that a material names: the model's own, or one of Gazebo's.
+std::optional<Material> scripted(const sdf::Material& material, SceneReading& reading) {
+  const sdf::ElementPtr element = material.Element();
+  if (!element->HasElement("script")) return std::nullopt;
+  const sdf::ElementPtr script = element->GetElement("script");
+  std::vector<std::filesystem::path> places;
+  if (script->HasElement("uri")) {
+    for (auto uri = script->GetElement("uri"); uri != nullptr; uri = uri->GetNextElement("uri")) {
+      std::filesystem::path place = find_resource(uri->Get<std::string>(), element->FilePath(), reading.folder());
+      if (!place.empty()) places.push_back(std::move(place));
+    }
+  }
+  if (auto own = script_material(material.ScriptName(), places)) return own;
+  return named_material(material.ScriptName());
+}
+
 }  // namespace
 
-Material read_material(const sdf::Visual& visual, std::vector<Problem>& problems) {
-  Material material;
+std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& reading) {
   const sdf::Material* described = visual.Material();
-  if (described == nullptr) return material;
-  if (const auto named = named_material(described->ScriptName())) material = *named;
+  if (described == nullptr) return std::nullopt;
   const sdf::ElementPtr element = described->Element();
-  if (element->HasElement("diffuse")) material.diffuse = to_color(described->Diffuse());
+  std::optional<Material> given = scripted(*described, reading);
+  Material material = given.value_or(Material{});
+  const bool has_color = element->HasElement("diffuse");
+  if (has_color) {
+    material.diffuse = to_color(described->Diffuse());
+    material.texture = nullptr;
+  }
   if (element->HasElement("emissive")) material.emissive = to_color(described->Emissive());
-  material.checker_size = own_number(element, "bubblesim:checker_size", problems).value_or(0);
-  if (const auto color = own_vector(element, "bubblesim:checker_color", problems)) {
+  const auto checker_size = own_number(element, "bubblesim:checker_size", reading.problems());
+  material.checker_size = checker_size.value_or(0);
+  if (const auto color = own_vector(element, "bubblesim:checker_color", reading.problems())) {
     material.checker_color = {static_cast<float>(color->X()), static_cast<float>(color->Y()),
                               static_cast<float>(color->Z())};
   }
-  return material;
+  return given || has_color || checker_size ? std::make_optional(std::move(material)) : std::nullopt;
 }
 
 void read_surroundings(const sdf::Scene& scene, Environment& environment) {
@@ -42,10 +69,23 @@ void read_surroundings(const sdf::Scene& scene, Environment& environment) {
   environment.shadows = scene.Shadows();
 }
 
-std::optional<DirectionalLight> read_light(const sdf::Light& light, const Pose& pose) {
-  if (light.Type() != sdf::LightType::DIRECTIONAL) return std::nullopt;
-  return DirectionalLight{pose.Rot().RotateVector(light.Direction()), brightened(light.Diffuse(), light.Intensity()),
-                          light.CastShadows()};
+Light read_light(const sdf::Light& light, const Pose& pose) {
+  Light read;
+  read.direction = pose.Rot().RotateVector(light.Direction());
+  read.diffuse = brightened(light.Diffuse(), light.Intensity());
+  read.cast_shadows = light.CastShadows();
+  if (light.Type() == sdf::LightType::DIRECTIONAL) return read;
+  const bool is_spot = light.Type() == sdf::LightType::SPOT;
+  read.kind = is_spot ? LightKind::kSpot : LightKind::kPoint;
+  read.position = pose.Pos();
+  read.range = light.AttenuationRange();
+  read.constant_attenuation = light.ConstantAttenuationFactor();
+  read.linear_attenuation = light.LinearAttenuationFactor();
+  read.quadratic_attenuation = light.QuadraticAttenuationFactor();
+  read.inner_angle = light.SpotInnerAngle().Radian();
+  read.outer_angle = light.SpotOuterAngle().Radian();
+  read.falloff = light.SpotFalloff();
+  return read;
 }
 
 }  // namespace bubblesim

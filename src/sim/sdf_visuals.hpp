@@ -6,20 +6,20 @@
 #include <sdf/Light.hh>
 #include <sdf/Scene.hh>
 #include <sdf/Visual.hh>
-#include <vector>
 
-#include "bubblesim/error.hpp"
 #include "bubblesim/scene.hpp"
+#include "scene_reading.hpp"
 
 namespace bubblesim {
 
-/// The colour that a visual gives by values or by the name of a material script; grey without either.
-Material read_material(const sdf::Visual& visual, std::vector<Problem>& problems);
+/// What a visual gives by values, by the name of a material script that the model brings, or by one of Gazebo's names.
+/// Nothing when it gives none that is known.
+std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& reading);
 
 /// Background, ambient light and shadows.
 void read_surroundings(const sdf::Scene& scene, Environment& environment);
 
-/// Nothing for a point light or a spotlight, which are not supported. `pose` is the light's in the world.
-std::optional<DirectionalLight> read_light(const sdf::Light& light, const Pose& pose);
+/// `pose` is the light's in the world.
+Light read_light(const sdf::Light& light, const Pose& pose);
 
 }  // namespace bubblesim

@@ -62,6 +62,7 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
                      link.inertia_products.Z());
   ode::BodyHandle body(dBodyCreate(world));
   dBodySetMass(body.get(), &mass);
+  dBodySetGravityMode(body.get(), link.has_weight ? 1 : 0);
   const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
   dBodySetPosition(body.get(), centre.X(), centre.Y(), centre.Z());

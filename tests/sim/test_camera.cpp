@@ -143,12 +143,19 @@ TEST(Picture, FollowsTheFieldOfView) {
   EXPECT_EQ(picture.object(30, 15), kNoObject);
 }
 
+Light shining(const Vector3& direction, const Color& color) {
+  Light light;
+  light.direction = direction;
+  light.diffuse = color;
+  return light;
+}
+
 /// Looks down at the ground from 2 m, with one light.
 SceneDescription ground_under(const Vector3& light, std::vector<ModelDescription> others = {}) {
   others.push_back(thing("Ground", colored(Plane{}, {0.8F, 0.6F, 0.4F})));
   SceneDescription described = with_camera(camera(), others, Pose(0, 0, 2, 0, M_PI / 2, 0));
   described.environment.ambient = {0.2F, 0.2F, 0.3F};
-  described.environment.lights = {DirectionalLight{light, {0.5F, 0.6F, 0.7F}, true}};
+  described.environment.lights = {shining(light, {0.5F, 0.6F, 0.7F})};
   return described;
 }
 
@@ -181,7 +188,7 @@ TEST(Light, ThrowsAShadowBesideAThing) {
 TEST(Light, ShadesASphereByItsTrueNormal) {
   SceneDescription described = with_camera(camera(), {thing("Ball", colored(Sphere{1}, {1, 1, 1}), at(3, 0, 0))});
   described.environment.ambient = {};
-  described.environment.lights = {DirectionalLight{{1, 0, 0}, {1, 1, 1}, true}};
+  described.environment.lights = {shining({1, 0, 0}, {1, 1, 1})};
   const Picture picture(described);
   for (const int column : {15, 18, 20, 23}) {
     // The pixel's ray d = (1, l, u) meets |t d - (3, 0, 0)| = 1 first at t; the normal there is t d - (3, 0, 0).

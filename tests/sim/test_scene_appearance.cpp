@@ -114,7 +114,7 @@ TEST(Light, ShinesAsItsPoseTurnsIt) {
       "<light name='sun' type='directional'><pose>0 0 9 0 0 1.5707963267948966</pose><diffuse>0.2 0.4 0.6 1</diffuse>"
       "<direction>1 0 -1</direction><cast_shadows>true</cast_shadows><intensity>0.5</intensity></light>"
       "<light name='lamp' type='point'/>");
-  ASSERT_EQ(read.lights.size(), 1U) << "point lights are not supported";
+  ASSERT_EQ(read.lights.size(), 2U);
   EXPECT_LT(read.lights[0].direction.Normalized().Distance(Vector3(0, 1, -1).Normalized()), 1e-9);
   expect_color(read.lights[0].diffuse, 0.1F, 0.2F, 0.3F);
   EXPECT_TRUE(read.lights[0].cast_shadows);

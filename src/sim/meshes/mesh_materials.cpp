@@ -95,7 +95,10 @@ std::vector<Material> mesh_materials(const aiScene& scene, const fs::path& file)
     }
     if (read.Get(AI_MATKEY_COLOR_EMISSIVE, color) == aiReturn_SUCCESS) material.emissive = to_color(color);
     material.texture = texture_of(scene, read, file);
-    any = any || material.texture != nullptr;
+    if (material.texture != nullptr) {
+      material.diffuse = mean_color(*material.texture);
+      any = true;
+    }
     materials.push_back(std::move(material));
   }
   if (!any) materials.clear();

@@ -23,6 +23,7 @@ struct Free {
                   "); png, jpg, bmp, tga and gif are known");
 }
 
+/// Takes the pixels over.
 std::shared_ptr<const Texture> to_texture(stbi_uc* pixels, int width, int height) {
   if (pixels == nullptr) fail();
   const std::unique_ptr<stbi_uc, Free> owner(pixels);
@@ -55,8 +56,8 @@ std::shared_ptr<const Texture> read_texture(const std::filesystem::path& file) {
   int width = 0;
   int height = 0;
   int channels = 0;
-  std::shared_ptr<const Texture> texture =
-      to_texture(stbi_load(file.c_str(), &width, &height, &channels, 3), width, height);
+  stbi_uc* const pixels = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  std::shared_ptr<const Texture> texture = to_texture(pixels, width, height);
   shared = texture;
   return texture;
 }
@@ -66,7 +67,8 @@ std::shared_ptr<const Texture> decode_texture(const unsigned char* bytes, std::s
   int width = 0;
   int height = 0;
   int channels = 0;
-  return to_texture(stbi_load_from_memory(bytes, static_cast<int>(size), &width, &height, &channels, 3), width, height);
+  stbi_uc* const pixels = stbi_load_from_memory(bytes, static_cast<int>(size), &width, &height, &channels, 3);
+  return to_texture(pixels, width, height);
 }
 
 Color mean_color(const Texture& texture) {

@@ -30,6 +30,13 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
   return context;
 }
 
+VisualDescription as_visual(const CollisionDescription& collision) {
+  VisualDescription visual;
+  visual.pose = collision.pose;
+  visual.geometry = collision.geometry;
+  return visual;
+}
+
 /// Turns down hits from inside and on the ignored model. Ray and normal are in the same frame here.
 void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
@@ -83,16 +90,17 @@ void RayScene::add_model(const World& world, ObjectId model, const ModelDescript
     const LinkDescription& link = description.links[i];
     const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;
     const std::size_t first = placed->shapes.size();
-    const auto add = [&](const Pose& in_link, const Geometry& geometry, const Material& material, double retro) {
-      const Pose in_frame = pose * in_link;
+    const auto add = [&](const VisualDescription& visual) {
+      const Pose in_frame = pose * visual.pose;
       const ignition::math::Matrix3d turn(in_frame.Rot());
       placed->shapes.push_back(std::make_unique<RayShape>(
-          RayShape{geometry, in_frame, turn, turn.Transposed(), material, static_cast<float>(retro), ids[i], model}));
+          RayShape{visual.geometry, in_frame, turn, turn.Transposed(), visual.material, visual.keeps_mesh_materials,
+                   visual.cast_shadows, static_cast<float>(visual.laser_retro), ids[i], model}));
     };
     if (visuals) {
-      for (const VisualDescription& v : link.visuals) add(v.pose, v.geometry, v.material, v.laser_retro);
+      for (const VisualDescription& visual : link.visuals) add(visual);
     } else {
-      for (const CollisionDescription& c : link.collisions) add(c.pose, c.geometry, {}, 0);
+      for (const CollisionDescription& collision : link.collisions) add(as_visual(collision));
     }
     if (placed->shapes.size() == first) continue;
     if (description.is_static) {
@@ -266,6 +274,16 @@ Vector3 RayScene::normal(const RayPacket& packet, std::size_t i) const {
   const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).Normalized();
   if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) return normal;
   return links_[hit.instID[0][i]]->pose.Rot().RotateVector(normal);
+}
+
+Vector3 RayScene::shading_normal(const RayPacket& packet, std::size_t i) const {
+  const Vector3 flat = normal(packet, i);
+  const unsigned instance = packet.data.hit.instID[0][i];
+  if (instance == kPlaneInstance) return flat;
+  const RTCHit16& hit = packet.data.hit;
+  Vector3 smooth = smooth_normal(shape(packet, i), hit.primID[i], hit.u[i], hit.v[i]);
+  if (instance != RTC_INVALID_GEOMETRY_ID) smooth = links_[instance]->pose.Rot().RotateVector(smooth);
+  return smooth.Dot(flat) > 0 ? smooth : flat;  // files may have normals that point inwards, or none
 }
 
 Vector3 RayScene::in_shape(const RayPacket& packet, std::size_t i, const Vector3& point) const {

@@ -39,6 +39,8 @@ class RayScene {
   const rays::RayShape& shape(const rays::RayPacket& packet, std::size_t i) const;
   /// Of unit length, world axes.
   Vector3 normal(const rays::RayPacket& packet, std::size_t i) const;
+  /// The same as light sees it: meshes may be smooth.
+  Vector3 shading_normal(const rays::RayPacket& packet, std::size_t i) const;
   /// A world point in the frame of the shape that was hit.
   Vector3 in_shape(const rays::RayPacket& packet, std::size_t i, const Vector3& point) const;
 

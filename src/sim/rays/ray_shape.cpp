@@ -89,12 +89,16 @@ void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
 
 void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
+  if (!shape.cast_shadows) return;
   const unsigned count = arguments->N;
   for (unsigned i = 0; i < count; ++i) {
     if (arguments->valid[i] == 0 || !meet(shape, arguments->ray, count, i)) continue;
     RTCRayN_tfar(arguments->ray, count, i) = -std::numeric_limits<float>::infinity();
   }
 }
+
+/// For faces that throw no shadow.
+void let_light_through(const RTCFilterFunctionNArguments* arguments) { std::fill_n(arguments->valid, arguments->N, 0); }
 
 GeometryHandle make_round() {
   GeometryHandle geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
@@ -149,8 +153,22 @@ GeometryHandle make_any(const RayShape& shape) {
 
 bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
+Vector3 smooth_normal(const RayShape& shape, unsigned triangle, float u, float v) {
+  const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+  if (mesh == nullptr || mesh->triangles->normals.empty()) return {};
+  const auto& [a, b, c] = mesh->triangles->triangles[triangle];
+  const auto normal = [mesh](std::uint32_t corner) {
+    const TriangleMesh::Point& known = mesh->triangles->normals[corner];
+    return Vector3(known[0], known[1], known[2]);
+  };
+  const auto second = static_cast<double>(u);
+  const auto third = static_cast<double>(v);
+  return (shape.turn * (normal(a) * (1 - second - third) + normal(b) * second + normal(c) * third)).Normalized();
+}
+
 GeometryHandle make_geometry(const RayShape& shape) {
   GeometryHandle geometry = make_any(shape);
+  if (!shape.cast_shadows) rtcSetGeometryOccludedFilterFunction(geometry.get(), let_light_through);
   // Callbacks read the shape only; Embree's interface knows no const.
   rtcSetGeometryUserData(geometry.get(), const_cast<RayShape*>(&shape));
   rtcCommitGeometry(geometry.get());

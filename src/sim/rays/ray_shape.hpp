@@ -17,10 +17,16 @@ struct RayShape {
   ignition::math::Matrix3d turn;  ///< the pose's rotation, and its inverse: quaternions would take longer for each ray
   ignition::math::Matrix3d turn_back;
   Material material;
+  bool keeps_mesh_materials = false;
+  bool cast_shadows = true;
   float laser_retro = 0;
   ObjectId link = kNoObject;
   ObjectId model = kNoObject;
 };
+
+/// Of a mesh's triangle at a place that Embree tells by u and v, in the shape's outer frame and of unit length; the
+/// zero vector when the mesh is flat there.
+Vector3 smooth_normal(const RayShape& shape, unsigned triangle, float u, float v);
 
 /// What a query asks of Embree beside the rays; handed to every callback.
 struct QueryContext {

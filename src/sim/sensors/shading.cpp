@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sensors/surface_color.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -16,17 +18,12 @@ Color mix(const Color& a, const Color& b, float part_of_b) {
   return {a.r + (b.r - a.r) * part_of_b, a.g + (b.g - a.g) * part_of_b, a.b + (b.b - a.b) * part_of_b};
 }
 
+Color product(const Color& a, const Color& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+
 void accumulate(Color& sum, const Color& color, float weight) {
   sum.r += weight * color.r;
   sum.g += weight * color.g;
   sum.b += weight * color.b;
-}
-
-Color checker(const Material& material, const Vector3& in_shape) {
-  // Half a millionth of a field: a face that lies on a border between fields must not flicker between the two.
-  const auto field = [&](double place) { return std::lround(std::floor(place / material.checker_size + 5e-7)); };
-  const long parity = field(in_shape.X()) + field(in_shape.Y()) + field(in_shape.Z());
-  return parity % 2 == 0 ? material.diffuse : material.checker_color;
 }
 
 /// The points seen, on their way to a light.
@@ -35,6 +32,37 @@ struct Points {
   std::array<Vector3, rays::kPacket> normal;
   std::array<Color, rays::kPacket> color;
 };
+
+/// How a light comes to a point.
+struct Arrival {
+  Vector3 to_light;  // of unit length
+  float distance = 0;
+  double brightness = 0;
+};
+using Arrivals = std::array<Arrival, rays::kPacket>;
+
+/// From 0 beyond the outer cone to 1 within the inner one, as OGRE's fixed pipeline has it.
+double spot_brightness(const Light& light, const Vector3& axis, const Vector3& to_light) {
+  const double cosine = -to_light.Dot(axis);
+  const double outer = std::cos(light.outer_angle / 2);
+  const double inner = std::cos(light.inner_angle / 2);
+  if (cosine <= outer) return 0;
+  return cosine >= inner ? 1 : std::pow((cosine - outer) / (inner - outer), light.falloff);
+}
+
+/// `axis` is the light's direction, of unit length.
+Arrival arrive(const Light& light, const Vector3& axis, const Vector3& point) {
+  if (light.kind == LightKind::kDirectional) return {-axis, std::numeric_limits<float>::infinity(), 1};
+  const Vector3 way = light.position - point;
+  const double distance = way.Length();
+  if (distance > light.range || distance < 1e-9) return {};
+  Arrival arrival{way / distance, static_cast<float>(distance), 1};
+  if (light.kind == LightKind::kSpot) arrival.brightness = spot_brightness(light, axis, arrival.to_light);
+  const double attenuation = light.constant_attenuation + light.linear_attenuation * distance +
+                             light.quadratic_attenuation * distance * distance;
+  if (attenuation > 0) arrival.brightness /= attenuation;
+  return arrival;
+}
 
 }  // namespace
 
@@ -54,32 +82,30 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, std::siz
       accumulate(colors[i], behind(direction), weight);
       continue;
     }
-    const Material& material = scene.shape(packet, i).material;
     points.place[i] = Vector3(ray.org_x[i], ray.org_y[i], ray.org_z[i]) + direction * ray.tfar[i];
-    points.normal[i] = scene.normal(packet, i);
-    points.color[i] =
-        material.checker_size > 0 ? checker(material, scene.in_shape(packet, i, points.place[i])) : material.diffuse;
-    const Color& color = points.color[i];
-    const Color& ambient = environment_.ambient;
-    accumulate(colors[i], {color.r * ambient.r, color.g * ambient.g, color.b * ambient.b}, weight);
-    accumulate(colors[i], material.emissive, weight);
+    points.normal[i] = scene.shading_normal(packet, i);
+    const SurfaceColor surface = surface_color(scene, packet, i, points.place[i]);
+    points.color[i] = surface.diffuse;
+    accumulate(colors[i], product(surface.diffuse, environment_.ambient), weight);
+    accumulate(colors[i], surface.emissive, weight);
   }
-  for (const DirectionalLight& light : environment_.lights) {
-    const Vector3 to_light = -light.direction.Normalized();
+  for (const Light& light : environment_.lights) {
+    const Vector3 axis = light.direction.Normalized();
+    Arrivals arrivals;
     RTCRay16 shadow;
     rays::RayMask lit;
     int any = 0;
     for (std::size_t i = 0; i < rays::kPacket; ++i) {
-      const bool faces_light = i < count && packet.hit(i) && points.normal[i].Dot(to_light) > 0;
-      lit.use[i] = faces_light ? rays::kUsed : 0;
-      any |= lit.use[i];
-      if (!faces_light) continue;
+      lit.use[i] = 0;
+      if (i >= count || !packet.hit(i)) continue;
+      arrivals[i] = arrive(light, axis, points.place[i]);
+      if (arrivals[i].brightness <= 0 || points.normal[i].Dot(arrivals[i].to_light) <= 0) continue;
+      lit.use[i] = any = rays::kUsed;
       // Off the surface by more than single precision can be wrong, or it would shade itself.
       const double gap = 1e-4 + 1e-5 * ray.tfar[i];
-      const Vector3 start = points.place[i] + points.normal[i] * gap;
-      rays::aim(shadow, i, start, to_light);
+      rays::aim(shadow, i, points.place[i] + points.normal[i] * gap, arrivals[i].to_light);
       shadow.tnear[i] = shadow.time[i] = 0;
-      shadow.tfar[i] = std::numeric_limits<float>::infinity();
+      shadow.tfar[i] = arrivals[i].distance;
       shadow.mask[i] = ~0U;
       shadow.flags[i] = 0;
     }
@@ -87,9 +113,9 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, std::siz
     if (environment_.shadows && light.cast_shadows) scene.occlude(shadow, lit);
     for (std::size_t i = 0; i < count; ++i) {
       if (lit.use[i] == 0 || shadow.tfar[i] < 0) continue;
-      const auto cosine = static_cast<float>(points.normal[i].Dot(to_light)) * weight;
-      const Color& color = points.color[i];
-      accumulate(colors[i], {color.r * light.diffuse.r, color.g * light.diffuse.g, color.b * light.diffuse.b}, cosine);
+      const double cosine = points.normal[i].Dot(arrivals[i].to_light);
+      accumulate(colors[i], product(points.color[i], light.diffuse),
+                 static_cast<float>(cosine * arrivals[i].brightness) * weight);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which colour a traced ray sees: Lambert's law under directional lights, their shadows, the sky.
+// Which colour a traced ray sees: Lambert's law under the scene's lights, their shadows, the sky.
 #pragma once
 
 #include <cstddef>

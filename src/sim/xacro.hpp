@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace bubblesim {
+
+/// The URDF that the program xacro makes of a file: the one on PATH, or else of the virtual environment of this build.
+/// Throws SceneError with what xacro says, and when there is none.
+std::string run_xacro(const std::filesystem::path& file);
+
+}  // namespace bubblesim
