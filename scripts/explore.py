@@ -39,7 +39,8 @@ class Explore:
         self._mapped_at = rospy.Time()  # stamp of the last map
         self._transforms = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._transforms)
-        self._goal = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1)
+        # Latched: the first goal may be there before go_to.py listens.
+        self._goal = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1, latch=True)
         self._done = rospy.Publisher("~done", Bool, queue_size=1, latch=True)
         rospy.Subscriber("go_to/arrived", Bool, self._on_arrival, queue_size=10)
         rospy.Subscriber("map", OccupancyGrid, self._on_map, queue_size=1)
