@@ -68,8 +68,11 @@ class Simulation {
   void remove_model(ObjectId model);
 
   /// Seconds of simulation time; 0 in the first pass, constant through a pass.
-  double time() const { return static_cast<double>(passes_) * scene_.time_step; }
+  double time() const { return time_before_ + static_cast<double>(passes_ - passes_before_) * scene_.time_step; }
   double time_step() const { return scene_.time_step; }
+  /// Seconds that passes take from now on, the one that is being run included, until reset(). Physics steps stay as
+  /// long as they are or become shorter. InvalidInput unless it is from 1e-4 to 10.
+  void set_time_step(double seconds);
   /// As it was loaded.
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
@@ -137,6 +140,10 @@ class Simulation {
   std::vector<SensorSlot> sensors_;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;
+  double first_time_step_;  // s, of the scene
+  // Before the time step was last changed:
+  std::uint64_t passes_before_ = 0;
+  double time_before_ = 0;                          // s
   std::atomic<std::thread::id> stepping_thread_{};  // none: no pass is being run
   bool draining_ = false;                           // the phase of the pass that is being run
   std::atomic<RunState> state_{RunState::kRunning};

@@ -102,6 +102,11 @@ class World {
   void set_target_position(ObjectId joint, double position, int axis = 0);
   void set_target_velocity(ObjectId joint, double velocity, int axis = 0);
   void set_max_force(ObjectId joint, double force, int axis = 0);
+  /// Moves what hangs on a revolute, continuous or prismatic joint there at once, as if by hand; it keeps its velocity.
+  /// InvalidInput for joints of other types, and for one in a closed chain of links.
+  void set_joint_position(ObjectId joint, double position);
+  /// As the scene describes it; `axis` as above.
+  const JointDescription& joint_description(ObjectId joint) const;
 
   /// The nearest thing that a ray of length `max_distance` meets, leaving out the model `ignored_model`.
   std::optional<RayHit> cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,

@@ -215,6 +215,8 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            "Handles of its objects name nothing from now on, and are not used again.")
       .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
+      .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
+           "Lets passes take so long from now on, 1e-4 to 10 s, until `reset`.")
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
       .def_property_readonly(

@@ -129,6 +129,16 @@ void bind_world(py::module_& module) {
            py::arg("axis") = 0)
       .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
            py::arg("axis") = 0)
+      .def("joint_type", [](const World& w, ObjectId joint) { return w.joint_description(joint).type; })
+      .def(
+          "joint_limits",
+          [](const World& w, ObjectId joint) {
+            const JointDescription& description = w.joint_description(joint);
+            if (description.axes.empty()) return std::make_pair(0.0, 0.0);
+            return std::make_pair(description.axes.front().lower, description.axes.front().upper);
+          },
+          "Lowest and highest position of a joint's first axis; infinite without limits.")
+      .def("set_joint_position", &World::set_joint_position, py::arg("joint"), py::arg("position"))
       .def("set_max_force", &World::set_max_force, py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
 }
 

@@ -73,12 +73,13 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     if (bridge != nullptr) {
       const py::object control = py::module_::import("bubblesim.control.offered")
                                      .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
-      python_->drain = control.attr("drain");
+      python_->host.attr("after_drain") = control.attr("drain");
       python_->publish = control.attr("publish");
       python_->close = control.attr("close");
     }
     python_->host.attr("start")();
     // Looked up once, called in every pass.
+    python_->drain = python_->host.attr("drain");
     python_->actuate = python_->host.attr("actuate");
     python_->sense = python_->host.attr("sense");
     python_->finish = python_->host.attr("finish");
@@ -99,9 +100,7 @@ ChildScripts::~ChildScripts() {
 
 /// Also where there is nothing to drain: what was delivered before may have failed in a script.
 void ChildScripts::drain() {
-  with_host([&] {
-    if (python_->drain) python_->drain();
-  });
+  with_host([&] { python_->drain(); });
 }
 
 void ChildScripts::publish(const World&, double) {

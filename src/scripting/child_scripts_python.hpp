@@ -12,8 +12,8 @@ namespace bubblesim {
 struct ChildScripts::Python {
   scripting::Interpreter interpreter;
   pybind11::object host;
-  pybind11::object drain;    // none without a bridge
-  pybind11::object publish;  // nor these
+  pybind11::object drain;
+  pybind11::object publish;  // none without a bridge
   pybind11::object close;
   pybind11::object actuate;
   pybind11::object sense;

@@ -11,6 +11,8 @@ namespace bubblesim {
 /// Bounds of the finite world: ODE's broad phase breaks down a few orders of magnitude beyond.
 constexpr double kMaxDistance = 1e6;      ///< m from the origin
 constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
+constexpr double kMinTimeStep = 1e-4;     ///< s, of a pass
+constexpr double kMaxTimeStep = 10;       ///< s
 constexpr double kMinPhysicsStep = 1e-5;  ///< s
 constexpr double kMaxPhysicsStep = 1;     ///< s
 

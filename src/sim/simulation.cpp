@@ -2,11 +2,14 @@
 #include "bubblesim/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "checks.hpp"
+#include "describe.hpp"
 #include "fnv1a.hpp"
 #include "rays/ray_scene.hpp"
 
@@ -28,7 +31,11 @@ struct Simulation::SensorSlot {
 };
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
-    : scene_(std::move(scene)), seed_(seed), world_(scene_, seed), rays_(std::make_unique<RayScene>()) {
+    : scene_(std::move(scene)),
+      seed_(seed),
+      world_(scene_, seed),
+      rays_(std::make_unique<RayScene>()),
+      first_time_step_(scene_.time_step) {
   for (const ObjectId model : world_.tree().models()) rays_->add_model(world_, model, world_.description(model));
   make_all_sensors();
 }
@@ -82,7 +89,22 @@ class Exclusive {
   std::atomic<std::thread::id>& stepping_;
 };
 
+/// Seconds of a physics step when scripts have changed the time step: a whole number of them make a pass.
+double substep(const SceneDescription& scene) {
+  constexpr double kRounding = 1e-6;
+  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.physics_step - kRounding));
+}
+
 }  // namespace
+
+void Simulation::set_time_step(double seconds) {
+  if (!(seconds >= kMinTimeStep && seconds <= kMaxTimeStep)) {
+    throw InvalidInput("a time step of " + text(seconds) + " s is not usable: it must be from 1e-4 to 10 s");
+  }
+  time_before_ = time();
+  passes_before_ = passes_;
+  scene_.time_step = seconds;
+}
 
 void Simulation::step() {
   const Exclusive exclusive(stepping_thread_);
@@ -91,7 +113,7 @@ void Simulation::step() {
   draining_ = false;
   const double now = time();  // a reset while draining sets it back
   for (Participant* participant : participants_) participant->actuate(world_, now);
-  world_.advance(scene_.time_step, scene_.physics_step);
+  world_.advance(scene_.time_step, scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
   update_sensors();
   for (Participant* participant : participants_) participant->sense(world_, now);
   for (Participant* participant : participants_) participant->publish(world_, now);
@@ -124,7 +146,9 @@ void Simulation::reset() {
   check_may_change();
   world_.reset();
   make_all_sensors();
-  passes_ = 0;
+  passes_ = passes_before_ = 0;
+  time_before_ = 0;
+  scene_.time_step = first_time_step_;
   for (Participant* participant : participants_) participant->reset();
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joints as scripts and programs see them.
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
@@ -42,6 +45,21 @@ void check_target(const World::State& state, ObjectId id, const char* what, doub
   if (within(value, kMaxTarget)) return;
   throw InvalidInput(state.shown(id) + ": the " + what + " " + text(value) +
                      " is not usable: it must be finite and at most 1e6");
+}
+
+/// The links that are connected to a joint's child by other joints, and the child itself.
+std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& joint) {
+  std::vector<ObjectId> found{joint.child};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const PlacedJoint& other : model.joints) {
+      if (&other == &joint) continue;
+      for (const auto& [here, there] : {std::pair(other.parent, other.child), std::pair(other.child, other.parent)}) {
+        if (here != found[i] || there == kNoObject) continue;
+        if (std::find(found.begin(), found.end(), there) == found.end()) found.push_back(there);
+      }
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -101,6 +119,33 @@ void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
   const JointAxis found = joint_axis(*state_, joint, axis);
   check_target(*state_, joint, "target velocity", velocity);
   found.joint.set_target_velocity(found.index, velocity);
+}
+
+const JointDescription& World::joint_description(ObjectId joint) const {
+  placed_joint(*state_, joint);
+  return state_->model_of(joint).description.joints[state_->tree.at(joint).index];
+}
+
+void World::set_joint_position(ObjectId joint, double position) {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  const JointDescription& description = joint_description(joint);
+  const bool slides = description.type == "prismatic";
+  if (!slides && description.type != "revolute" && description.type != "continuous") {
+    throw InvalidInput(state_->shown(joint) + " is a " + description.type +
+                       " joint: only revolute, continuous and prismatic ones can be put somewhere");
+  }
+  check_target(*state_, joint, "position", position);
+  const double way = position - joint_position(joint);
+  const Pose frame = pose(joint);
+  const Vector3 axis = frame.Rot().RotateVector(description.axes.front().direction);
+  const Pose to_frame(frame.Pos(), Quaternion::Identity);
+  const Pose motion = slides ? Pose(way * axis, Quaternion::Identity)
+                             : to_frame * Pose(Vector3::Zero, Quaternion(axis, way)) * to_frame.Inverse();
+  const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
+  if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
+    throw InvalidInput(state_->shown(joint) + " belongs to a closed chain of links: no part hangs on it alone");
+  }
+  for (const ObjectId link : moved) set_pose(link, motion * pose(link));
 }
 
 void World::set_max_force(ObjectId joint, double force, int axis) {

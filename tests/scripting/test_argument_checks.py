@@ -33,7 +33,7 @@ IN_PYTHON = """
         return next(value for value in FITTING if kind is None or takes(kind, value))
 
     def check(module, name, number, parameter, kind, before, after):
-        @settings(max_examples=12, deadline=None, database=None)
+        @settings(max_examples=4, deadline=None, database=None)
         @given(ANYTHING.filter(lambda value: not takes(kind, value)))
         def refuses(value):
             try:
@@ -120,7 +120,7 @@ def run(folder: Path, name: str, code: str) -> list[str]:
     """What the script prints, in a node that looks for a master in vain."""
     script = write(folder / name, code)
     options = ["--strict", "--speed", "max", "--until", 0.05, "--child-script", f"/Ball={script}"]
-    run = run_sim("ball", *options, env=ros_environment(free_port(), folder))
+    run = run_sim("ball", *options, env=ros_environment(free_port(), folder), timeout=240)
     assert run.returncode == 0, run.stderr
     return run.stdout.splitlines()
 

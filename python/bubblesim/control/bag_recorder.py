@@ -39,7 +39,7 @@ class BagRecorder:
         self._bridge = bridge
         self._definitions: dict[str, _Definition] = {}
         self._heard: list[tuple[str, str, bytes]] = []
-        self._published: list[tuple[str, str, bytes]] = []
+        self._published: list[tuple[str, str, bytes, genpy.Time]] = []
 
     def advertised(self, publisher: int) -> None:
         """Nothing to write."""
@@ -49,7 +49,7 @@ class BagRecorder:
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
         """Keep it until the pass is over."""
-        self._published.append((topic, message_type, _core.messages.encode(message_type, message)))
+        self._published.append((topic, message_type, _core.messages.encode(message_type, message), self._now()))
 
     def heard(self, topic: str, message_type: str, message: Any) -> None:
         """Keep it until the pass is over."""
@@ -62,13 +62,18 @@ class BagRecorder:
         """Write all of the pass, and the time that it had."""
         sec, nanosec = self._bridge.now()
         clock = _core.messages.encode(_CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
-        time = genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # a bag knows no time 0
         self._heard.sort(key=lambda message: message[0])
-        for topic, message_type, data in [("/clock", _CLOCK, clock), *self._heard, *self._published]:
+        now = self._now()
+        of_now = [(*message, now) for message in [("/clock", _CLOCK, clock), *self._heard]]
+        for topic, message_type, data, time in [*of_now, *self._published]:
             definition = self._definition(message_type)
             self._bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
         self._heard.clear()
         self._published.clear()
+
+    def _now(self) -> genpy.Time:
+        sec, nanosec = self._bridge.now()
+        return genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # a bag knows no time 0
 
     def close(self) -> None:
         """Write the bag's index, without which it cannot be read."""

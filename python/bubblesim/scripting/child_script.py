@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 Hook = Callable[[], object]
 
 # The phases that a script may take part in, by the names it gives them.
-HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup")
+PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
+HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup", *PAUSE_HOOKS)
 
 
 class ChildScript:
@@ -37,6 +38,7 @@ class ChildScript:
         self.file = file
         self.alive = True
         self.failed = False
+        self.follows_pauses = False
         self.running = False  # its code is on the call stack
         self.doing = "loading"  # what it was called for last
         self.programs: list[Program] = []  # that it started
@@ -68,6 +70,7 @@ class ChildScript:
         if not loaded:
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
+        self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
@@ -100,6 +103,11 @@ class ChildScript:
     def sense(self) -> None:
         """Run sysCall_sensing."""
         self._call("sysCall_sensing")
+
+    def tell(self, hook: str) -> None:
+        """Run one of PAUSE_HOOKS."""
+        if self._started:
+            self._call(hook)
 
     def clean_up(self) -> None:
         """End the thread and run sysCall_cleanup."""

@@ -31,6 +31,13 @@ class SimConstants:
     verbosity_debug = 600
     verbosity_trace = 700
 
+    joint_revolute = joint_revolute_subtype = 10
+    joint_prismatic = joint_prismatic_subtype = 11
+    joint_spherical = joint_spherical_subtype = 12
+    jointmode_passive = jointmode_kinematic = 0
+    jointmode_dependent = 3
+    jointmode_force = jointmode_dynamic = 5
+
     object_shape_type = 0
     object_joint_type = 1
     object_dummy_type = 4

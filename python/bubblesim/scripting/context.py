@@ -22,6 +22,13 @@ class ApiContext(SimConstants):
         self._world = simulation.world
         self._script = script
 
+    def _with_all_below(self, handle: int) -> list[int]:
+        """An object and all of its descendants, each before its own."""
+        found = [handle]
+        for child in self._world.children(handle):
+            found += self._with_all_below(int(child))
+        return found
+
     def _resolve(self, handle: int) -> int:
         """Turn sim.handle_self and sim.handle_parent into the handle of an object."""
         if 0 <= handle <= _LARGEST_HANDLE:

@@ -7,6 +7,7 @@ import gc
 import math
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +55,8 @@ class ScriptHost:
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
+        self.after_drain: Callable[[], None] | None = None
+        self._paused = False  # as scripts know it
         self._next_look = 0.0 if watch else math.inf  # at the files, by time.monotonic()
         script_sockets.install()
         script_thread.install()
@@ -114,6 +117,21 @@ class ScriptHost:
             "simROS": SimRos(self.bridge, self.simulation, script),
             "simROS2": SimRos2(self.bridge, self.simulation, script),
         }
+
+    def drain(self) -> None:
+        """When messages have been delivered, also while paused: tell scripts of pauses that want to know."""
+        if self.after_drain is not None:
+            self.after_drain()
+        listening = [script for script in self.scripts if script.follows_pauses]
+        if listening:
+            paused = bool(self.simulation.state == _core.RunState.PAUSED)
+            if paused:
+                told = "sysCall_suspended" if self._paused else "sysCall_suspend"
+            else:
+                told = "sysCall_resume" if self._paused else ""
+            self._paused = paused
+            for script in listening if told else ():
+                script.tell(told)
 
     def actuate(self) -> None:
         """Call sysCall_actuation of all scripts."""

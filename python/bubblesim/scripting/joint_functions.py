@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Handle
 
@@ -13,6 +15,27 @@ class JointFunctions(ApiContext):
     def getJointPosition(self, joint: Handle) -> float:
         """Angle or distance from the joint's zero."""
         return float(self._world.joint_position(self._resolve(joint)))
+
+    def setJointPosition(self, joint: Handle, position: float) -> None:
+        """Put what hangs on a joint there at once; one whose motor holds a position should be given a target, too."""
+        self._world.set_joint_position(self._resolve(joint), position)
+
+    def getJointInterval(self, joint: Handle) -> tuple[bool, list[float]]:
+        """Whether the joint has no limits, and [lowest position, range]."""
+        lower, upper = self._world.joint_limits(self._resolve(joint))
+        if not math.isfinite(upper - lower):
+            return True, [-math.pi, math.tau]
+        return False, [lower, upper - lower]
+
+    def getJointType(self, joint: Handle) -> int:
+        """sim.joint_revolute, joint_prismatic or joint_spherical; revolute for joints with several axes."""
+        kinds = {"prismatic": self.joint_prismatic, "ball": self.joint_spherical}
+        return kinds.get(self._world.joint_type(self._resolve(joint)), self.joint_revolute)
+
+    def getJointMode(self, joint: Handle) -> tuple[int, int]:
+        """sim.jointmode_dynamic for joints that physics move, all but fixed ones, and 0."""
+        fixed = self._world.joint_type(self._resolve(joint)) == "fixed"
+        return (self.jointmode_kinematic if fixed else self.jointmode_dynamic), 0
 
     def getJointVelocity(self, joint: Handle) -> float:
         """Velocity of the joint."""

@@ -10,6 +10,7 @@ from bubblesim.scripting.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vect
 
 Vector = list[float]
 WORLD = ApiContext.handle_world
+HANDLE_ALL = ApiContext.handle_all
 
 
 class ObjectFunctions(ApiContext):
@@ -72,6 +73,23 @@ class ObjectFunctions(ApiContext):
         """Handle of the ``index``-th object below, -1 when there are fewer."""
         children = self._world.children(self._resolve(handle))
         return int(children[index]) if 0 <= index < len(children) else -1
+
+    def getObjectsInTree(self, base: Handle, object_type: int = HANDLE_ALL, options: int = 0) -> list[int]:
+        """Handles of an object and all below it, or of the whole scene for sim.handle_scene.
+
+        ``object_type`` (sim.object_joint_type ...) leaves out others; options 1 leaves out the object itself, 2 all but
+        its direct children.
+        """
+        if base == self.handle_scene:
+            roots = [int(model) for model in self._world.models if int(self._world.parent(model)) < 0]
+            found = [handle for root in roots for handle in ([root] if options & 2 else self._with_all_below(root))]
+        else:
+            base = self._resolve(base)
+            children = [int(child) for child in self._world.children(base)]
+            below = children if options & 2 else self._with_all_below(base)[1:]
+            found = below if options & 1 else [base, *below]
+        wants_all = object_type == self.handle_all
+        return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
 
     def getObjectType(self, handle: Handle) -> int:
         """sim.object_shape_type, object_joint_type or object_proximitysensor_type."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that start programs and write messages."""
+"""`sim` functions that start programs, write messages and name the simulator's parts."""
 
 from __future__ import annotations
 
@@ -25,6 +25,11 @@ class ProgramFunctions(ApiContext):
         process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
         self._script.programs.append(process)
         return process.pid
+
+    def getModuleName(self, index: int) -> str | None:
+        """Name of a plugin, 'RosInterface' for the bridge to ROS; None (nil) when there are not so many."""
+        plugins = ["RosInterface"] if self._script.host.bridge is not None else []
+        return plugins[index] if 0 <= index < len(plugins) else None
 
     def addLog(self, level: object, text: object) -> None:
         """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""

@@ -89,6 +89,7 @@ sethook(pulse, "", INSTRUCTIONS_BETWEEN_PULSES)
 function coroutine.create(body) return create(with_pulse(body)) end
 function coroutine.wrap(body) return wrap(with_pulse(body)) end
 
+self = {}
 python = nil
 if not host.unsafe then
   dofile, io, loadfile, os, package = nil, nil, nil, nil, nil

@@ -37,6 +37,13 @@ class TimeFunctions(ApiContext):
         """Seconds that one pass takes."""
         return float(self._simulation.time_step)
 
+    def setSimulationTimeStep(self, seconds: float) -> None:
+        """Let passes take so many seconds from this one on, 0.0001 to 10, until the simulation stops.
+
+        Physics steps become shorter when need be, never longer.
+        """
+        self._simulation.set_time_step(seconds)
+
     def getSystemTime(self) -> float:
         """Seconds of the machine's clock since the first call."""
         return _seconds_since_first_call()

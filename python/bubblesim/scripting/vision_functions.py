@@ -125,9 +125,6 @@ class VisionFunctions(ApiContext):
         pixels: Array = image.rgb
         return pixels
 
-    def _with_all_below(self, handle: int) -> list[int]:
-        return [handle] + [below for child in self._world.children(handle) for below in self._with_all_below(child)]
-
 
 def _buffer(image: Any) -> Array:
     """Depths from 0 at the near plane to 1 at the far one."""
