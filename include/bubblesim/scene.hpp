@@ -3,6 +3,7 @@
 // SI units, angles in radians, poses in the frame that each comment names.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -112,13 +113,22 @@ struct Light {
   double falloff = 1;      ///< exponent of the brightness between the two
 };
 
-/// Light and background of the scene, as cameras see it.
+/// Where on Earth the scene's origin lies, on the ellipsoid WGS84.
+struct GeographicOrigin {
+  double latitude = 0;   ///< degrees, to the north
+  double longitude = 0;  ///< degrees, to the east
+  double elevation = 0;  ///< m above the ellipsoid
+  double heading = 0;    ///< rad, from the east to the scene's x axis, counter-clockwise seen from above
+};
+
+/// What surrounds the models: light and background as cameras see them, and the place on Earth.
 struct Environment {
   Color ambient{0.4F, 0.4F, 0.4F};
   Color background{0.7F, 0.7F, 0.7F};
   bool sky = false;  ///< a gradient from the horizon up in place of the background
   bool shadows = true;
   std::vector<Light> lights{Light{}};
+  GeographicOrigin origin;
 };
 
 /// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
@@ -199,11 +209,41 @@ struct PluginDescription {
   Source source;
 };
 
+/// A receiver of satellite navigation.
+struct NavSatDescription {
+  NoiseDescription horizontal_position_noise;  ///< m, to the east and to the north
+  NoiseDescription vertical_position_noise;    ///< m
+  NoiseDescription horizontal_velocity_noise;  ///< m/s, to the east and to the north
+  NoiseDescription vertical_velocity_noise;    ///< m/s
+};
+
+/// Feels what its link touches.
+struct ContactDescription {
+  std::vector<std::string> collisions;  ///< of the link; empty for all of them
+};
+
+inline bool watches(const ContactDescription& sensor, const std::string& collision) {
+  return sensor.collisions.empty() ||
+         std::find(sensor.collisions.begin(), sensor.collisions.end(), collision) != sensor.collisions.end();
+}
+
+/// Feels what a joint transmits.
+struct ForceTorqueDescription {
+  enum class Frame { kChild, kParent, kSensor };
+
+  Frame frame = Frame::kChild;  ///< whose axes the readings are in
+  bool of_child = true;         ///< what the child does to the parent; else what the parent does to the child
+  std::array<NoiseDescription, 3> force_noise;   ///< N
+  std::array<NoiseDescription, 3> torque_noise;  ///< N m
+};
+
 struct SensorDescription {
   std::string name;
-  Pose pose;               ///< in the link's frame; the sensor looks along its x axis
+  Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
-  std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription> kind;
+  std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
+               ContactDescription, ForceTorqueDescription>
+      kind;
   std::vector<PluginDescription> plugins;
   std::string topic;  ///< on which it is published; empty: its plugins may publish it
   std::string frame;  ///< of what is published, its link unless given
@@ -249,6 +289,7 @@ struct JointDescription {
   std::string child;
   Pose pose;  ///< in the model's frame
   std::vector<AxisDescription> axes;
+  std::vector<SensorDescription> sensors;  ///< of force and torque
   Source source;
 };
 

@@ -7,16 +7,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "bubblesim/math.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
+#include "bubblesim/world.hpp"
 
 namespace bubblesim {
 
-class World;
 class RayScene;
 
 /// What a sonar or another proximity sensor saw. Lengths in metres, in the sensor's frame.
@@ -63,7 +64,30 @@ struct ImuReading {
   Vector3 linear_acceleration;  ///< m/s^2, the mean over the last pass, with what holds it against gravity: g at rest
 };
 
-using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading>;
+/// Where a receiver of satellite navigation is and how it moves.
+struct NavSatReading {
+  double latitude = 0;   ///< degrees
+  double longitude = 0;  ///< degrees
+  double altitude = 0;   ///< m above the ellipsoid WGS84
+  Vector3 velocity;      ///< m/s, to the east, to the north and up
+};
+
+/// What a link touches.
+struct ContactReading {
+  std::vector<Contact> contacts;
+};
+
+/// What a joint transmits, in the axes and with the sign that the description says; torque about the sensor's origin.
+struct ForceTorqueReading {
+  Vector3 force;   ///< N, the mean over the last pass
+  Vector3 torque;  ///< N m, the mean over the last pass
+};
+
+using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, ContactReading,
+                                 ForceTorqueReading>;
+
+/// "proximity sensor", "lidar", "camera", "IMU", "GPS receiver", "contact sensor" or "force-torque sensor".
+std::string_view kind_name(const Measurement& measurement);
 
 struct Reading {
   double time = 0;  ///< s of simulation time at which it was measured

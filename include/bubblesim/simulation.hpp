@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -110,6 +111,8 @@ class Simulation {
   std::shared_ptr<const Reading> read(ObjectId sensor);
   /// Measures now, whatever the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
+  /// See kind_name(); it measures nothing.
+  std::string_view sensor_kind(ObjectId sensor);
   /// The same for sensors of one kind; NoSuchObject for those of others.
   ProximityReading read_proximity(ObjectId sensor);
   ProximityReading measure_proximity(ObjectId sensor);

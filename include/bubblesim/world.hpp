@@ -30,6 +30,29 @@ struct PlacedShape {
   Pose pose;  ///< in the world
 };
 
+/// Where two shapes touch; world axes.
+struct ContactPoint {
+  Vector3 position;  ///< m
+  Vector3 normal;    ///< in which the other shape pushes
+  double depth = 0;  ///< m
+  Vector3 force;     ///< N, in the physics step in which they last touched
+};
+
+/// A shape of a link that touched another one while the last pass went by.
+struct Contact {
+  std::string collision;
+  ObjectId other_link = kNoObject;
+  std::string other_collision;
+  Vector3 force;                     ///< N on the link, the mean over the pass
+  std::vector<ContactPoint> points;  ///< of the physics step in which they last touched
+};
+
+/// What one body does to another through a joint, world axes.
+struct Wrench {
+  Vector3 force;   ///< N
+  Vector3 torque;  ///< N m, about the origin of the joint
+};
+
 /// All setters check what they are given and throw InvalidInput, naming object and value, before anything is changed:
 /// a bad value never reaches the physics. Handles that name no object, or one of the wrong kind, throw NoSuchObject.
 class World {
@@ -107,6 +130,13 @@ class World {
   void set_joint_position(ObjectId joint, double position);
   /// As the scene describes it; `axis` as above.
   const JointDescription& joint_description(ObjectId joint) const;
+
+  /// What a link touched during the last advance(). Only links with a contact sensor keep it, each for the shapes that
+  /// the sensor names; InvalidInput for others.
+  std::vector<Contact> contacts(ObjectId link) const;
+  /// What a joint's child does to its parent, the mean over the last advance(); only joints with a force-torque sensor
+  /// keep it, InvalidInput for others.
+  Wrench joint_wrench(ObjectId joint) const;
 
   /// The nearest thing that a ray of length `max_distance` meets, leaving out the model `ignored_model`.
   std::optional<RayHit> cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,

@@ -81,7 +81,8 @@ void bind_objects(py::module_& module) {
           "Of the joint's motor, N m or N.")
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
-          "What a sensor measured last: a ProximityReading, LidarScan, CameraImage or ImuReading.")
+          "What a sensor measured last: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"
+          "NavSatReading, ContactReading or ForceTorqueReading.")
       .def_property_readonly(
           "urdf", [](const View& v) { return to_urdf(v.world().description(v.id())); },
           "The model that the object belongs to as the text of a URDF file, for robot_state_publisher and RViz; each\n"

@@ -31,13 +31,17 @@ struct Held {
 using HeldScan = Held<LidarScan>;
 using HeldImage = Held<CameraImage>;
 using HeldImu = Held<ImuReading>;
+using HeldNavSat = Held<NavSatReading>;
+using HeldContacts = Held<ContactReading>;
+using HeldForceTorque = Held<ForceTorqueReading>;
 
 /// Throws NoSuchObject when the sensor measures something else.
 template <class Kind>
 Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading,
                 const char* wanted) {
   if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
-  throw NoSuchObject(simulation.world().tree().short_path(sensor) + " is a sensor of another kind, not a " + wanted);
+  throw NoSuchObject(simulation.world().tree().short_path(sensor) + " is a " +
+                     std::string(kind_name(reading->measurement)) + ", not a " + wanted);
 }
 
 /// An array that cannot be written, on memory that `owner` keeps.
@@ -72,6 +76,9 @@ struct ToPython {
   py::object operator()(const LidarScan&) const { return py::cast(HeldScan{reading}); }
   py::object operator()(const CameraImage&) const { return py::cast(HeldImage{reading}); }
   py::object operator()(const ImuReading&) const { return py::cast(HeldImu{reading}); }
+  py::object operator()(const NavSatReading&) const { return py::cast(HeldNavSat{reading}); }
+  py::object operator()(const ContactReading&) const { return py::cast(HeldContacts{reading}); }
+  py::object operator()(const ForceTorqueReading&) const { return py::cast(HeldForceTorque{reading}); }
 };
 
 std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
@@ -172,6 +179,56 @@ void bind_imu(py::module_& module) {
           "m/s^2, the mean over the last pass; at rest what holds it against gravity, upwards.");
 }
 
+void bind_navsat(py::module_& module) {
+  py::class_<HeldNavSat>(module, "NavSatReading", "What a receiver of satellite navigation told.")
+      .def_property_readonly(
+          "time", [](const HeldNavSat& n) { return n.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "latitude", [](const HeldNavSat& n) { return n->latitude; }, "Degrees.")
+      .def_property_readonly(
+          "longitude", [](const HeldNavSat& n) { return n->longitude; }, "Degrees.")
+      .def_property_readonly(
+          "altitude", [](const HeldNavSat& n) { return n->altitude; }, "Metres above the ellipsoid WGS84.")
+      .def_property_readonly(
+          "velocity", [](const HeldNavSat& n) { return to_numpy(n->velocity); },
+          "m/s to the east, to the north and up.");
+}
+
+void bind_contacts(py::module_& module) {
+  py::class_<ContactPoint>(module, "ContactPoint", "Where two shapes touch; world axes.")
+      .def_property_readonly(
+          "position", [](const ContactPoint& p) { return to_numpy(p.position); }, "Metres.")
+      .def_property_readonly(
+          "normal", [](const ContactPoint& p) { return to_numpy(p.normal); }, "In which the other shape pushes.")
+      .def_property_readonly(
+          "force", [](const ContactPoint& p) { return to_numpy(p.force); },
+          "N, in the physics step in which they last touched.")
+      .def_readonly("depth", &ContactPoint::depth, "Metres.");
+  py::class_<Contact>(module, "Contact",
+                      "A shape of the sensor's link that touched another one while the last pass went by.")
+      .def_readonly("collision", &Contact::collision, "Name of the link's shape.")
+      .def_readonly("other", &Contact::other_link, "Handle of the link that was touched.")
+      .def_readonly("other_collision", &Contact::other_collision, "Name of that link's shape.")
+      .def_property_readonly(
+          "force", [](const Contact& c) { return to_numpy(c.force); },
+          "N on the sensor's link in world axes, the mean over the pass.")
+      .def_readonly("points", &Contact::points, "Of the physics step in which they last touched.");
+  py::class_<HeldContacts>(module, "ContactReading", "What a link touched.")
+      .def_property_readonly(
+          "time", [](const HeldContacts& c) { return c.reading->time; }, "Simulated seconds.")
+      .def_property_readonly("contacts", [](const HeldContacts& c) { return c->contacts; });
+}
+
+void bind_force_torque(py::module_& module) {
+  py::class_<HeldForceTorque>(module, "ForceTorqueReading", "What a joint transmits, the mean over the last pass.")
+      .def_property_readonly(
+          "time", [](const HeldForceTorque& f) { return f.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "force", [](const HeldForceTorque& f) { return to_numpy(f->force); }, "N.")
+      .def_property_readonly(
+          "torque", [](const HeldForceTorque& f) { return to_numpy(f->torque); }, "N m, about the sensor's origin.");
+}
+
 }  // namespace
 
 py::object last_reading(Simulation& simulation, ObjectId sensor) {
@@ -184,6 +241,9 @@ void bind_sensors(py::module_& module) {
   bind_scan(module);
   bind_image(module);
   bind_imu(module);
+  bind_navsat(module);
+  bind_contacts(module);
+  bind_force_torque(module);
 
   module.def(
       "read_sensor",
@@ -211,6 +271,23 @@ void bind_sensors(py::module_& module) {
   module.def(
       "read_imu", [](Simulation& s, ObjectId sensor) { return hold<ImuReading>(s, sensor, s.read(sensor), "IMU"); },
       "The IMU's last reading.");
+  module.def(
+      "read_navsat",
+      [](Simulation& s, ObjectId sensor) { return hold<NavSatReading>(s, sensor, s.read(sensor), "GPS receiver"); },
+      "The receiver's last reading.");
+  module.def(
+      "read_contacts",
+      [](Simulation& s, ObjectId sensor) { return hold<ContactReading>(s, sensor, s.read(sensor), "contact sensor"); },
+      "What the sensor's link last touched.");
+  module.def(
+      "read_force_torque",
+      [](Simulation& s, ObjectId sensor) {
+        return hold<ForceTorqueReading>(s, sensor, s.read(sensor), "force-torque sensor");
+      },
+      "What the sensor's joint last transmitted.");
+  module.def(
+      "sensor_kind", [](Simulation& s, ObjectId sensor) { return std::string(s.sensor_kind(sensor)); },
+      "'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'contact sensor' or 'force-torque sensor'.");
   module.def(
       "read_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },

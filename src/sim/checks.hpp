@@ -10,6 +10,7 @@ namespace bubblesim {
 
 /// Bounds of the finite world: ODE's broad phase breaks down a few orders of magnitude beyond.
 constexpr double kMaxDistance = 1e6;      ///< m from the origin
+constexpr double kMaxSize = 1e5;          ///< m, of shapes and ranges
 constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
 constexpr double kMinTimeStep = 1e-4;     ///< s, of a pass
 constexpr double kMaxTimeStep = 10;       ///< s

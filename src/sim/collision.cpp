@@ -27,6 +27,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
     contact.geom = found[static_cast<std::size_t>(i)];
     dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &contact);
     dJointAttach(joint, body_a, body_b);
+    if (a.watched || b.watched) watch_contact(state, joint, a, b, contact.geom);
   }
 }
 

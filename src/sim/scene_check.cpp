@@ -12,13 +12,11 @@
 #include "checks.hpp"
 #include "describe.hpp"
 #include "joints/joint.hpp"
+#include "sensors/sensor_check.hpp"
 
 namespace bubblesim {
 namespace {
 
-constexpr double kMaxSize = 1e5;     // m
-constexpr int kMaxSamples = 100000;  // of a lidar, in a ring or of rings
-constexpr int kMaxPixels = 16384;    // of a picture, across or down
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Collects problems; knows which object it looks at.
@@ -111,10 +109,26 @@ class SceneChecker {
     }
     for (const SensorDescription& sensor : link.sensors) {
       at(sensor.source, path + "/" + sensor.name);
-      check_pose(sensor.pose);
-      require(sensor.update_rate >= 0 && within(sensor.update_rate, 1e5), "the update rate",
-              text(sensor.update_rate) + " Hz", "0 (every pass) to 1e5 Hz");
-      std::visit([this](const auto& kind) { check_sensor(kind); }, sensor.kind);
+      check_a_sensor(sensor);
+      if (const auto* contact = std::get_if<ContactDescription>(&sensor.kind)) check_collisions(link, *contact);
+      if (std::holds_alternative<ForceTorqueDescription>(sensor.kind)) {
+        report("a force_torque sensor feels what a joint transmits: put it into a <joint>");
+      }
+    }
+  }
+
+  void check_a_sensor(const SensorDescription& sensor) {
+    check_pose(sensor.pose);
+    check_sensor(sensor, [this](bool fine, const std::string& what, const std::string& found,
+                                const std::string& wanted) { require(fine, what, found, wanted); });
+  }
+
+  void check_collisions(const LinkDescription& link, const ContactDescription& contact) {
+    std::vector<std::string> names;
+    for (const CollisionDescription& collision : link.collisions) names.push_back(collision.name);
+    for (const std::string& name : contact.collisions) {
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      report("the collision '" + name + "' is none of this link" + did_you_mean(name, names));
     }
   }
 
@@ -189,63 +203,11 @@ class SceneChecker {
       require(weakest >= 0, "the light's attenuation", text(weakest), "0 or more");
       require(light.falloff >= 0, "the light's falloff", text(light.falloff), "0 or more");
     }
-  }
-
-  void check_ranges(double min_range, double max_range) {
-    require(max_range > 0 && max_range <= kMaxSize, "the maximal range", text(max_range) + " m",
-            "above 0 and at most 1e5 m");
-    require(min_range >= 0 && min_range < max_range, "the minimal range", text(min_range) + " m",
-            "0 or more and below the maximal range");
-  }
-
-  void check_noise(const NoiseDescription& noise) {
-    require(within(noise.mean, kMaxSize), "the noise's mean", text(noise.mean), "finite");
-    require(within(noise.bias_mean, kMaxSize), "the bias's mean", text(noise.bias_mean), "finite");
-    for (const double deviation : {noise.stddev, noise.bias_stddev, noise.precision}) {
-      require(deviation >= 0 && deviation <= kMaxSize, "the noise's standard deviation or precision", text(deviation),
-              "0 or more");
-    }
-  }
-
-  void check_scan(const char* what, const ScanAngles& scan, double reach) {
-    const std::string name = what;
-    require(scan.samples >= 1 && scan.samples <= kMaxSamples, "the number of " + name + " samples",
-            std::to_string(scan.samples), "1 to " + std::to_string(kMaxSamples));
-    require(within(scan.min, reach) && within(scan.max, reach) && scan.min <= scan.max,
-            "the range of " + name + " angles", text(scan.min) + " to " + text(scan.max) + " rad",
-            "from low to high, at most +-" + text(reach));
-  }
-
-  void check_sensor(const LidarDescription& lidar) {
-    check_scan("horizontal", lidar.horizontal, 2 * M_PI);
-    check_scan("vertical", lidar.vertical, M_PI / 2);
-    check_ranges(lidar.min_range, lidar.max_range);
-    require(lidar.resolution >= 0 && lidar.resolution <= lidar.max_range, "the range's resolution",
-            text(lidar.resolution) + " m", "0 (not rounded) to the maximal range");
-    check_noise(lidar.noise);
-  }
-
-  void check_sensor(const CameraDescription& camera) {
-    require(camera.width >= 1 && camera.width <= kMaxPixels && camera.height >= 1 && camera.height <= kMaxPixels,
-            "the picture's size", std::to_string(camera.width) + " x " + std::to_string(camera.height),
-            "1 to " + std::to_string(kMaxPixels) + " pixels each way");
-    require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.1, "the horizontal field of view",
-            text(camera.horizontal_fov) + " rad", "above 0 and below 3.1: a pinhole camera cannot see beside itself");
-    require(camera.far > 0 && camera.far <= kMaxSize, "the far plane", text(camera.far) + " m", "above 0");
-    require(camera.near > 0 && camera.near < camera.far, "the near plane", text(camera.near) + " m",
-            "above 0 and before the far plane");
-    check_noise(camera.noise);
-  }
-
-  void check_sensor(const ImuDescription& imu) {
-    for (const NoiseDescription& noise : imu.angular_velocity_noise) check_noise(noise);
-    for (const NoiseDescription& noise : imu.linear_acceleration_noise) check_noise(noise);
-  }
-
-  void check_sensor(const SonarDescription& sonar) {
-    check_ranges(sonar.min_range, sonar.max_range);
-    require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",
-            text(sonar.half_angle) + " rad", "from 0 to below pi/2");
+    const GeographicOrigin& origin = environment.origin;
+    require(within(origin.latitude, 90), "the latitude", text(origin.latitude), "-90 to 90 degrees");
+    require(within(origin.longitude, 180), "the longitude", text(origin.longitude), "-180 to 180 degrees");
+    require(within(origin.elevation, kMaxSize), "the elevation", text(origin.elevation) + " m", "at most 1e5 m");
+    require(within(origin.heading, 2 * M_PI), "the heading", text(origin.heading) + " rad", "a turn at most");
   }
 
   void check_link_name(const ModelDescription& model, const std::string& name, const std::string& role) {
@@ -277,6 +239,13 @@ class SceneChecker {
     require(static_cast<int>(joint.axes.size()) == kind->axes, "the number of axes", std::to_string(joint.axes.size()),
             std::to_string(kind->axes) + " for a " + joint.type + " joint");
     for (const AxisDescription& axis : joint.axes) check_axis(axis);
+    for (const SensorDescription& sensor : joint.sensors) {
+      at(sensor.source, "/" + model.name + "/" + joint.name + "/" + sensor.name);
+      check_a_sensor(sensor);
+      if (std::holds_alternative<ForceTorqueDescription>(sensor.kind)) continue;
+      report("a joint carries sensors of the type force_torque only: put this one into a <link>");
+    }
+    at(joint.source, "/" + model.name + "/" + joint.name);
     if (joint.type == "revolute2" && joint.axes.size() == 2) {
       if (joint.parent == "world") report("a revolute2 joint needs a link as its parent, not the world");
       const double parallel = joint.axes[0].direction.Cross(joint.axes[1].direction).Length();

@@ -115,6 +115,7 @@ class SceneLoader {
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
+    if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
     std::vector<Light> lights;
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
       const sdf::Light& light = *world.LightByIndex(i);

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <sdf/JointAxis.hh>
+#include <utility>
 
 #include "bubblesim/nearest_names.hpp"
 #include "own_elements.hpp"
+#include "sdf_sensors.hpp"
 #include "sdf_source.hpp"
 
 namespace bubblesim {
@@ -84,6 +86,15 @@ JointDescription read_joint(const sdf::Joint& joint, const std::string& model_pa
   const bool wants_axes = description.type != "fixed" && description.type != "ball";
   for (unsigned int i = 0; wants_axes && i < 2; ++i) {
     if (joint.Axis(i) != nullptr) description.axes.push_back(read_axis(*joint.Axis(i), joint, path, reading));
+  }
+  for (std::uint64_t i = 0; i < joint.SensorCount(); ++i) {
+    const sdf::Sensor& sensor = *joint.SensorByIndex(i);
+    if (!sensor.PoseRelativeTo().empty()) {  // SDFormat does not resolve it here
+      reading.report(source_of(sensor.Element(), "pose"), path + "/" + sensor.Name(),
+                     "the <pose> of a joint's sensor is in the joint's frame: take relative_to out");
+    }
+    if (auto read = read_sensor(sensor, path, sensor.RawPose(), reading))
+      description.sensors.push_back(std::move(*read));
   }
   return description;
 }

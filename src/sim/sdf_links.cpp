@@ -81,24 +81,6 @@ void read_visual(const sdf::Visual& visual, const std::string& link_path, bool i
   }
 }
 
-std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& link_path,
-                                             SceneReading& reading) {
-  const std::string path = link_path + "/" + sensor.Name();
-  SensorDescription description;
-  description.name = sensor.Name();
-  description.source = source_of(sensor.Element());
-  description.pose = reading.resolved(sensor, path);
-  description.update_rate = sensor.UpdateRate();
-  description.plugins = read_plugins(sensor.Element());
-  description.topic = own_text(sensor.Element(), "bubblesim:topic").value_or("");
-  description.frame = own_text(sensor.Element(), "bubblesim:frame").value_or("");
-  const Report report_here = [&](const Source& source, std::string message) {
-    reading.report(source, path, std::move(message));
-  };
-  if (!read_sensor_kind(sensor, description, report_here)) return std::nullopt;
-  return description;
-}
-
 }  // namespace
 
 LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading) {
@@ -122,7 +104,8 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
     read_visual(*link.VisualByIndex(i), path, is_static, description, reading);
   for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
     const sdf::Sensor& sensor = *link.SensorByIndex(i);
-    if (auto read = read_sensor(sensor, path, reading)) description.sensors.push_back(std::move(*read));
+    const Pose pose = reading.resolved(sensor, path + "/" + sensor.Name());
+    if (auto read = read_sensor(sensor, path, pose, reading)) description.sensors.push_back(std::move(*read));
   }
   return description;
 }

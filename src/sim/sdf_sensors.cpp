@@ -4,14 +4,19 @@
 #include <cmath>
 #include <map>
 #include <sdf/Camera.hh>
+#include <sdf/ForceTorque.hh>
 #include <sdf/Imu.hh>
 #include <sdf/Lidar.hh>
+#include <sdf/NavSat.hh>
 #include <sdf/Noise.hh>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
 #include "own_elements.hpp"
+#include "sdf_plugins.hpp"
+#include "sdf_source.hpp"
 
 namespace bubblesim {
 namespace {
@@ -68,6 +73,41 @@ ImuDescription read_imu(const sdf::Imu& imu) {
   return description;
 }
 
+NavSatDescription read_navsat(const sdf::NavSat& navsat) {
+  NavSatDescription description;
+  description.horizontal_position_noise = read_noise(navsat.HorizontalPositionNoise());
+  description.vertical_position_noise = read_noise(navsat.VerticalPositionNoise());
+  description.horizontal_velocity_noise = read_noise(navsat.HorizontalVelocityNoise());
+  description.vertical_velocity_noise = read_noise(navsat.VerticalVelocityNoise());
+  return description;
+}
+
+ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor) {
+  using Frame = ForceTorqueDescription::Frame;
+  ForceTorqueDescription description;
+  if (sensor.Frame() == sdf::ForceTorqueFrame::PARENT) description.frame = Frame::kParent;
+  if (sensor.Frame() == sdf::ForceTorqueFrame::SENSOR) description.frame = Frame::kSensor;
+  description.of_child = sensor.MeasureDirection() != sdf::ForceTorqueMeasureDirection::PARENT_TO_CHILD;
+  description.force_noise = {read_noise(sensor.ForceXNoise()), read_noise(sensor.ForceYNoise()),
+                             read_noise(sensor.ForceZNoise())};
+  description.torque_noise = {read_noise(sensor.TorqueXNoise()), read_noise(sensor.TorqueYNoise()),
+                              read_noise(sensor.TorqueZNoise())};
+  return description;
+}
+
+/// SDFormat has no class for it.
+ContactDescription read_contact(const sdf::ElementPtr& sensor) {
+  ContactDescription description;
+  if (!sensor->HasElement("contact")) return description;
+  for (auto each = sensor->GetElement("contact")->FindElement("collision"); each;
+       each = each->GetNextElement("collision")) {
+    const auto name = each->Get<std::string>();
+    const std::size_t scope = name.rfind("::");  // some write model::link::collision
+    description.collisions.push_back(scope == std::string::npos ? name : name.substr(scope + 2));
+  }
+  return description;
+}
+
 CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const Report& report) {
   CameraDescription description;
   description.width = static_cast<int>(camera.ImageWidth());
@@ -115,14 +155,25 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
   return true;
 }
 
-}  // namespace
-
-bool read_sensor_kind(const sdf::Sensor& sensor, SensorDescription& description, const Report& report) {
+/// Reads what kind of sensor it is, and how it measures, into `description`, whose pose is known already. False when it
+/// cannot be told; the reason is reported.
+bool read_kind(const sdf::Sensor& sensor, SensorDescription& description, const Report& report) {
   switch (sensor.Type()) {
     case sdf::SensorType::SONAR:
       return read_sonar(sensor, description, report);
     case sdf::SensorType::IMU:
       description.kind = sensor.ImuSensor() != nullptr ? read_imu(*sensor.ImuSensor()) : ImuDescription{};
+      return true;
+    case sdf::SensorType::NAVSAT:
+    case sdf::SensorType::GPS:
+      description.kind = sensor.NavSatSensor() != nullptr ? read_navsat(*sensor.NavSatSensor()) : NavSatDescription{};
+      return true;
+    case sdf::SensorType::CONTACT:
+      description.kind = read_contact(sensor.Element());
+      return true;
+    case sdf::SensorType::FORCE_TORQUE:
+      description.kind = sensor.ForceTorqueSensor() != nullptr ? read_force_torque(*sensor.ForceTorqueSensor())
+                                                               : ForceTorqueDescription{};
       return true;
     case sdf::SensorType::LIDAR:
     case sdf::SensorType::GPU_LIDAR:
@@ -146,9 +197,30 @@ bool read_sensor_kind(const sdf::Sensor& sensor, SensorDescription& description,
     default:
       report(description.source, "sensors of type '" + sensor.TypeStr() +
                                      "' are not supported; supported are sonar, ray or lidar, gpu_ray or gpu_lidar, "
-                                     "camera, depth_camera, rgbd_camera, segmentation_camera, imu");
+                                     "camera, depth_camera, rgbd_camera, segmentation_camera, imu, "
+                                     "navsat or gps, contact, force_torque");
       return false;
   }
+}
+
+}  // namespace
+
+std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
+                                             const Pose& pose, SceneReading& reading) {
+  const std::string path = carrier_path + "/" + sensor.Name();
+  SensorDescription description;
+  description.name = sensor.Name();
+  description.source = source_of(sensor.Element());
+  description.pose = pose;
+  description.update_rate = sensor.UpdateRate();
+  description.plugins = read_plugins(sensor.Element());
+  description.topic = own_text(sensor.Element(), "bubblesim:topic").value_or("");
+  description.frame = own_text(sensor.Element(), "bubblesim:frame").value_or("");
+  const Report report_here = [&](const Source& source, std::string message) {
+    reading.report(source, path, std::move(message));
+  };
+  if (!read_kind(sensor, description, report_here)) return std::nullopt;
+  return description;
 }
 
 }  // namespace bubblesim

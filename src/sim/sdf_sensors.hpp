@@ -2,16 +2,18 @@
 // SDFormat's <sensor>.
 #pragma once
 
+#include <optional>
 #include <sdf/Sensor.hh>
+#include <string>
 
-#include "bubblesim/error.hpp"
 #include "bubblesim/scene.hpp"
-#include "sdf_source.hpp"
+#include "scene_reading.hpp"
 
 namespace bubblesim {
 
-/// Reads what kind of sensor it is, and how it measures, into `description`, whose pose in the link is known already.
-/// False when it cannot be told; the reason is reported.
-bool read_sensor_kind(const sdf::Sensor& sensor, SensorDescription& description, const Report& report);
+/// A sensor of the link or joint at a path, with its pose in there. Nothing when it cannot be told what it is; the
+/// reason is reported.
+std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
+                                             const Pose& pose, SceneReading& reading);
 
 }  // namespace bubblesim

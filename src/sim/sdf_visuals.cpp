@@ -69,6 +69,13 @@ void read_surroundings(const sdf::Scene& scene, Environment& environment) {
   environment.shadows = scene.Shadows();
 }
 
+void read_origin(const ignition::math::SphericalCoordinates& place, GeographicOrigin& origin) {
+  origin.latitude = place.LatitudeReference().Degree();
+  origin.longitude = place.LongitudeReference().Degree();
+  origin.elevation = place.ElevationReference();
+  origin.heading = place.HeadingOffset().Radian();
+}
+
 Light read_light(const sdf::Light& light, const Pose& pose) {
   Light read;
   read.direction = pose.Rot().RotateVector(light.Direction());

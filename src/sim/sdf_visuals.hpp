@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDFormat's <material>, <scene> and <light>: what a scene looks like.
+// SDFormat's <material>, <scene>, <spherical_coordinates> and <light>: what a scene looks like and where it is.
 #pragma once
 
+#include <ignition/math/SphericalCoordinates.hh>
 #include <optional>
 #include <sdf/Light.hh>
 #include <sdf/Scene.hh>
@@ -18,6 +19,9 @@ std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& r
 
 /// Background, ambient light and shadows.
 void read_surroundings(const sdf::Scene& scene, Environment& environment);
+
+/// Where on Earth the world's origin lies.
+void read_origin(const ignition::math::SphericalCoordinates& place, GeographicOrigin& origin);
 
 /// `pose` is the light's in the world.
 Light read_light(const sdf::Light& light, const Pose& pose);

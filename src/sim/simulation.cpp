@@ -43,16 +43,21 @@ Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
 void Simulation::make_sensors(ObjectId model) {
   const SceneTree& tree = world_.tree();
   const ModelDescription& description = world_.description(model);
-  const std::vector<ObjectId> links = tree.children(model, ObjectKind::kLink);
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    auto sensor = description.links[i].sensors.begin();
-    for (const ObjectId id : tree.children(links[i], ObjectKind::kSensor)) {
+  const auto make_below = [&](ObjectId carrier, const std::vector<SensorDescription>& sensors) {
+    auto sensor = sensors.begin();
+    for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
       SensorSlot& slot = sensors_.emplace_back();
       slot.id = id;
       slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
       slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
       ++sensor;
     }
+  };
+  for (const ObjectId id : tree.children(model, ObjectKind::kLink)) {
+    make_below(id, description.links[tree.at(id).index].sensors);
+  }
+  for (const ObjectId id : tree.children(model, ObjectKind::kJoint)) {
+    make_below(id, description.joints[tree.at(id).index].sensors);
   }
 }
 
@@ -207,9 +212,14 @@ std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
   return found.sensor->reading();
 }
 
+std::string_view Simulation::sensor_kind(ObjectId sensor) {
+  return kind_name(slot(sensor).sensor->reading()->measurement);
+}
+
 void Simulation::require_proximity(ObjectId sensor) {
   if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
-  throw NoSuchObject(world_.tree().short_path(sensor) + " is a sensor of another kind, not a proximity sensor");
+  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
+                     ", not a proximity sensor");
 }
 
 ProximityReading Simulation::read_proximity(ObjectId sensor) {

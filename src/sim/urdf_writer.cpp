@@ -168,6 +168,9 @@ class UrdfWriter {
     }
     const Pose& parent = link(joint.parent).pose;
     const Pose& child = link(joint.child).pose;
+    for (const SensorDescription& sensor : joint.sensors) {
+      write_frame(sensor.name, joint.child, child.Inverse() * joint.pose * sensor.pose);
+    }
     if (!moves) {
       open_joint(joint.name, "fixed", joint.parent, joint.child, parent.Inverse() * child);
       xml_.CloseElement();

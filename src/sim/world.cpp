@@ -106,6 +106,7 @@ void World::check_removable(ObjectId model) const {
 void World::remove_model(ObjectId model) {
   check_removable(model);
   dJointGroupEmpty(state_->contacts.get());  // those of the last step may be with its bodies
+  forget_forces(*state_);                    // and these name its shapes
   state_->models.erase(model);
   state_->tree.remove(model);
 }
@@ -142,6 +143,7 @@ void World::advance(double duration, double step) {
     }
   }
   state_->last_duration = duration;
+  forget_forces(*state_);
   for (long left = std::lround(duration / step); left > 0; --left) {
     try {
       find_contacts(*state_);
@@ -152,6 +154,7 @@ void World::advance(double duration, double step) {
       }
       // Draws no random numbers, unlike dWorldQuickStep: ODE keeps one random state for all worlds and threads.
       dWorldStep(state_->world.get(), step);
+      gather_forces(*state_, step);
     } catch (const Diverged&) {
       state_->diverged = state_->interrupted = true;
       throw;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the description of a model to bodies, joints and shapes in ODE.
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -83,6 +84,13 @@ struct Extent {
   }
 };
 
+bool is_watched(const LinkDescription& link, const std::string& collision) {
+  return std::any_of(link.sensors.begin(), link.sensors.end(), [&](const SensorDescription& sensor) {
+    const auto* contact = std::get_if<ContactDescription>(&sensor.kind);
+    return contact != nullptr && watches(*contact, collision);
+  });
+}
+
 /// Makes what one model has in ODE, for the objects that it has in the tree.
 class ModelBuilder {
  public:
@@ -120,16 +128,20 @@ class ModelBuilder {
     link.centre_of_mass = description.centre_of_mass;
     link.pose = pose;
     if (!model_.description.is_static) link.body = make_body(state_.world.get(), description, pose);
-    for (const CollisionDescription& collision : description.collisions) add_collider(link, collision);
+    for (const CollisionDescription& collision : description.collisions) {
+      add_collider(link, collision, is_watched(description, collision.name));
+    }
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
   }
 
-  void add_collider(const Link& link, const CollisionDescription& description) {
+  void add_collider(const Link& link, const CollisionDescription& description, bool watched) {
     const Pose pose = link.pose * description.pose;
     Collider& collider = model_.colliders.emplace_back();
     collider.geometry = description.geometry;
     collider.geom.reset(make_geom(collider, pose));
     collider.link = &link;
+    collider.name = description.name;
+    collider.watched = watched;
     collider.surface = description.surface;
     collider.in_link = description.pose;
     dGeomID geom = collider.geom.get();
@@ -162,6 +174,10 @@ class ModelBuilder {
     if (!model_.description.is_static) {
       const JointBodies bodies{parent == nullptr ? nullptr : parent->body.get(), child.body.get()};
       joint.joint = make_joint(state_.world.get(), description, pose, bodies);
+    }
+    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
+    if (joint.joint && !description.sensors.empty()) {
+      joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
     }
     model_.joints.push_back(std::move(joint));
   }
@@ -200,6 +216,9 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const ObjectId joint = tree.add(ObjectKind::kJoint, model.joints[i].name, id, i);
+    for (const SensorDescription& sensor : model.joints[i].sensors) {
+      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++);
+    }
     // The second axis of a steered wheel is an object of its own, so that scripts can name it.
     for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
       tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);

@@ -38,6 +38,9 @@ ObjectId carrier(const World::State& state, const Object& object) {
     case ObjectKind::kJoint:
       return state.model_of(object.id).joints[object.index].parent;
     case ObjectKind::kSensor:
+      if (const Object& above = state.tree.at(object.parent); above.kind == ObjectKind::kJoint) {
+        return state.model_of(object.id).joints[above.index].child;
+      }
       return object.parent;
   }
   return kNoObject;
@@ -78,8 +81,13 @@ Pose World::pose(ObjectId object) const {
       return base;
     case ObjectKind::kJoint:
       return base * state_->model_of(object).joints[found.index].in_parent;
-    case ObjectKind::kSensor:
-      return base * state_->model_of(object).sensors[found.index];
+    case ObjectKind::kSensor: {
+      const PlacedModel& model = state_->model_of(object);
+      const Object& above = state_->tree.at(found.parent);
+      const Pose& in_carrier = model.sensors[found.index];
+      return above.kind == ObjectKind::kJoint ? base * model.joints[above.index].in_child * in_carrier
+                                              : base * in_carrier;
+    }
   }
   return base;
 }

@@ -34,9 +34,23 @@ struct Collider {
   std::shared_ptr<const CollisionMesh> mesh;  // what the geom reads, if it is one
   ode::GeomHandle geom;
   const Link* link = nullptr;
+  std::string name;
   Geometry geometry;
   Surface surface;
   Pose in_link;
+  bool watched = false;  // a contact sensor wants to know what it touches
+};
+
+/// What ODE tells about one of its joints after each step.
+struct JointReport {
+  dJointID joint = nullptr;
+  dJointFeedback feedback{};
+};
+
+/// What a joint transmits, told by those of ODE's joints that it consists of. These keep pointers to their reports.
+struct WrenchMeter {
+  std::deque<JointReport> reports;
+  Wrench sum;  // over the steps of the last advance(), N s and N m s
 };
 
 struct PlacedJoint {
@@ -46,6 +60,25 @@ struct PlacedJoint {
   ObjectId child = kNoObject;
   Pose in_parent;
   Pose in_child;
+  std::unique_ptr<WrenchMeter> meter;  // null when no sensor wants to know
+};
+
+/// Two shapes, of which a contact sensor watches the first, that touched during the last advance().
+struct Touch {
+  const Collider* watched = nullptr;
+  const Collider* other = nullptr;
+  Vector3 impulse;         // on the first, N s
+  std::uint64_t step = 0;  // of the points
+  std::vector<ContactPoint> points;
+};
+
+/// One of ODE's contact joints at a shape that is watched.
+struct TouchReport {
+  const Collider* first = nullptr;
+  const Collider* second = nullptr;
+  dJointID joint = nullptr;
+  dContactGeom contact{};
+  dJointFeedback feedback{};
 };
 
 /// Holds a velocity of a body in the plane; without joints until somebody wants one.
@@ -64,7 +97,7 @@ struct PlacedModel {
   ode::SpaceHandle space;          // its moving geoms, inside World::State::movers; null when it is static
   std::deque<Collider> colliders;  // too
   std::vector<PlacedJoint> joints;
-  std::vector<Pose> sensors;  // in their link's frame
+  std::vector<Pose> sensors;  // in the frame of their link or joint
   PlanarMotor planar_motor;
 };
 
@@ -85,6 +118,9 @@ struct World::State {
   ode::SpaceHandle planes;   // infinite ones would spoil the tree of the statics
   ode::JointGroupHandle contacts;
   std::map<ObjectId, PlacedModel> models;
+  std::deque<TouchReport> touch_reports;  // of this step; a deque, for ODE keeps pointers to them
+  std::vector<Touch> touches;             // of the last advance()
+  std::uint64_t steps = 0;                // begun in the last advance()
   bool diverged = false;
   bool interrupted = false;  // ODE threw in the middle of a step
 
@@ -104,6 +140,15 @@ void gather_statics(World::State& state);
 
 /// Finds what touches and makes ODE's contact joints for it.
 void find_contacts(World::State& state);
+
+/// Has ODE report on a contact joint between two shapes when a sensor watches one of them.
+void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
+                   const dContactGeom& contact);
+/// Has ODE report on a joint from now on.
+std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child);
+/// Forget, at the begin of an advance(), and take in, after each step of it, what ODE reports.
+void forget_forces(World::State& state);
+void gather_forces(World::State& state, double step);
 
 Vector3 to_vector(const dReal* values);
 

@@ -117,8 +117,8 @@ np.testing.assert_allclose(acceleration, [0, 0, 9.8], atol=1e-9)
 @pytest.mark.parametrize(
     ("call", "complaint"),
     [
-        ("sim.getVisionSensorImg(lidar)", "/Lidar is a sensor of another kind, not a camera"),
-        ("sim.readLidar(camera)", "/Camera is a sensor of another kind, not a lidar"),
+        ("sim.getVisionSensorImg(lidar)", "/Lidar is a lidar, not a camera"),
+        ("sim.readLidar(camera)", "/Camera is a camera, not a lidar"),
         ("sim.readVisionSensor(sim.getObject('/Ball'))", "/Ball is a model, not a sensor"),
         ("sim.getVisionSensorImg(depth_camera)", "/DepthCamera is a depth camera, which has no picture"),
         (

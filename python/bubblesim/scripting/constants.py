@@ -42,3 +42,5 @@ class SimConstants:
     object_joint_type = 1
     object_dummy_type = 4
     object_proximitysensor_type = 5
+    object_visionsensor_type = 9
+    object_forcesensor_type = 12

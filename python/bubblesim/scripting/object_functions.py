@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bubblesim._core import sensor_kind
 from bubblesim.scripting import rotations
 from bubblesim.scripting.api import value_first
 from bubblesim.scripting.context import ApiContext
@@ -92,9 +93,21 @@ class ObjectFunctions(ApiContext):
         return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
 
     def getObjectType(self, handle: Handle) -> int:
-        """sim.object_shape_type, object_joint_type or object_proximitysensor_type."""
-        kinds = {"joint": self.object_joint_type, "sensor": self.object_proximitysensor_type}
-        return kinds.get(self._world.kind(self._resolve(handle)), self.object_shape_type)
+        """sim.object_shape_type of models and links, and what joints and sensors are.
+
+        object_joint_type, object_proximitysensor_type, object_visionsensor_type of cameras, object_forcesensor_type of
+        force-torque sensors, and object_dummy_type of other sensors.
+        """
+        handle = self._resolve(handle)
+        kind = str(self._world.kind(handle))
+        if kind == "sensor":
+            sensors = {
+                "proximity sensor": self.object_proximitysensor_type,
+                "camera": self.object_visionsensor_type,
+                "force-torque sensor": self.object_forcesensor_type,
+            }
+            return sensors.get(sensor_kind(self._simulation, handle), self.object_dummy_type)
+        return self.object_joint_type if kind == "joint" else self.object_shape_type
 
     def getObjectPose(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
         """[x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""

@@ -3,7 +3,17 @@
 
 from __future__ import annotations
 
-from bubblesim._core import measure_proximity, read_imu, read_proximity, reading_time
+from typing import Any
+
+from bubblesim._core import (
+    measure_proximity,
+    read_contacts,
+    read_force_torque,
+    read_imu,
+    read_navsat,
+    read_proximity,
+    reading_time,
+)
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Handle
 
@@ -42,6 +52,34 @@ class SensorFunctions(ApiContext):
         """Orientation (x, y, z, w), angular velocity (rad/s) and linear acceleration (m/s^2), in the sensor's frame."""
         reading = read_imu(self._simulation, self._resolve(sensor))
         return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
+
+    def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
+        """1, and the force (N) and torque (N m) of a force-torque sensor, the means over the last pass."""
+        reading = read_force_torque(self._simulation, self._resolve(sensor))
+        return 1, reading.force.tolist(), reading.torque.tolist()
+
+    def readNavSat(self, sensor: Handle) -> tuple[list[float], list[float]]:
+        """Latitude and longitude (degrees) with altitude (m above WGS84), and the velocity (m/s) east, north and up."""
+        reading = read_navsat(self._simulation, self._resolve(sensor))
+        return [reading.latitude, reading.longitude, reading.altitude], reading.velocity.tolist()
+
+    def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
+        """What the sensor's link touched during the last pass, one for each pair of shapes; empty for nothing.
+
+        Each has ``other``, the handle of the link touched, the names ``collision`` and ``otherCollision``, the mean
+        ``force`` (N, on the sensor's link) and the lists ``positions`` (m) and ``normals``, all in world axes.
+        """
+        return [
+            {
+                "other": contact.other,
+                "collision": contact.collision,
+                "otherCollision": contact.other_collision,
+                "force": contact.force.tolist(),
+                "positions": [point.position.tolist() for point in contact.points],
+                "normals": [point.normal.tolist() for point in contact.points],
+            }
+            for contact in read_contacts(self._simulation, self._resolve(sensor)).contacts
+        ]
 
     def _belongs(self, handle: int, to: int) -> bool:
         """Whether an object is, or lies below, another one."""

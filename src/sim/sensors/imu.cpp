@@ -18,15 +18,10 @@ class Imu final : public Sensor {
     reading.angular_velocity = reading.orientation.RotateVectorReverse(world.velocity(id_).angular);
     reading.linear_acceleration = reading.orientation.RotateVectorReverse(world.acceleration(id_) - world.gravity());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      distort(reading.angular_velocity[axis], description_.angular_velocity_noise[axis], moment, axis);
-      distort(reading.linear_acceleration[axis], description_.linear_acceleration_noise[axis], moment, 3 + axis);
+      distort(reading.angular_velocity[axis], description_.angular_velocity_noise[axis], moment, id_, axis);
+      distort(reading.linear_acceleration[axis], description_.linear_acceleration_noise[axis], moment, id_, 3 + axis);
     }
     measurement = reading;
-  }
-
-  void distort(double& value, const NoiseDescription& description, const Moment& moment, std::uint64_t channel) const {
-    Noise noise(description, moment, id_, channel);
-    if (noise.active()) value = noise(value);
   }
 
   ImuDescription description_;

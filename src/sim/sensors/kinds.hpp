@@ -11,6 +11,9 @@ namespace bubblesim {
 std::unique_ptr<Sensor> make_sonar(const SonarDescription&, ObjectId, const World&);
 std::unique_ptr<Sensor> make_imu(const ImuDescription&, ObjectId);
 std::unique_ptr<Sensor> make_lidar(const LidarDescription&, ObjectId);
+std::unique_ptr<Sensor> make_navsat(const NavSatDescription&, const GeographicOrigin&, ObjectId);
+std::unique_ptr<Sensor> make_contact(const ContactDescription&, ObjectId, const World&);
+std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription&, ObjectId, const World&);
 std::unique_ptr<Sensor> make_camera(const CameraDescription&, const Environment&, ObjectId);
 
 }  // namespace bubblesim

@@ -70,4 +70,10 @@ double Noise::operator()(double value) {
   return noisy;
 }
 
+void distort(double& value, const NoiseDescription& description, const Moment& moment, ObjectId sensor,
+             std::uint64_t channel) {
+  Noise noise(description, moment, sensor, channel);
+  if (noise.active()) value = noise(value);
+}
+
 }  // namespace bubblesim

@@ -41,4 +41,8 @@ class Noise {
   NormalSource normal_;
 };
 
+/// Noise of a measurement's single value.
+void distort(double& value, const NoiseDescription& description, const Moment& moment, ObjectId sensor,
+             std::uint64_t channel);
+
 }  // namespace bubblesim

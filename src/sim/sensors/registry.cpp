@@ -13,6 +13,15 @@ struct SensorMaker {
   std::unique_ptr<Sensor> operator()(const SonarDescription& sonar) const { return make_sonar(sonar, id, world); }
   std::unique_ptr<Sensor> operator()(const ImuDescription& imu) const { return make_imu(imu, id); }
   std::unique_ptr<Sensor> operator()(const LidarDescription& lidar) const { return make_lidar(lidar, id); }
+  std::unique_ptr<Sensor> operator()(const NavSatDescription& navsat) const {
+    return make_navsat(navsat, environment.origin, id);
+  }
+  std::unique_ptr<Sensor> operator()(const ContactDescription& contact) const {
+    return make_contact(contact, id, world);
+  }
+  std::unique_ptr<Sensor> operator()(const ForceTorqueDescription& force_torque) const {
+    return make_force_torque(force_torque, id, world);
+  }
   std::unique_ptr<Sensor> operator()(const CameraDescription& camera) const {
     return make_camera(camera, environment, id);
   }

@@ -9,6 +9,19 @@ Sensor::Sensor(Measurement empty) : empty_(std::move(empty)), reading_(std::make
   reading_->measurement = empty_;
 }
 
+std::string_view kind_name(const Measurement& measurement) {
+  struct Name {
+    std::string_view operator()(const ProximityReading&) const { return "proximity sensor"; }
+    std::string_view operator()(const LidarScan&) const { return "lidar"; }
+    std::string_view operator()(const CameraImage&) const { return "camera"; }
+    std::string_view operator()(const ImuReading&) const { return "IMU"; }
+    std::string_view operator()(const NavSatReading&) const { return "GPS receiver"; }
+    std::string_view operator()(const ContactReading&) const { return "contact sensor"; }
+    std::string_view operator()(const ForceTorqueReading&) const { return "force-torque sensor"; }
+  };
+  return std::visit(Name{}, measurement);
+}
+
 void Sensor::update(const Moment& moment) {
   if (reading_.use_count() > 1) {  // somebody holds the last one
     reading_ = std::make_shared<Reading>();

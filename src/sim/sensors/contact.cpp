@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact sensor, or bumper: what a link touches, where, and how hard.
+#include <algorithm>
+#include <utility>
+
+#include "kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class ContactSensor final : public Sensor {
+ public:
+  ContactSensor(ContactDescription description, ObjectId link)
+      : Sensor(ContactReading{}), description_(std::move(description)), link_(link) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    std::vector<Contact> contacts = moment.world.contacts(link_);
+    const auto foreign = [this](const Contact& contact) { return !watches(description_, contact.collision); };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), foreign), contacts.end());
+    measurement = ContactReading{std::move(contacts)};
+  }
+
+  ContactDescription description_;
+  ObjectId link_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_contact(const ContactDescription& description, ObjectId id, const World& world) {
+  return std::make_unique<ContactSensor>(description, world.tree().at(id).parent);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Force-torque sensor: what a joint's child does to its parent, or the other way round.
+#include "kinds.hpp"
+#include "noise.hpp"
+
+namespace bubblesim {
+namespace {
+
+using Frame = ForceTorqueDescription::Frame;
+
+class ForceTorque final : public Sensor {
+ public:
+  ForceTorque(const ForceTorqueDescription& description, ObjectId id, ObjectId joint, ObjectId parent, ObjectId child)
+      : Sensor(ForceTorqueReading{}),
+        description_(description),
+        id_(id),
+        joint_(joint),
+        parent_(parent),
+        child_(child) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    const World& world = moment.world;
+    const Wrench wrench = world.joint_wrench(joint_);
+    const Vector3 lever = world.joint_moving_pose(joint_).Pos() - world.pose(id_).Pos();
+    const double sign = description_.of_child ? 1 : -1;
+    const Quaternion turn = axes(world);
+    ForceTorqueReading reading;
+    reading.force = turn.RotateVectorReverse(wrench.force * sign);
+    reading.torque = turn.RotateVectorReverse((wrench.torque + lever.Cross(wrench.force)) * sign);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      distort(reading.force[axis], description_.force_noise[axis], moment, id_, axis);
+      distort(reading.torque[axis], description_.torque_noise[axis], moment, id_, 3 + axis);
+    }
+    measurement = reading;
+  }
+
+  Quaternion axes(const World& world) const {
+    if (description_.frame == Frame::kSensor) return world.pose(id_).Rot();
+    const ObjectId link = description_.frame == Frame::kChild ? child_ : parent_;
+    return link == kNoObject ? Quaternion::Identity : world.pose(link).Rot();
+  }
+
+  ForceTorqueDescription description_;
+  ObjectId id_;
+  ObjectId joint_;
+  ObjectId parent_;  // kNoObject is the world
+  ObjectId child_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription& description, ObjectId id, const World& world) {
+  const SceneTree& tree = world.tree();
+  const Object& joint = tree.at(tree.at(id).parent);
+  const ModelDescription& model = world.description(id);
+  const JointDescription& described = model.joints[joint.index];
+  ObjectId parent = kNoObject;
+  ObjectId child = kNoObject;
+  for (const ObjectId link : tree.children(tree.model_of(id), ObjectKind::kLink)) {
+    if (tree.at(link).name == described.parent) parent = link;
+    if (tree.at(link).name == described.child) child = link;
+  }
+  return std::make_unique<ForceTorque>(description, id, joint.id, parent, child);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Satellite navigation: place on the ellipsoid WGS84 and velocity. The scene is a plane that touches the ellipsoid at
+// its origin; GeographicLib's LocalCartesian tells where its points are.
+#include <GeographicLib/LocalCartesian.hpp>
+
+#include "kinds.hpp"
+#include "noise.hpp"
+
+namespace bubblesim {
+namespace {
+
+class NavSat final : public Sensor {
+ public:
+  NavSat(const NavSatDescription& description, const GeographicOrigin& origin, ObjectId id)
+      : Sensor(NavSatReading{}),
+        description_(description),
+        id_(id),
+        to_east_north_up_(0, 0, origin.heading),
+        earth_(origin.latitude, origin.longitude, origin.elevation) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    Vector3 place = to_east_north_up_.RotateVector(moment.world.pose(id_).Pos());
+    Vector3 velocity = to_east_north_up_.RotateVector(moment.world.velocity(id_).linear);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool vertical = axis == 2;
+      const auto& of_place = vertical ? description_.vertical_position_noise : description_.horizontal_position_noise;
+      const auto& of_velocity =
+          vertical ? description_.vertical_velocity_noise : description_.horizontal_velocity_noise;
+      distort(place[axis], of_place, moment, id_, axis);
+      distort(velocity[axis], of_velocity, moment, id_, 3 + axis);
+    }
+    NavSatReading reading;
+    std::vector<double> turn(9);  // from east, north, up here to those of the place, row by row in columns of the Earth
+    earth_.Reverse(place.X(), place.Y(), place.Z(), reading.latitude, reading.longitude, reading.altitude, turn);
+    // The place's own east, north and up differ from the scene's, for the Earth is round.
+    for (std::size_t row = 0; row < 3; ++row) {
+      reading.velocity[row] = turn[row] * velocity.X() + turn[3 + row] * velocity.Y() + turn[6 + row] * velocity.Z();
+    }
+    measurement = reading;
+  }
+
+  NavSatDescription description_;
+  ObjectId id_;
+  Quaternion to_east_north_up_;
+  GeographicLib::LocalCartesian earth_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_navsat(const NavSatDescription& description, const GeographicOrigin& origin, ObjectId id) {
+  return std::make_unique<NavSat>(description, origin, id);
+}
+
+}  // namespace bubblesim
