@@ -3,6 +3,7 @@
 # BubbleRob over topics. The robot's handle is part of their names, so that several can drive in one scene:
 # /leftMotorSpeed<handle> and /rightMotorSpeed<handle> [rad/s] in, /sensorTrigger<handle> and /simTime<handle> out.
 # It starts rosBubbleRob, the program that drives it.
+from bubblesim import ros_messages
 
 
 def sysCall_init():
@@ -12,6 +13,7 @@ def sysCall_init():
     self.nose = sim.getObject('./rosInterfaceControlledBubbleRobSensingNose')
     # Copies of the robot are called ..._0, ..._1: so are their frames.
     self.frame = 'base_link' + sim.getObjectAlias(self.body).removeprefix('rosInterfaceControlledBubbleRob')
+    self.joints_topic = None
     if not simROS:
         return
     left, right, sensor, time = (
@@ -21,6 +23,8 @@ def sysCall_init():
     simROS.subscribe(f'/{right}', 'std_msgs/Float32', on_right)
     self.sensor_topic = simROS.advertise(f'/{sensor}', 'std_msgs/Bool')
     self.time_topic = simROS.advertise(f'/{time}', 'std_msgs/Float32')
+    if self.frame == 'base_link':  # robot_state_publisher knows one robot
+        self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
     self.notifications = simROS.advertise('/notifications', 'test_msgs/Notification')
     sim.launchExecutable('rosBubbleRob', f'{left} {right} {sensor} {time}')
 
@@ -40,10 +44,9 @@ def sysCall_sensing():
     simROS.publish(self.sensor_topic, {'data': seen > 0})
     simROS.publish(self.time_topic, {'data': sim.getSimulationTime()})
     simROS.publish(self.notifications, {'messages': 'ok'})
-    x, y, z = sim.getObjectPosition(self.body)
-    qx, qy, qz, qw = sim.getObjectQuaternion(self.body)
-    simROS.sendTransform({
-        'header': {'stamp': simROS.getTime(), 'frame_id': 'odom'},
-        'child_frame_id': self.frame,
-        'transform': {'translation': {'x': x, 'y': y, 'z': z}, 'rotation': {'x': qx, 'y': qy, 'z': qz, 'w': qw}},
-    })
+    now = simROS.getTime()
+    simROS.sendTransform(ros_messages.transform(now, 'odom', self.frame, sim.getObjectPose(self.body)))
+    if self.joints_topic is not None and simROS.wantsMessages(self.joints_topic):
+        motors = (self.left_motor, self.right_motor)
+        states = {sim.getObjectAlias(j): (sim.getJointPosition(j), sim.getJointVelocity(j)) for j in motors}
+        simROS.publish(self.joints_topic, ros_messages.joint_state(now, states))

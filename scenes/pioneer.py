@@ -79,10 +79,8 @@ def publish_motion(now):
     pose, velocity = self.odometry.pose, self.odometry.velocity
     simROS.sendTransform(ros_messages.planar_transform(now, 'odom', 'base_link', pose))
     simROS.publish(self.odometry_topic, ros_messages.planar_odometry(now, 'odom', 'base_link', pose, velocity))
-    names = [sim.getObjectAlias(joint) for joint in self.joints]
-    positions = [sim.getJointPosition(joint) for joint in self.joints]
-    velocities = [sim.getJointVelocity(joint) for joint in self.joints]
-    simROS.publish(self.joints_topic, ros_messages.joint_state(now, names, positions, velocities))
+    states = {sim.getObjectAlias(j): (sim.getJointPosition(j), sim.getJointVelocity(j)) for j in self.joints}
+    simROS.publish(self.joints_topic, ros_messages.joint_state(now, states))
     if simROS.wantsMessages(self.truth_topic):
         simROS.publish(self.truth_topic, truth(now))
 

@@ -1,7 +1,15 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# The tricycle over topics: /steering [rad] and /speed [rad/s of the front wheel] in, /front_sonar [m] and tf out.
+# The tricycle over topics: /steering [rad] and /speed [rad/s of the front wheel] in; /front_sonar [m], /odom and its
+# transform, /joint_states, /image with /camera_info, and /fix out. What nobody listens to is not computed.
 import math
+
+from bubblesim import ros_messages
+from bubblesim.controllers.planar_motion import Pose2D, moved
+from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, velocity
+
+CAMERA_FRAME = 'Camera_optical'
+MEASURES = Tricycle(wheelbase=1.0, wheel_radius=0.3)
 
 
 def sysCall_init():
@@ -15,9 +23,23 @@ def find_parts():
     self.body = sim.getObject('.')
     self.steering = sim.getObject('/Steering')
     self.motor = sim.getObject('/FrontMotor')
+    self.joints = [self.steering, self.motor, sim.getObject('/RearLeftAxle'), sim.getObject('/RearRightAxle')]
     self.sonar = sim.getObject('/FrontSonar')
+    self.camera = sim.getObject('/Camera')
+    self.gps = sim.getObject('/Gps')
+    self.told = {}  # when what the camera and the GPS receiver told last was measured
+    # The odometry starts where the robot stands: its frame is then that of the world.
+    x, y, _ = sim.getObjectPosition(self.body)
+    self.pose = Pose2D(x, y, sim.getObjectOrientation(self.body)[2])
+    self.wheel_angle = sim.getJointPosition(self.motor)
+    self.steered = sim.getJointPosition(self.steering)
     if simROS:
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
+        self.odometry_topic = simROS.advertise('/odom', 'nav_msgs/Odometry')
+        self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
+        self.image_topic = simROS.imageTransportAdvertise('/image')
+        self.camera_topic = simROS.advertise('/camera_info', 'sensor_msgs/CameraInfo')
+        self.fix_topic = simROS.advertise('/fix', 'sensor_msgs/NavSatFix')
 
 
 def on_steering(message):
@@ -31,13 +53,57 @@ def on_speed(message):
 def sysCall_sensing():
     if not simROS:
         return
+    now = simROS.getTime()
     seen, distance, *_ = sim.readProximitySensor(self.sonar)
     # No echo is +Inf, as ROS expects of range sensors (REP 117).
     simROS.publish(self.sonar_topic, {'data': distance if seen else math.inf})
-    x, y, z = sim.getObjectPosition(self.body)
-    qx, qy, qz, qw = sim.getObjectQuaternion(self.body)
-    simROS.sendTransform({
-        'header': {'stamp': simROS.getTime(), 'frame_id': 'odom'},
-        'child_frame_id': 'base_link',
-        'transform': {'translation': {'x': x, 'y': y, 'z': z}, 'rotation': {'x': qx, 'y': qy, 'z': qz, 'w': qw}},
-    })
+    publish_motion(now)
+    publish_picture(now)
+    publish_fix(now)
+
+
+def move_odometry():
+    """Velocity by the front wheel's encoder and angle, with which the pose has moved on."""
+    angle, dt = sim.getJointPosition(self.motor), sim.getSimulationTimeStep()
+    wheel_speed = math.remainder(angle - self.wheel_angle, math.tau) / dt
+    steered = sim.getJointPosition(self.steering)
+    speed = velocity(MEASURES, FrontWheel((self.steered + steered) / 2, wheel_speed))
+    self.wheel_angle, self.steered = angle, steered
+    self.pose = moved(self.pose, speed, dt)
+    return speed
+
+
+def publish_motion(now):
+    speed = move_odometry()
+    simROS.sendTransform(ros_messages.planar_transform(now, 'odom', 'base_link', self.pose))
+    if simROS.wantsMessages(self.odometry_topic):
+        odometry = ros_messages.planar_odometry(now, 'odom', 'base_link', self.pose, speed)
+        simROS.publish(self.odometry_topic, odometry)
+    if simROS.wantsMessages(self.joints_topic):
+        states = {sim.getObjectAlias(j): (sim.getJointPosition(j), sim.getJointVelocity(j)) for j in self.joints}
+        simROS.publish(self.joints_topic, ros_messages.joint_state(now, states))
+
+
+def publish_picture(now):
+    if not simROS.wantsMessages(self.image_topic) and not simROS.wantsMessages(self.camera_topic):
+        return
+    if not is_new(self.camera):
+        return
+    picture = sim.getVisionSensorArray(self.camera)
+    height, width, _ = picture.shape
+    simROS.imageTransportPublish(self.image_topic, picture[::-1], width, height, CAMERA_FRAME)
+    field_of_view = sim.getVisionSensorFieldOfView(self.camera)
+    info = ros_messages.camera_info(now, CAMERA_FRAME, width, height, field_of_view)
+    simROS.publish(self.camera_topic, info)
+
+
+def publish_fix(now):
+    if simROS.wantsMessages(self.fix_topic) and is_new(self.gps):
+        (latitude, longitude, altitude), _ = sim.readNavSat(self.gps)
+        fix = ros_messages.nav_sat_fix(now, 'Gps', latitude, longitude, altitude, variances=[4e-4, 4e-4, 1.6e-3])
+        simROS.publish(self.fix_topic, fix)
+
+
+def is_new(sensor):
+    before, self.told[sensor] = self.told.get(sensor), sim.getReadingTime(sensor)
+    return before != self.told[sensor]

@@ -107,6 +107,8 @@ class Sensor {
   virtual ~Sensor() = default;
 
   void update(const Moment& moment);
+  /// Takes what somebody gives it for what it has measured.
+  void replace(double time, Measurement measurement);
   /// The last measurement. It stays as it is: the next one is written elsewhere as long as anybody holds it.
   std::shared_ptr<const Reading> reading() const { return reading_; }
 

@@ -111,6 +111,9 @@ class Simulation {
   std::shared_ptr<const Reading> read(ObjectId sensor);
   /// Measures now, whatever the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
+  /// Makes a camera show a picture: three bytes a pixel, the uppermost row first. It measures no more then, until the
+  /// world or the simulation is reset. Throws NoSuchObject for what is no camera, InvalidInput when sizes differ.
+  void show_picture(ObjectId camera, const std::vector<std::uint8_t>& rgb);
   /// See kind_name(); it measures nothing.
   std::string_view sensor_kind(ObjectId sensor);
   /// The same for sensors of one kind; NoSuchObject for those of others.

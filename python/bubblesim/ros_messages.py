@@ -7,7 +7,7 @@ Stamps are ROS time in seconds, positions metres, quaternions x, y, z, w.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,8 @@ from bubblesim.controllers.planar_motion import Pose2D, Velocity
 Message = dict[str, Any]
 
 _FLOAT32 = 7  # sensor_msgs/PointField.FLOAT32
+_FIX, _GPS = 0, 1  # sensor_msgs/NavSatStatus.STATUS_FIX, SERVICE_GPS
+_DIAGONAL_KNOWN = 2  # sensor_msgs/NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
 _UNKNOWN = 1e6  # variance of what is not measured: large, for a zero would mean that it is certain
 
 
@@ -106,13 +108,13 @@ def odometry(
     }
 
 
-def joint_state(stamp: float, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float]) -> Message:
-    """sensor_msgs/JointState; rad and rad/s, or m and m/s."""
+def joint_state(stamp: float, joints: Mapping[str, tuple[float, float]]) -> Message:
+    """sensor_msgs/JointState, from positions and velocities by name; rad and rad/s, or m and m/s."""
     return {
         "header": header(stamp, ""),
-        "name": list(names),
-        "position": list(positions),
-        "velocity": list(velocities),
+        "name": list(joints),
+        "position": [position for position, _ in joints.values()],
+        "velocity": [velocity for _, velocity in joints.values()],
     }
 
 
@@ -131,4 +133,42 @@ def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.fl
         "row_step": points.nbytes,
         "data": points.tobytes(),
         "is_dense": True,
+    }
+
+
+def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fov: float) -> Message:
+    """sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
+
+    ``frame`` is the optical one: z forward, x to the right (REP 103).
+    """
+    focal = width / (2.0 * math.tan(horizontal_fov / 2.0))
+    # Pixel (0, 0) has its centre there, half a pixel from the corner.
+    x, y = (width - 1) / 2.0, (height - 1) / 2.0
+    return {
+        "header": header(stamp, frame),
+        "width": width,
+        "height": height,
+        "distortion_model": "plumb_bob",
+        "D": [0.0] * 5,
+        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
+        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        "P": [focal, 0.0, x, 0.0, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
+    }
+
+
+def nav_sat_fix(
+    stamp: float, frame: str, latitude: float, longitude: float, altitude: float, variances: Sequence[float]
+) -> Message:
+    """sensor_msgs/NavSatFix; degrees, m above WGS84.
+
+    :param variances: m^2 to the east, to the north and up.
+    """
+    return {
+        "header": header(stamp, frame),
+        "status": {"status": _FIX, "service": _GPS},
+        "latitude": latitude,
+        "longitude": longitude,
+        "altitude": altitude,
+        "position_covariance": np.diag(variances).ravel(),
+        "position_covariance_type": _DIAGONAL_KNOWN,
     }

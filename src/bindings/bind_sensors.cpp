@@ -286,6 +286,13 @@ void bind_sensors(py::module_& module) {
       },
       "What the sensor's joint last transmitted.");
   module.def(
+      "show_picture",
+      [](Simulation& s, ObjectId camera, const py::bytes& rgb) {
+        const std::string_view bytes = rgb;
+        s.show_picture(camera, {bytes.begin(), bytes.end()});
+      },
+      "Makes a camera show a picture, three bytes a pixel from the top row down, in place of what it sees.");
+  module.def(
       "sensor_kind", [](Simulation& s, ObjectId sensor) { return std::string(s.sensor_kind(sensor)); },
       "'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'contact sensor' or 'force-torque sensor'.");
   module.def(

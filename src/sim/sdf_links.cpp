@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "meshes/mesh_error.hpp"
-#include "own_elements.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_sensors.hpp"

@@ -28,6 +28,7 @@ struct Simulation::SensorSlot {
   double due = 0;       // s of simulation time
   bool wanted = false;  // somebody read it since it last measured
   bool measured = false;
+  bool shows = false;  // a picture that somebody gave it
 };
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
@@ -182,6 +183,7 @@ void Simulation::update_sensors() {
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
     slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
+    if (slot.shows) continue;
     slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
     if (slot.wanted) update(slot);
     slot.wanted = false;
@@ -200,7 +202,7 @@ Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
 
 std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
   SensorSlot& found = slot(sensor);
-  if (!found.measured) update(found);
+  if (!found.measured && !found.shows) update(found);
   found.measured = true;
   found.wanted = true;
   return found.sensor->reading();
@@ -208,8 +210,26 @@ std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
 
 std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
   SensorSlot& found = slot(sensor);
-  update(found);
+  if (!found.shows) update(found);
   return found.sensor->reading();
+}
+
+void Simulation::show_picture(ObjectId camera, const std::vector<std::uint8_t>& rgb) {
+  SensorSlot& found = slot(camera, "camera");
+  const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
+  if (image == nullptr) {
+    throw NoSuchObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
+                       ", not a camera");
+  }
+  if (image->rgb.size() != rgb.size()) {
+    throw InvalidInput(world_.tree().short_path(camera) + " shows " + std::to_string(image->width) + " x " +
+                       std::to_string(image->height) + " pixels in " + std::to_string(image->rgb.size()) +
+                       " bytes: a picture of " + std::to_string(rgb.size()) + " bytes does not fit");
+  }
+  CameraImage picture = *image;
+  picture.rgb = rgb;
+  found.sensor->replace(time(), std::move(picture));
+  found.shows = true;
 }
 
 std::string_view Simulation::sensor_kind(ObjectId sensor) {

@@ -20,6 +20,24 @@ FRAMES = {
         "Pioneer_p3dx_caster_wheel": 0.0375,
         "Pioneer_p3dx_lidar": 0.31,
     },
+    "tricycle": {
+        "odom": 0.0,
+        "base_link": 0.0,
+        "fork": 0.3,
+        "front_wheel": 0.3,
+        "rear_left_wheel": 0.3,
+        "rear_right_wheel": 0.3,
+        "FrontSonar": 0.5,
+        "Camera_optical": 0.9,
+        "Gps": 0.93,
+    },
+    "bubblerob": {
+        "odom": 0.0,
+        "base_link": 0.0,
+        "left_wheel": 0.04,
+        "right_wheel": 0.04,
+        "rosInterfaceControlledBubbleRobSensingNose": 0.12,
+    },
 }
 
 

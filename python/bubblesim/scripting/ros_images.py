@@ -57,6 +57,16 @@ class RosImages(RosTopics, RosParameters):
             message = {"header": header, "format": f"rgb8; {image_format} compressed bgr8"}
             self._bridge.publish(compressed, message | {"data": compress(top_down, image_format, level)})
 
+    def wantsMessages(self, publisher: RosHandle) -> bool:
+        """Whether somebody listens, so that a message is worth making; always for a latched topic.
+
+        Of images, also to the compressed ones.
+        """
+        compressed = self._compressed.get(publisher)
+        return super().wantsMessages(publisher) or (
+            compressed is not None and bool(self._bridge.wants_messages(compressed[0]))
+        )
+
     def imageTransportShutdownPublisher(self, publisher: RosHandle) -> None:
         """Stop publishing images; the handle cannot be used any more."""
         compressed, _, _ = self._compressed_beside(publisher)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim._core import measure_camera, read_camera, read_lidar
+from bubblesim._core import measure_camera, read_camera, read_lidar, show_picture
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Bytes, Handle, Integers
 
@@ -46,6 +46,21 @@ class VisionFunctions(ApiContext):
         part = _part(pixels[::-1], position, size)
         return part.tobytes(), [part.shape[1], part.shape[0]]
 
+    def setVisionSensorImg(self, sensor: Handle, image: Bytes) -> None:
+        """Show a picture on a camera, three bytes a pixel from the bottom row up, in place of what it sees.
+
+        From now on it is what the functions about images give, until the simulation starts again.
+        """
+        columns, rows = self.getVisionSensorRes(sensor)
+        if len(image) != columns * rows * 3:
+            raise ValueError(f"{columns} x {rows} pixels of 3 bytes are not {len(image)} bytes")
+        top_down = np.frombuffer(image, np.uint8).reshape(rows, columns, 3)[::-1]
+        show_picture(self._simulation, self._resolve(sensor), top_down.tobytes())
+
+    def setVisionSensorCharImage(self, sensor: Handle, image: Bytes) -> None:
+        """Show a picture on a camera (old style)."""
+        self.setVisionSensorImg(sensor, image)
+
     def getVisionSensorCharImage(
         self, sensor: Handle, x: int = 0, y: int = 0, width: int = 0, height: int = 0
     ) -> tuple[bytes, int, int]:
@@ -73,6 +88,10 @@ class VisionFunctions(ApiContext):
         """[width, height] in pixels."""
         rows, columns = read_camera(self._simulation, self._resolve(sensor)).depth.shape
         return [columns, rows]
+
+    def getVisionSensorFieldOfView(self, sensor: Handle) -> float:
+        """Across, in radians."""
+        return float(read_camera(self._simulation, self._resolve(sensor)).horizontal_fov)
 
     def getVisionSensorArray(self, sensor: Handle) -> Array:
         """The picture as an array of height x width x 3 that is not copied, from the top row down."""

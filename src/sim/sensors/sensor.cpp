@@ -31,4 +31,10 @@ void Sensor::update(const Moment& moment) {
   measure(moment, reading_->measurement);
 }
 
+void Sensor::replace(double time, Measurement measurement) {
+  reading_ = std::make_shared<Reading>();
+  reading_->time = time;
+  reading_->measurement = std::move(measurement);
+}
+
 }  // namespace bubblesim

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions about sensors in general, and random numbers; called by scripts that check the results themselves."""
+
+from pathlib import Path
+
+from node_support import run_script
+
+
+def test_a_proximity_sensor_is_asked_for_one_object(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            sonar = sim.getObject('/Sonar')
+            result, distance, point, thing, normal = sim.checkProximitySensor(sonar, sim.handle_all)
+            assert result == 1 and thing == sim.getObject('/Floor/link')
+            assert sim.checkProximitySensor(sonar, sim.getObject('/Floor')) == (1, distance, point, thing, normal)
+            assert sim.checkProximitySensor(sonar, sim.getObject('/Table')) == (0, 0.0, [0, 0, 0], -1, [0, 0, 0])
+        """
+    run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.1)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_types_of_sensors_are_told_apart(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            kinds = {'/Sonar': sim.object_proximitysensor_type, '/Camera': sim.object_visionsensor_type,
+                     '/DepthCamera': sim.object_visionsensor_type, '/Lidar': sim.object_dummy_type,
+                     '/Imu': sim.object_dummy_type, '/Ball': sim.object_shape_type}
+            for path, kind in kinds.items():
+                assert sim.getObjectType(sim.getObject(path)) == kind, path
+        """
+    run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.1)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_a_reading_has_the_time_of_its_measurement(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            self.times = []
+
+        def sysCall_sensing():
+            self.times.append(round(sim.getReadingTime(sim.getObject('/Lidar')), 6))  # 10 Hz in passes of 50 ms
+
+        def sysCall_cleanup():
+            print(self.times)
+        """
+    run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.4)
+    assert "[0.0, 0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3" in run.stdout
+
+
+def test_random_numbers_follow_from_the_seed(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            first = [sim.getRandom() for _ in range(1000)]
+            assert all(0 <= number < 1 for number in first) and 0.45 < sum(first) / 1000 < 0.55
+            assert sim.getRandom(7) == sim.getRandom(7) != sim.getRandom()
+            print(first[0])
+        """
+
+    def first(seed: int) -> str:
+        return run_script(tmp_path, code, "--strict", "--seed", seed, until=0.1).stdout
+
+    assert first(1) == first(1) != first(2)
