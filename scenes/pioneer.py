@@ -7,6 +7,7 @@
 import random
 
 from bubblesim import ros_messages
+from bubblesim.control.frames import into
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
 
@@ -87,5 +88,5 @@ def publish_motion(now):
 
 def truth(now):
     pose = sim.getObjectPose(self.body)
-    linear, angular = (ros_messages.turned_back(pose[3:], v) for v in sim.getObjectVelocity(self.body))
+    linear, angular = (into(pose, velocity) for velocity in sim.getObjectVelocity(self.body))
     return ros_messages.odometry(now, 'map', 'base_link', pose=pose, linear=linear, angular=angular)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from bubblesim.control.frames import pose_message, vector_message
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
 
 Message = dict[str, Any]
@@ -27,35 +28,18 @@ def header(stamp: float, frame: str) -> Message:
     return {"stamp": stamp, "frame_id": frame}
 
 
-def vector(xyz: Sequence[float]) -> Message:
-    """geometry_msgs/Vector3 or Point."""
-    return dict(zip("xyz", xyz, strict=True))
-
-
-def quaternion(xyzw: Sequence[float]) -> Message:
-    """geometry_msgs/Quaternion."""
-    return dict(zip("xyzw", xyzw, strict=True))
-
-
 def heading(angle: float) -> list[float]:
     """Quaternion of a turn about the vertical."""
     return [0.0, 0.0, math.sin(angle / 2), math.cos(angle / 2)]
 
 
-def turned_back(rotation: Sequence[float], xyz: Sequence[float]) -> list[float]:
-    """A vector in the axes that a quaternion has turned, from one in the world's."""
-    qx, qy, qz, qw = rotation
-    axis, there = np.array([-qx, -qy, -qz]), np.array(xyz)
-    turned = there + 2.0 * np.cross(axis, np.cross(axis, there) + qw * there)
-    return [float(number) for number in turned]
-
-
 def transform(stamp: float, frame: str, child: str, pose: Sequence[float]) -> Message:
     """geometry_msgs/TransformStamped, from [x, y, z, qx, qy, qz, qw]."""
+    placed = pose_message(pose)
     return {
         "header": header(stamp, frame),
         "child_frame_id": child,
-        "transform": {"translation": vector(pose[:3]), "rotation": quaternion(pose[3:])},
+        "transform": {"translation": placed["position"], "rotation": placed["orientation"]},
     }
 
 
@@ -100,11 +84,11 @@ def odometry(
     return {
         "header": header(stamp, frame),
         "child_frame_id": child,
-        "pose": {
-            "pose": {"position": vector(pose[:3]), "orientation": quaternion(pose[3:])},
+        "pose": {"pose": pose_message(pose), "covariance": covariance},
+        "twist": {
+            "twist": {"linear": vector_message(linear), "angular": vector_message(angular)},
             "covariance": covariance,
         },
-        "twist": {"twist": {"linear": vector(linear), "angular": vector(angular)}, "covariance": covariance},
     }
 
 

@@ -3,8 +3,8 @@
 // world_joints.cpp.
 #include "bubblesim/world.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -118,12 +118,12 @@ const SensorDescription& World::sensor_description(ObjectId sensor) const {
   if (object.kind != ObjectKind::kSensor) {
     throw NoSuchObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
   }
-  std::size_t before = 0;  // sensors of the links before
-  for (const LinkDescription& link : state_->model_of(sensor).description.links) {
-    if (object.index < before + link.sensors.size()) return link.sensors[object.index - before];
-    before += link.sensors.size();
-  }
-  throw std::logic_error("a sensor without a description");
+  const Object& carrier = state_->tree.at(object.parent);
+  const ModelDescription& model = state_->model_of(sensor).description;
+  const std::vector<SensorDescription>& sensors =
+      carrier.kind == ObjectKind::kJoint ? model.joints[carrier.index].sensors : model.links[carrier.index].sensors;
+  const std::vector<ObjectId> below = state_->tree.children(carrier.id, ObjectKind::kSensor);
+  return sensors[static_cast<std::size_t>(std::find(below.begin(), below.end(), sensor) - below.begin())];
 }
 
 const SceneTree& World::tree() const { return state_->tree; }

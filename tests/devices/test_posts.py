@@ -105,4 +105,6 @@ def test_a_sensor_publishes_itself_on_its_own_topic(peer: Peer) -> None:
     assert (sonar["range"], sonar["header"]["frame_id"]) == (math.inf, "sonar"), "REP 117: it looks away from the wall"
     depth = peer.next("/own/depth", "sensor_msgs/Image")
     np.testing.assert_allclose(np.frombuffer(depth["data"], "<f4"), WALL, atol=1e-3)
+    fix = peer.next("/own/fix", "sensor_msgs/NavSatFix")
+    assert (fix["latitude"], fix["longitude"], fix["altitude"]) == pytest.approx((0, 0, 1), abs=1e-6)
     assert peer.next("/own/camera_info", "sensor_msgs/CameraInfo")["height"] == 6
