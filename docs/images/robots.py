@@ -47,6 +47,11 @@ def photograph(
     return picture
 
 
+def enlarged(picture: Image) -> Image:
+    """A small camera's picture in the size of the others."""
+    return np.asarray(cv2.resize(picture, (WIDTH, HEIGHT), interpolation=cv2.INTER_CUBIC), np.uint8)
+
+
 def points_from_above(points: np.ndarray[Any, np.dtype[np.float32]], reach: float) -> Image:
     """A lidar's points within some metres of it, x to the right, coloured by their height."""
     picture = np.full((HEIGHT, WIDTH, 3), 22, np.uint8)
@@ -60,16 +65,17 @@ def points_from_above(points: np.ndarray[Any, np.dtype[np.float32]], reach: floa
     return picture
 
 
-def pioneer() -> tuple[Image, Image, Image]:
-    """It in its room, the room, and the points of its lidar."""
+def pioneer() -> list[Image]:
+    """It in its room, the room, what its camera sees, and the points of its lidar."""
     simulation = bubblesim.Simulation("pioneer")
     simulation.step(10)
     near = photograph(simulation, (0.95, -0.75, 0.6), (-0.02, 0.0, 0.14), 0.62)
     room = photograph(simulation, (-3.3, -2.6, 2.3), (0.9, 0.6, 0.1), 1.25)
-    return near, room, points_from_above(simulation.object("/Pioneer_p3dx_lidar").reading.points, 3.3)
+    points = points_from_above(simulation.object("/Pioneer_p3dx_lidar").reading.points, 3.3)
+    return [near, room, enlarged(simulation.object("/Pioneer_p3dx_camera").reading.rgb), points]
 
 
-def tricycle() -> tuple[Image, Image, Image]:
+def tricycle() -> list[Image]:
     """It, its room, and what its camera sees."""
     simulation = bubblesim.Simulation("tricycle")
     simulation.object("/Steering").target_position = 0.35
@@ -78,11 +84,10 @@ def tricycle() -> tuple[Image, Image, Image]:
     x, y, _ = simulation.object("/Tricycle").position
     near = photograph(simulation, (x + 2.6, y - 2.3, 1.7), (x + 0.5, y + 0.1, 0.4), 0.75)
     room = photograph(simulation, (-4.6, -4.4, 4.2), (0.6, 0.3, 0.0), 1.15)
-    view = cv2.resize(simulation.object("/Camera").reading.rgb, (WIDTH, HEIGHT), interpolation=cv2.INTER_CUBIC)
-    return near, room, view
+    return [near, room, enlarged(simulation.object("/Camera").reading.rgb)]
 
 
-def bubblerob() -> tuple[Image, Image, Image]:
+def bubblerob() -> list[Image]:
     """It, its room, and what lies before its nose."""
     simulation = bubblesim.Simulation("bubblerob")
     simulation.step(10)
@@ -90,17 +95,16 @@ def bubblerob() -> tuple[Image, Image, Image]:
     near = photograph(simulation, (x + 0.5, y - 0.42, 0.33), (x, y, 0.1), 0.62)
     room = photograph(simulation, (-1.4, -1.4, 1.3), (0.2, 0.15, 0.0), 1.15)
     view = photograph(simulation, (x + 0.12, y, 0.12), (x + 1.0, y, 0.12), 1.2)
-    return near, room, view
+    return [near, room, view]
 
 
 def main() -> None:
-    """Put the three pictures of each robot side by side."""
+    """Put the pictures of each robot side by side."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
     for robot in (pioneer, tricycle, bubblerob):
         pictures = [cv2.resize(picture, (426, 320), interpolation=cv2.INTER_AREA) for picture in robot()]
-        gap = np.full((320, 6, 3), 255, np.uint8)
-        beside = np.hstack([pictures[0], gap, pictures[1], gap, pictures[2]])
-        cv2.imwrite(str(folder / f"robot_{robot.__name__}.png"), beside[:, :, ::-1])
+        framed = [cv2.copyMakeBorder(each, 0, 0, 3, 3, cv2.BORDER_CONSTANT, value=(255, 255, 255)) for each in pictures]
+        cv2.imwrite(str(folder / f"robot_{robot.__name__}.png"), np.hstack(framed)[:, :, ::-1])
 
 
 if __name__ == "__main__":
