@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -49,9 +50,27 @@ struct Mesh {
 };
 using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
 
+/// How a shape touches another. What the two surfaces in touch make together is in src/sim/surface_pair.hpp.
 struct Surface {
-  double mu = 1;                         ///< Coulomb friction; two surfaces in touch use the lower one
+  double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is another
   std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit
+  std::optional<double> mu2{};           ///< friction across fdir1; as mu when nothing is said
+  Vector3 fdir1{};                       ///< in the shape's frame; zero when any direction will do
+  double slip1 = 0;                      ///< m/s that the surfaces slide along fdir1 for each N of friction
+  double slip2 = 0;                      ///< across fdir1
+  double torsion = 0;                    ///< m; times the normal force, the torque that brakes a spin on the spot
+  /// Stiffness in N/m and damping in N s/m of the contact; rigid when nothing is said.
+  std::optional<double> kp{};
+  std::optional<double> kd{};
+  /// ODE's own words for the same, taken when there is neither kp nor kd.
+  std::optional<double> soft_erp{};
+  std::optional<double> soft_cfm{};
+  double restitution = 0;                ///< speed after a bounce by that before
+  double bounce_threshold = 1e5;         ///< m/s; what comes slower does not bounce
+  std::optional<double> max_vel{};       ///< m/s at which overlapping shapes are pushed apart
+  std::optional<double> min_depth{};     ///< m that shapes may sink into one another
+  int max_contacts = 8;                  ///< points in which it touches another shape
+  bool collide_without_contact = false;  ///< others pass through it
 };
 
 struct CollisionDescription {
@@ -271,6 +290,15 @@ enum class MotorMode {
   kPosition,  ///< goes to a target position and holds it
 };
 
+/// An axis that follows another: position = multiplier * (leader's position - reference) + offset.
+struct MimicDescription {
+  std::string joint;  ///< of the same model
+  int axis = 0;       ///< of the leader
+  double multiplier = 1;
+  double offset = 0;     ///< rad or m
+  double reference = 0;  ///< rad or m
+};
+
 struct AxisDescription {
   Vector3 direction = Vector3::UnitZ;  ///< unit length, in the joint's frame
   double lower = -std::numeric_limits<double>::infinity();
@@ -279,17 +307,33 @@ struct AxisDescription {
   double max_velocity = std::numeric_limits<double>::infinity();  ///< of the motor; m/s or rad/s
   double friction = 0;                                            ///< N or N m against any motion
   double damping = 0;                                             ///< N s/m or N m s/rad
+  double spring_stiffness = 0;                                    ///< N/m or N m/rad
+  double spring_reference = 0;                                    ///< m or rad, where the spring is at rest
   MotorMode motor = MotorMode::kNone;
+  std::optional<MimicDescription> mimic;  ///< in place of the motor's targets
 };
 
 struct JointDescription {
   std::string name;
-  std::string type;    ///< SDFormat's name: revolute, continuous, prismatic, fixed, ball, revolute2
+  std::string type;    ///< SDFormat's name: see joint_kinds() in src/sim/joints
   std::string parent;  ///< link of the same model, or "world"
   std::string child;
   Pose pose;  ///< in the model's frame
   std::vector<AxisDescription> axes;
   std::vector<SensorDescription> sensors;  ///< of force and torque
+  double screw_lead = 1;     ///< m that a screw's child moves along the axis in a turn about it
+  double gearbox_ratio = 1;  ///< the child of a gearbox turns by -ratio times the parent's angle, both in the reference
+  std::string gearbox_reference;  ///< link that both are held in by hinges, or "world"
+  Source source;
+};
+
+/// A model inside another. Its links and joints are among those of the outermost model, named `inner::link`.
+struct NestedModelDescription {
+  std::string name;  ///< from the outermost model on: `inner`, `inner::deeper`; outer ones come before inner ones
+  Pose pose;         ///< in the outermost model's frame
+  std::string canonical_link;
+  std::filesystem::path child_script;  ///< empty when it has none
+  std::vector<PluginDescription> plugins;
   Source source;
 };
 
@@ -301,9 +345,17 @@ struct ModelDescription {
   std::string canonical_link;
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
+  std::vector<NestedModelDescription> nested;
   std::filesystem::path child_script;  ///< empty when it has none
   std::vector<PluginDescription> plugins;
   Source source;
+};
+
+/// What happens to a model whose motion leaves the finite world.
+enum class OnDivergence {
+  kPause,   ///< the simulation pauses
+  kReset,   ///< the world is put back to its start
+  kRemove,  ///< the model is removed
 };
 
 struct SceneDescription {
@@ -312,6 +364,7 @@ struct SceneDescription {
   Vector3 gravity{0, 0, -9.81};  ///< m/s^2
   double time_step = 0.05;       ///< s, of one simulation pass
   double physics_step = 0.005;   ///< s, of one physics substep; divides time_step
+  OnDivergence on_divergence = OnDivergence::kPause;
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<PluginDescription> plugins;

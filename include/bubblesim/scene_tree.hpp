@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The names of a scene's objects and how to find them. The tree mirrors SDFormat's nesting: models at the top, their
-// links and joints below, sensors below their link.
+// links, joints and inner models below, sensors below their link.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,11 @@ struct Object {
   std::string name;
   ObjectId parent = kNoObject;  ///< kNoObject: at the top of the scene
   std::vector<ObjectId> children;
-  std::size_t index = 0;  ///< among the objects of its kind in its model, in the order of the scene file
+  std::size_t index = 0;  ///< among the objects of its kind in its outermost model, in the order of the scene file
 };
+
+/// SDFormat's name of what stands in an inner model, `inner::link`, as the ending of a path: `inner/link`.
+std::string as_path(std::string scoped_name);
 
 class SceneTree {
  public:
@@ -43,6 +46,9 @@ class SceneTree {
   /// The objects of one kind directly below another, in the order of the scene file.
   std::vector<ObjectId> children(ObjectId parent, ObjectKind kind) const;
 
+  /// The links or joints of a model and of the models in it, in the order of Object::index.
+  std::vector<ObjectId> parts(ObjectId model, ObjectKind kind) const;
+
   /// Finds an object by path. `/a/b` starts at the scene and may leave out levels in between, so `/b` finds an object
   /// anywhere; `./b`, `../b`, `:/b`, `::/b` start at `from`, its parent, its model, its model's parent.
   /// `name[i]` picks the i-th of several siblings, `name{i}` the i-th in the scene, `*` stands for any characters.
@@ -56,6 +62,8 @@ class SceneTree {
   std::string short_path(ObjectId id) const;
   /// The model that the object belongs to, or the object itself when it is one.
   ObjectId model_of(ObjectId id) const;
+  /// The same of the outermost model, which is at the top of the scene.
+  ObjectId outermost_model_of(ObjectId id) const;
 
  private:
   const std::vector<ObjectId>& level_below(ObjectId parent) const;

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "bubblesim/error.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/sensor.hpp"
 #include "bubblesim/world.hpp"
@@ -50,7 +51,9 @@ class Simulation {
   /// Participants are not owned and act in the order in which they were added.
   void add(Participant& participant);
 
-  /// One pass of time_step() seconds. Throws Diverged, and std::logic_error when another thread is in here already.
+  /// One pass of time_step() seconds. When the physics diverge, the last states are written to a file, and the scene's
+  /// on_divergence says what comes of it; to pause throws Diverged. Models that fell off the world are removed. Throws
+  /// std::logic_error when another thread is in here already.
   void step();
   /// The part of a pass that goes on while paused.
   void drain();
@@ -90,6 +93,7 @@ class Simulation {
   void trigger_pass();
   /// From now on a stop is an end: after its last pass the world stays as it is.
   void end_at_stop() { ends_at_stop_ = true; }
+  bool ends_at_a_stop() const { return ends_at_stop_; }
 
   /// Between passes. Throws what step() throws.
   void carry_out_requests();
@@ -131,6 +135,9 @@ class Simulation {
   void carry_out(Request wanted);
   void forget_triggers();
 
+  void advance_physics(double physics_step);
+  void handle(const Diverged& divergence);
+  void take_out(ObjectId model);
   void check_may_change() const;
   void make_sensors(ObjectId model);
   void make_all_sensors();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,7 +71,8 @@ class World {
   /// when its name is taken; and Diverged when the world diverged.
   ObjectId add_model(ModelDescription model);
   /// Removes a model with all that belongs to it; the handles of these objects name nothing from now on. Throws
-  /// InvalidInput for objects of other kinds, and Diverged when the world diverged.
+  /// InvalidInput for objects of other kinds and for models in others, and Diverged when the world diverged, unless the
+  /// model is one of those that did.
   void remove_model(ObjectId model);
   /// Throws what remove_model() would throw.
   void check_removable(ObjectId model) const;
@@ -85,8 +87,15 @@ class World {
   void reset();
 
   /// Lets `duration` seconds pass in steps of `step` seconds. Throws Diverged when a body leaves the finite world
-  /// (over 1e6 m away or faster than 1e6 m/s): the world is then of no use until it is reset.
+  /// (over 1e6 m away or faster than 1e6 m/s): the world is then of no use until it is reset, or diverged_models() are
+  /// removed.
   void advance(double duration, double step);
+  /// The models whose bodies left the finite world; none when the physics broke down as a whole.
+  const std::vector<ObjectId>& diverged_models() const;
+  /// Models that are with all their links more than 1000 m below everything that the world was built of.
+  std::vector<ObjectId> fallen_models() const;
+  /// Where all links were when the last ten calls of advance() began, a line each of comma-separated values.
+  void write_last_states(std::ostream& out) const;
 
   /// Pose in the world. A model's is the one of its frame, carried by its canonical link; a joint's is attached to the
   /// joint's parent, `joint_moving_pose` to its child.

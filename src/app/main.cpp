@@ -58,7 +58,13 @@ int run(const Options& options, Simulation& simulation, RosBridge* bridge, const
       simulation.drain();
       if (!simulation.pass_is_due() && !simulation.has_requests()) wait(bridge);
     } else if (pacer.wait_for(simulation.time())) {
-      meter.run_pass(simulation);
+      try {
+        meter.run_pass(simulation);
+      } catch (const Diverged& error) {
+        if (simulation.ends_at_a_stop()) throw;  // there is nobody to reset it
+        std::fprintf(stderr, "error: %s; paused until it is reset or stopped\n", error.what());
+        meter.fail(error.what());
+      }
     } else {
       simulation.drain();  // a slow simulation hears what it is asked
     }

@@ -52,7 +52,10 @@ void RunMeter::note(const Simulation& simulation, const ChildScripts& scripts) {
   report_.script_errors = scripts.failures();
   if (!report_.running) {
     last_end_.reset();
-  } else if (!last_end_) {
+  } else {
+    report_.failure.clear();
+  }
+  if (report_.running && !last_end_) {
     last_end_ = Clock::now();
   }
 }

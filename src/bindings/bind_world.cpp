@@ -68,6 +68,7 @@ void bind_world(py::module_& module) {
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
+      .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
       .def(

@@ -17,13 +17,25 @@ namespace {
 
 namespace py = pybind11;
 
-/// The scene's scripts with the replacements in their places, as pairs of object path and file.
-std::vector<std::pair<std::string, std::filesystem::path>> scripts_to_run(const Simulation& simulation,
-                                                                          const ScriptOptions& options) {
+using ScriptFiles = std::vector<std::pair<std::string, std::filesystem::path>>;  // by object path
+
+/// The scripts of a model at `path` and of the models in it.
+ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
+  ScriptFiles scripts;
+  if (!model.child_script.empty()) scripts.emplace_back(path, model.child_script);
+  for (const NestedModelDescription& nested : model.nested) {
+    if (nested.child_script.empty()) continue;
+    scripts.emplace_back(path + "/" + as_path(nested.name), nested.child_script);
+  }
+  return scripts;
+}
+
+/// The scene's scripts with the replacements in their places.
+ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& options) {
   const SceneTree& tree = simulation.world().tree();
-  std::vector<std::pair<std::string, std::filesystem::path>> scripts;
+  ScriptFiles scripts;
   for (const ModelDescription& model : simulation.scene().models) {
-    if (!model.child_script.empty()) scripts.emplace_back("/" + model.name, model.child_script);
+    for (auto& script : scripts_of(model, "/" + model.name)) scripts.push_back(std::move(script));
   }
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
@@ -124,9 +136,9 @@ void ChildScripts::start() {
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {
-  const std::filesystem::path& file = world.description(model).child_script;
-  if (file.empty()) return;
-  with_host([&] { python_->host.attr("add_script")(world.tree().path(model), file); });
+  for (const auto& [path, file] : scripts_of(world.description(model), world.tree().path(model))) {
+    with_host([&, &path = path, &file = file] { python_->host.attr("add_script")(path, file); });
+  }
 }
 
 void ChildScripts::model_removing(World&, ObjectId model) {

@@ -2,29 +2,68 @@
 // What touches what, and the contact joints that come of it.
 #include <algorithm>
 
+#include "contact_defaults.hpp"
 #include "contact_points.hpp"
+#include "surface_pair.hpp"
 #include "world_state.hpp"
 
 namespace bubblesim {
 namespace {
 
+struct Search {
+  World::State& state;
+  double step;  // s
+};
+
+Vector3 turned(dGeomID geom, const Vector3& direction) {
+  dQuaternion q;
+  dGeomGetQuaternion(geom, q);
+  return Quaternion(q[0], q[1], q[2], q[3]).RotateVector(direction);
+}
+
+/// Friction along a direction of the surface; nothing when it sticks out of the contact's plane.
+void direct(const Vector3& wanted, dContact& contact) {
+  const dReal* n = contact.geom.normal;
+  const Vector3 normal(n[0], n[1], n[2]);
+  Vector3 along = wanted - normal * wanted.Dot(normal);
+  if (along.Length() < 1e-3 * wanted.Length()) return;
+  along.Normalize();
+  contact.surface.mode |= dContactFDir1;
+  for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
+}
+
+/// Whether a body stays where it is until something else wakes it. Null is what cannot move.
+bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
+
+bool sleeps(const PlacedModel& model) {
+  return std::all_of(model.links.begin(), model.links.end(), [](const Link& link) { return sleeps(link.body.get()); });
+}
+
 void touch(void* data, dGeomID first, dGeomID second) {
-  auto& state = *static_cast<World::State*>(data);
+  auto& [state, step] = *static_cast<Search*>(data);
   const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
   const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
   if ((a.surface.collide_bitmask & b.surface.collide_bitmask) == 0 || a.link == b.link) return;
+  if (a.surface.collide_without_contact || b.surface.collide_without_contact) return;
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
+  if (sleeps(body_a) && sleeps(body_b)) return;
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
 
   ContactPoints found;
-  const int count = find_contact_points(first, second, found);
+  const int most = std::max(std::min(a.surface.max_contacts, b.surface.max_contacts), 1);
+  const int count = std::min(find_contact_points(first, second, found), most);
+  if (count == 0) return;
+  state.islands.touch(a.island, b.island, count);
+  const SurfacePair pair = combine(a.surface, b.surface, step);
   dContact contact{};
-  // Approximation 1 makes mu a coefficient; without it ODE takes mu as a force and wheels drift outwards.
-  contact.surface.mode = dContactApprox1;
-  contact.surface.mu = std::min(a.surface.mu, b.surface.mu);
   for (int i = 0; i < count; ++i) {
+    contact.surface = pair.ode;
     contact.geom = found[static_cast<std::size_t>(i)];
+    contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
+    if (pair.directed != nullptr) {
+      direct(turned(pair.directed == &a.surface ? first : second, pair.directed->fdir1), contact);
+    }
     dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &contact);
     dJointAttach(joint, body_a, body_b);
     if (a.watched || b.watched) watch_contact(state, joint, a, b, contact.geom);
@@ -37,16 +76,18 @@ dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
 }  // namespace
 
-void find_contacts(World::State& state) {
+void find_contacts(World::State& state, double step) {
   dJointGroupEmpty(state.contacts.get());
+  state.islands.clear(state.island_count);
+  Search search{state, step};
   // Models against each other; the shapes of one model do not meet, unless it says so.
-  dSpaceCollide(state.movers.get(), &state, touch_spaces);
+  dSpaceCollide(state.movers.get(), &search, touch_spaces);
   for (const auto& [id, model] : state.models) {
     dSpaceID space = model.space.get();
-    if (space == nullptr) continue;
-    if (model.description.self_collide) dSpaceCollide(space, &state, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &state, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &state, touch);
+    if (space == nullptr || sleeps(model)) continue;
+    if (model.description.self_collide) dSpaceCollide(space, &search, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &search, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &search, touch);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "bubblesim/error.hpp"
 
@@ -18,11 +19,10 @@ void throw_diverged(int number, const char* format, va_list arguments) {
   throw Diverged("ODE error " + std::to_string(number) + ": " + text);
 }
 
-void print_message(int, const char* format, va_list arguments) {
-  char text[512];
-  std::vsnprintf(text, sizeof text, format, arguments);
-  std::fprintf(stderr, "warning: physics: %s\n", text);
-}
+thread_local bool complained = false;
+
+// ODE says here only that its exact solver found no solution, for each time.
+void note_complaint(int, const char*, va_list) { complained = true; }
 
 }  // namespace
 
@@ -32,10 +32,12 @@ void prepare_this_thread() {
     dInitODE2(0);
     dSetErrorHandler(throw_diverged);
     dSetDebugHandler(throw_diverged);
-    dSetMessageHandler(print_message);
+    dSetMessageHandler(note_complaint);
   });
   thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
   static_cast<void>(allocated);
 }
+
+bool solver_complained() { return std::exchange(complained, false); }
 
 }  // namespace bubblesim::ode

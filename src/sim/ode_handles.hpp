@@ -32,4 +32,7 @@ using ThreadingHandle =
 /// instead of aborting the process.
 void prepare_this_thread();
 
+/// Whether a solver of ODE complained on this thread since this was asked last.
+bool solver_complained();
+
 }  // namespace bubblesim::ode

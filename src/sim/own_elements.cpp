@@ -22,6 +22,8 @@ const std::vector<OwnElement>& own_elements() {
       {"bubblesim:time_step", {"world"}},                // seconds of one simulation pass
       {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
       {"bubblesim:motor", {"axis", "axis2"}},            // velocity or position
+      {"bubblesim:mimic", {"axis", "axis2"}},            // as <mimic> of SDFormat 1.11
+      {"bubblesim:on_divergence", {"world"}},            // pause, reset or remove
       {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder
       {"bubblesim:antialias", {"camera"}},               // true or false
       {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic

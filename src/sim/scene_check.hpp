@@ -2,6 +2,7 @@
 // Whether a scene description can be simulated.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bubblesim/error.hpp"
@@ -13,5 +14,8 @@ namespace bubblesim {
 std::vector<Problem> check_scene(const SceneDescription& scene);
 /// The same of a single model.
 std::vector<Problem> check_model(const ModelDescription& model);
+
+/// The hinge between two links of a model, either of which may be "world"; null when there is none.
+const JointDescription* hinge_between(const ModelDescription& model, const std::string& one, const std::string& other);
 
 }  // namespace bubblesim

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/nearest_names.hpp"
 #include "model_folders.hpp"
 #include "own_elements.hpp"
 #include "scene_check.hpp"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 // What SDFormat calls a text that came from no file.
 constexpr const char* kText = "<data-string>";
 constexpr const char* kGroundPlane = "ground_plane";
+constexpr const char* kOnDivergence = "bubblesim:on_divergence";
 
 class SceneLoader {
  public:
@@ -108,12 +110,26 @@ class SceneLoader {
     return model;
   }
 
+  void read_policy(const std::string& policy, const sdf::World& world, SceneDescription& scene) {
+    const std::vector<std::pair<std::string, OnDivergence>> policies = {
+        {"pause", OnDivergence::kPause}, {"reset", OnDivergence::kReset}, {"remove", OnDivergence::kRemove}};
+    for (const auto& [name, meaning] : policies) {
+      if (policy != name) continue;
+      scene.on_divergence = meaning;
+      return;
+    }
+    reading_.report(source_of(world.Element(), kOnDivergence), "",
+                    "<" + std::string(kOnDivergence) + "> is '" + policy + "', it must be pause, reset or remove" +
+                        did_you_mean(policy, {"pause", "reset", "remove"}));
+  }
+
   void read_world(const sdf::World& world, SceneDescription& scene) {
     scene.source = source_of(world.Element());
     scene.plugins = read_plugins(world.Element());
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
+    if (const auto policy = own_text(world.Element(), kOnDivergence)) read_policy(*policy, world, scene);
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
     if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
     std::vector<Light> lights;

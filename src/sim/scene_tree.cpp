@@ -74,6 +74,13 @@ std::string_view kind_name(ObjectKind kind) {
   return "object";
 }
 
+std::string as_path(std::string scoped_name) {
+  for (std::size_t i = scoped_name.find("::"); i != std::string::npos; i = scoped_name.find("::", i)) {
+    scoped_name.replace(i, 2, "/");
+  }
+  return scoped_name;
+}
+
 ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index) {
   const ObjectId id = next_++;
   objects_[id] = {id, kind, std::move(name), parent, {}, index};
@@ -104,6 +111,15 @@ std::vector<ObjectId> SceneTree::children(ObjectId parent, ObjectKind kind) cons
   return ids;
 }
 
+std::vector<ObjectId> SceneTree::parts(ObjectId model, ObjectKind kind) const {
+  std::vector<ObjectId> ids = children(model, kind);
+  for (const ObjectId inner : children(model, ObjectKind::kModel)) {
+    for (const ObjectId id : parts(inner, kind)) ids.push_back(id);
+  }
+  std::sort(ids.begin(), ids.end(), [this](ObjectId a, ObjectId b) { return at(a).index < at(b).index; });
+  return ids;
+}
+
 /// What lies directly below an object, or for kNoObject the models.
 const std::vector<ObjectId>& SceneTree::level_below(ObjectId parent) const {
   return parent == kNoObject ? models_ : at(parent).children;
@@ -113,6 +129,11 @@ ObjectId SceneTree::model_of(ObjectId id) const {
   const Object* object = &at(id);
   while (object->kind != ObjectKind::kModel && object->parent != kNoObject) object = &at(object->parent);
   return object->id;
+}
+
+ObjectId SceneTree::outermost_model_of(ObjectId id) const {
+  while (at(id).parent != kNoObject) id = at(id).parent;
+  return id;
 }
 
 std::string SceneTree::indexed_name(const Object& object) const {

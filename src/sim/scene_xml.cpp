@@ -45,7 +45,8 @@ std::string place(const sdf::ElementPtr& element) {
 
 /// SDFormat does not know the lines of elements that it does not know, nor those of URDF.
 bool needs_line(const std::string& name, const std::string& place) {
-  return is_own_element(name) || place.rfind("/" + std::string(kPlugin) + ":", 0) == 0;
+  return is_own_element(name) || place.rfind("/" + std::string(kPlugin) + ":", 0) == 0 ||
+         place.find("mimic:/") != std::string::npos;
 }
 
 /// `/Model/joint` from the names of an element and its ancestors.
@@ -119,6 +120,19 @@ Source SceneXml::place_of(const std::string& element, const std::string& text) c
     if (source.line == 0 && element == found.Name() && text == found_text) source.line = found.GetLineNum();
   });
   return source;
+}
+
+std::optional<MimicDescription> SceneXml::urdf_mimic(const std::string& joint) const {
+  if (std::string_view(document_.RootElement()->Name()) != "robot") return std::nullopt;
+  for (const auto* element = document_.RootElement()->FirstChildElement("joint"); element != nullptr;
+       element = element->NextSiblingElement("joint")) {
+    const auto* mimic = element->FirstChildElement("mimic");
+    if (mimic == nullptr || element->Attribute("name") == nullptr || joint != element->Attribute("name")) continue;
+    const char* leader = mimic->Attribute("joint");
+    return MimicDescription{leader != nullptr ? leader : "", 0, mimic->DoubleAttribute("multiplier", 1),
+                            mimic->DoubleAttribute("offset", 0), 0};
+  }
+  return std::nullopt;
 }
 
 /// `<mu> is 'slippery', ...` for an element that SDFormat could not read and says no more about.

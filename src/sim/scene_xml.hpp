@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <filesystem>
+#include <optional>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
 #include <string>
@@ -22,12 +23,15 @@ class SceneXml {
   /// The same from the text of a file; `name` is what errors call it.
   SceneXml(const std::string& text, std::string name);
 
-  /// Gives our own elements below `root` their lines, for SDFormat copies elements that it does not know without; and
+  /// Gives elements below `root` that SDFormat does not know their lines, for it copies those without; and
   /// all elements the name of a text that came from no file.
   void place_elements(const sdf::ElementPtr& root) const;
 
   /// Where an element of this name and text is written: SDFormat keeps no places of what stands in an <include>.
   Source place_of(const std::string& element, const std::string& text) const;
+
+  /// The <mimic> of a joint in URDF, which SDFormat drops.
+  std::optional<MimicDescription> urdf_mimic(const std::string& joint) const;
 
   /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
   /// `object` is the path of the object that was being read, or empty.

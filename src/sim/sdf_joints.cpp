@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sdf/JointAxis.hh>
 #include <utility>
 
@@ -43,6 +44,32 @@ const char* sdf_type(sdf::JointType type) {
   return "invalid";
 }
 
+/// SDFormat 1.11 has <mimic joint="..." axis="...">; older files may write it as <bubblesim:mimic>.
+std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, SceneReading& reading) {
+  for (auto element = axis->GetFirstElement(); element != nullptr; element = element->GetNextElement()) {
+    if (element->GetName() != "mimic" && element->GetName() != "bubblesim:mimic") continue;
+    MimicDescription mimic;
+    if (element->HasAttribute("joint")) mimic.joint = element->GetAttribute("joint")->GetAsString();
+    if (element->HasAttribute("axis")) mimic.axis = element->GetAttribute("axis")->GetAsString() == "axis2" ? 1 : 0;
+    mimic.multiplier = own_number(element, "multiplier", reading.problems()).value_or(1);
+    mimic.offset = own_number(element, "offset", reading.problems()).value_or(0);
+    mimic.reference = own_number(element, "reference", reading.problems()).value_or(0);
+    return mimic;
+  }
+  return std::nullopt;
+}
+
+/// Metres a turn, from an element that may be in one of two conventions.
+double read_screw_lead(const sdf::Joint& joint, const std::string& path, SceneReading& reading) {
+  const sdf::ElementPtr element = joint.Element();
+  // SDFormat 1.10: metres a turn, right-handed.
+  if (const auto lead = own_number(element, "screw_thread_pitch", reading.problems())) return *lead;
+  // Before: radians a metre, left-handed.
+  if (joint.ThreadPitch() != 0) return -2 * M_PI / joint.ThreadPitch();
+  reading.report(source_of(element, "thread_pitch"), path, "<thread_pitch> is 0, it must be other than zero");
+  return 1;
+}
+
 AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, const std::string& path,
                           SceneReading& reading) {
   const auto limit = [](double value, double none) { return std::abs(value) < kNoLimit ? value : none; };
@@ -58,6 +85,9 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
   description.max_velocity = axis.MaxVelocity() < 0 ? none : limit(axis.MaxVelocity(), none);
   description.friction = axis.Friction();
   description.damping = axis.Damping();
+  description.spring_stiffness = axis.SpringStiffness();
+  description.spring_reference = axis.SpringReference();
+  description.mimic = read_mimic(axis.Element(), reading);
   if (const auto motor = own_text(axis.Element(), "bubblesim:motor")) {
     if (*motor == "velocity") {
       description.motor = MotorMode::kVelocity;
@@ -70,6 +100,15 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
     }
   }
   return description;
+}
+
+/// Old models leave out one or both axes of a universal joint: those are at right angles to what is there.
+void complete_universal(JointDescription& joint) {
+  if (joint.axes.empty()) joint.axes.emplace_back().direction = Vector3::UnitX;
+  if (joint.axes.size() > 1) return;
+  const Vector3& first = joint.axes.front().direction;
+  const Vector3 beside = first.Abs().Y() < 0.9 ? Vector3::UnitY : Vector3::UnitZ;
+  joint.axes.emplace_back().direction = (beside - first * first.Dot(beside)).Normalized();
 }
 
 }  // namespace
@@ -95,6 +134,17 @@ JointDescription read_joint(const sdf::Joint& joint, const std::string& model_pa
     }
     if (auto read = read_sensor(sensor, path, sensor.RawPose(), reading))
       description.sensors.push_back(std::move(*read));
+  }
+  if (!description.axes.empty() && !description.axes[0].mimic) {
+    description.axes[0].mimic = reading.xml().urdf_mimic(description.name);
+  }
+  if (description.type == "universal") complete_universal(description);
+  if (description.type == "screw") description.screw_lead = read_screw_lead(joint, path, reading);
+  if (description.type == "gearbox") {
+    const sdf::ElementPtr element = joint.Element();
+    description.gearbox_ratio = element->Get<double>("gearbox_ratio", 1.0).first;
+    description.gearbox_reference = element->Get<std::string>("gearbox_reference_body", "").first;
+    if (description.axes.size() == 1) description.axes.push_back(description.axes.front());
   }
   return description;
 }

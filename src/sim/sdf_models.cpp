@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "own_elements.hpp"
 #include "sdf_joints.hpp"
@@ -36,6 +37,79 @@ std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std:
   return file;
 }
 
+/// Reads what stands directly in a model; `inner` names a model inside another from the outermost one on, followed by
+/// "::", and has its pose in that one.
+class ModelReader {
+ public:
+  ModelReader(ModelDescription& description, SceneReading& reading) : description_(description), reading_(reading) {}
+
+  void read(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& path) {
+    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
+      LinkDescription link = read_link(*model.LinkByIndex(i), path, description_.is_static, reading_);
+      link.name = inner + link.name;
+      link.pose = pose * link.pose;
+      if (model.Static() && !description_.is_static) hold(link);
+      description_.links.push_back(std::move(link));
+    }
+    for (std::uint64_t i = 0; i < model.JointCount(); ++i) read_joint_in(*model.JointByIndex(i), inner, pose, path);
+    for (std::uint64_t i = 0; i < model.ModelCount(); ++i) read_inner(*model.ModelByIndex(i), inner, pose, path);
+  }
+
+ private:
+  void read_inner(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& outer_path) {
+    const std::string path = outer_path + "/" + model.Name();
+    NestedModelDescription nested;
+    nested.name = inner + model.Name();
+    nested.pose = pose * reading_.resolved(model, path);
+    nested.source = source_of(model.Element());
+    nested.child_script = read_child_script(model.Element(), path, reading_);
+    nested.plugins = read_plugins(model.Element());
+    const std::string prefix = nested.name + "::";
+    const Pose placed = nested.pose;
+    const std::size_t first = description_.links.size();
+    const std::size_t index = description_.nested.size();
+    description_.nested.push_back(std::move(nested));
+    read(model, prefix, placed, path);
+    if (description_.links.size() == first) {
+      reading_.report(source_of(model.Element()), path, "has no link, so there is nothing to simulate; add a <link>");
+      return;
+    }
+    const std::string& named = model.CanonicalLinkName();
+    description_.nested[index].canonical_link = named.empty() ? description_.links[first].name : prefix + named;
+  }
+
+  void read_joint_in(const sdf::Joint& read, const std::string& inner, const Pose& pose, const std::string& path) {
+    JointDescription joint = read_joint(read, path, reading_);
+    const auto prefix = [&inner](std::string& name) {
+      if (!name.empty() && name != "world") name = inner + name;
+    };
+    joint.name = inner + joint.name;
+    joint.pose = pose * joint.pose;
+    prefix(joint.parent);
+    prefix(joint.child);
+    prefix(joint.gearbox_reference);
+    for (AxisDescription& axis : joint.axes) {
+      if (axis.mimic) prefix(axis.mimic->joint);
+    }
+    description_.joints.push_back(std::move(joint));
+  }
+
+  /// A static model in one that moves stays where it is.
+  void hold(const LinkDescription& link) {
+    JointDescription joint;
+    joint.name = link.name + "_held";
+    joint.type = "fixed";
+    joint.parent = "world";
+    joint.child = link.name;
+    joint.pose = link.pose;
+    joint.source = link.source;
+    description_.joints.push_back(std::move(joint));
+  }
+
+  ModelDescription& description_;
+  SceneReading& reading_;
+};
+
 }  // namespace
 
 ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading) {
@@ -49,13 +123,7 @@ ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneRead
   description.source = source_of(model.Element());
   description.child_script = read_child_script(model.Element(), path, reading);
   description.plugins = read_plugins(model.Element());
-  if (model.ModelCount() > 0) reading.report(description.source, path, "models inside a model are not supported");
-  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    description.links.push_back(read_link(*model.LinkByIndex(i), path, model.Static(), reading));
-  }
-  for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
-    description.joints.push_back(read_joint(*model.JointByIndex(i), path, reading));
-  }
+  ModelReader(description, reading).read(model, "", Pose::Zero, path);
   return description;
 }
 

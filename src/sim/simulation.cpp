@@ -54,10 +54,10 @@ void Simulation::make_sensors(ObjectId model) {
       ++sensor;
     }
   };
-  for (const ObjectId id : tree.children(model, ObjectKind::kLink)) {
+  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) {
     make_below(id, description.links[tree.at(id).index].sensors);
   }
-  for (const ObjectId id : tree.children(model, ObjectKind::kJoint)) {
+  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) {
     make_below(id, description.joints[tree.at(id).index].sensors);
   }
 }
@@ -119,7 +119,7 @@ void Simulation::step() {
   draining_ = false;
   const double now = time();  // a reset while draining sets it back
   for (Participant* participant : participants_) participant->actuate(world_, now);
-  world_.advance(scene_.time_step, scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
+  advance_physics(scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
   update_sensors();
   for (Participant* participant : participants_) participant->sense(world_, now);
   for (Participant* participant : participants_) participant->publish(world_, now);
@@ -170,8 +170,12 @@ ObjectId Simulation::add_model(ModelDescription model) {
 void Simulation::remove_model(ObjectId model) {
   check_may_change();
   world_.check_removable(model);
+  take_out(model);
+}
+
+void Simulation::take_out(ObjectId model) {
   for (Participant* participant : participants_) participant->model_removing(world_, model);
-  const auto gone = [&](const SensorSlot& slot) { return world_.tree().model_of(slot.id) == model; };
+  const auto gone = [&](const SensorSlot& slot) { return world_.tree().outermost_model_of(slot.id) == model; };
   sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
   rays_->remove_model(model);
   world_.remove_model(model);

@@ -78,7 +78,11 @@ void Simulation::carry_out(Request wanted) {
     case Request::kStop:
       if (before == RunState::kStopped) return;
       state_ = RunState::kStopping;
-      step();  // scripts see that it is the last one
+      try {
+        step();  // scripts see that it is the last one
+      } catch (const Diverged&) {
+        // It paused for that, and is put back now.
+      }
       if (ends_at_stop_) return end();
       for (Participant* participant : participants_) participant->stop();
       reset();

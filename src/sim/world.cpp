@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of a world and how time passes in it; its objects are read and written in world_objects.cpp and
+// The life of a world; time passes in world_step.cpp, its objects are read and written in world_objects.cpp and
 // world_joints.cpp.
 #include "bubblesim/world.hpp"
 
@@ -9,33 +9,12 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "checks.hpp"
-#include "describe.hpp"
 #include "fnv1a.hpp"
 #include "scene_check.hpp"
 #include "world_state.hpp"
 
 namespace bubblesim {
 namespace {
-
-constexpr double kMaxDuration = 1000;  // s, of one call
-
-void check_bodies(World::State& state) {
-  for (const auto& [id, model] : state.models) {
-    for (const Link& link : model.links) {
-      dBodyID body = link.body.get();
-      if (body == nullptr) continue;
-      const Vector3 position = to_vector(dBodyGetPosition(body));
-      const Vector3 linear = to_vector(dBodyGetLinearVel(body));
-      const Vector3 angular = to_vector(dBodyGetAngularVel(body));
-      if (within(position, kMaxDistance) && within(linear, kMaxSpeed) && within(angular, kMaxSpeed)) continue;
-      state.diverged = true;
-      throw Diverged("the physics diverged at " + state.tree.path(link.object) + ": position " + text(position) +
-                     " m, velocity " + text(linear) + " m/s, " + text(angular) +
-                     " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics step");
-    }
-  }
-}
 
 void check_not_diverged(const World::State& state) {
   if (state.diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
@@ -57,6 +36,7 @@ World::World(const SceneDescription& scene, std::uint64_t seed) {
     place_model(*state_, enter_model(state_->tree, model), model);
   }
   gather_statics(*state_);
+  number_islands(*state_);
 }
 
 World::~World() = default;
@@ -68,6 +48,7 @@ void World::reset() {
   built->tree = state_->tree;
   for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
   gather_statics(*built);
+  number_islands(*built);
   state_ = std::move(built);
 }
 
@@ -91,13 +72,15 @@ ObjectId World::add_model(ModelDescription model) {
     throw;
   }
   if (is_static) gather_statics(*state_);
+  number_islands(*state_);
   return id;
 }
 
 void World::check_removable(ObjectId model) const {
-  check_not_diverged(*state_);
+  const std::vector<ObjectId>& lost = state_->lost_models;
+  if (state_->interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(*state_);
   const Object& object = state_->tree.at(model);
-  if (object.kind != ObjectKind::kModel) {
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
     throw InvalidInput(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                        ": it belongs to its model; remove that");
   }
@@ -109,6 +92,11 @@ void World::remove_model(ObjectId model) {
   forget_forces(*state_);                    // and these name its shapes
   state_->models.erase(model);
   state_->tree.remove(model);
+  std::vector<ObjectId>& lost = state_->lost_models;
+  lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
+  if (lost.empty()) state_->diverged = state_->interrupted;
+  number_islands(*state_);
+  wake(*state_);
 }
 
 const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }
@@ -127,41 +115,6 @@ const SensorDescription& World::sensor_description(ObjectId sensor) const {
 }
 
 const SceneTree& World::tree() const { return state_->tree; }
-
-void World::advance(double duration, double step) {
-  if (!(step >= kMinPhysicsStep && step <= kMaxPhysicsStep)) {
-    throw InvalidInput("a physics step of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
-  }
-  if (!(duration >= 0 && duration <= kMaxDuration)) {
-    throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
-  }
-  check_not_diverged(*state_);
-  ode::prepare_this_thread();
-  for (auto& [id, model] : state_->models) {
-    for (Link& link : model.links) {
-      if (link.body != nullptr) link.before = body_velocity(link.body.get());
-    }
-  }
-  state_->last_duration = duration;
-  forget_forces(*state_);
-  for (long left = std::lround(duration / step); left > 0; --left) {
-    try {
-      find_contacts(*state_);
-      for (const auto& [id, model] : state_->models) {
-        for (const PlacedJoint& placed : model.joints) {
-          if (placed.joint) placed.joint->drive(step);
-        }
-      }
-      // Draws no random numbers, unlike dWorldQuickStep: ODE keeps one random state for all worlds and threads.
-      dWorldStep(state_->world.get(), step);
-      gather_forces(*state_, step);
-    } catch (const Diverged&) {
-      state_->diverged = state_->interrupted = true;
-      throw;
-    }
-    check_bodies(*state_);
-  }
-}
 
 std::vector<PlacedShape> World::shapes() const {
   std::vector<PlacedShape> shapes;

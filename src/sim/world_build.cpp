@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the description of a model to bodies, joints and shapes in ODE.
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 
+#include "contact_defaults.hpp"
 #include "meshes/made_meshes.hpp"
+#include "scene_check.hpp"
 #include "world_state.hpp"
 
 namespace bubblesim {
 namespace {
 
-// Measured on wheeled robots: error correction and softness that keep turning radius and distance exact, and a limit on
-// how fast overlapping shapes are pushed apart, without which badly placed ones fly off.
-constexpr double kErrorReduction = 0.2;
-constexpr double kConstraintSoftness = 1e-10;
-constexpr double kMaxCorrectingVelocity = 0.1;  // m/s
-constexpr double kSurfaceLayer = 0.001;         // m
-// Static shapes of finite size are in a quadtree: a moving shape then meets only those near it. 6 levels: its cells are
-// 1/64 of the scene.
-constexpr int kQuadtreeDepth = 6;
+constexpr int kIterations = 50;       // of the iterative solver
+constexpr int kSleepSamples = 10;     // substeps over which it is seen whether a body lies still
+constexpr double kSleepSpeed = 3e-3;  // m/s and rad/s; what is slower lies still
+constexpr double kSleepTime = 0.5;    // s that it lies still before it sleeps
 
 void set_pose(dGeomID geom, const Pose& pose) {
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
@@ -71,18 +69,16 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
   return body;
 }
 
-/// The largest a finite static scene needs; grows with the shapes in it.
-struct Extent {
-  Vector3 low{-1, -1, -1};
-  Vector3 high{1, 1, 1};
-
-  void include(dGeomID geom) {
-    dReal box[6];
-    dGeomGetAABB(geom, box);
-    low.Min({box[0], box[2], box[4]});
-    high.Max({box[1], box[3], box[5]});
-  }
-};
+/// Whether nobody commands or watches the model: it may sleep when it lies still.
+bool is_prop(const ModelDescription& model) {
+  const auto quiet = [](const NestedModelDescription& nested) {
+    return nested.child_script.empty() && nested.plugins.empty();
+  };
+  return model.child_script.empty() && model.plugins.empty() && model.joints.empty() &&
+         std::all_of(model.nested.begin(), model.nested.end(), quiet) &&
+         std::all_of(model.links.begin(), model.links.end(),
+                     [](const LinkDescription& link) { return link.sensors.empty(); });
+}
 
 bool is_watched(const LinkDescription& link, const std::string& collision) {
   return std::any_of(link.sensors.begin(), link.sensors.end(), [&](const SensorDescription& sensor) {
@@ -97,28 +93,34 @@ class ModelBuilder {
   ModelBuilder(const World::State& state, ObjectId id, ModelDescription description) : state_(state), id_(id) {
     model_.description = std::move(description);
     if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.movers.get()));
+    is_prop_ = is_prop(model_.description);
   }
 
   PlacedModel build() {
     const ModelDescription& description = model_.description;
-    const std::vector<ObjectId> links = state_.tree.children(id_, ObjectKind::kLink);
+    const std::vector<ObjectId> links = state_.tree.parts(id_, ObjectKind::kLink);
     for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
-    // The further axes of a joint lie below it: these are the joints alone.
-    const std::vector<ObjectId> joints = state_.tree.children(id_, ObjectKind::kJoint);
+    const std::vector<ObjectId> joints = state_.tree.parts(id_, ObjectKind::kJoint);
     for (std::size_t i = 0; i < joints.size(); ++i) add_joint(description.joints[i], joints[i]);
-    const Link* canonical = &model_.links.front();
-    if (!description.canonical_link.empty()) canonical = link_named(description.canonical_link);
-    model_.canonical_link = canonical->object;
-    model_.in_canonical_link = link_pose(*canonical).Inverse() * description.pose;
+    connect_mimics();
+    model_.frame = frame_at(description.canonical_link, description.pose);
+    for (const NestedModelDescription& nested : description.nested) {
+      model_.nested.push_back(frame_at(nested.canonical_link, description.pose * nested.pose));
+    }
     return std::move(model_);
   }
 
  private:
   const Link* link_named(const std::string& name) const {
-    for (const Link& link : model_.links) {
-      if (state_.tree.at(link.object).name == name) return &link;
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      if (model_.description.links[i].name == name) return &model_.links[i];
     }
     return nullptr;  // "world"
+  }
+
+  ModelFrame frame_at(const std::string& canonical_link, const Pose& pose) const {
+    const Link* canonical = canonical_link.empty() ? &model_.links.front() : link_named(canonical_link);
+    return {canonical->object, link_pose(*canonical).Inverse() * pose};
   }
 
   void add_link(const LinkDescription& description, ObjectId id) {
@@ -127,7 +129,10 @@ class ModelBuilder {
     link.object = id;
     link.centre_of_mass = description.centre_of_mass;
     link.pose = pose;
-    if (!model_.description.is_static) link.body = make_body(state_.world.get(), description, pose);
+    if (!model_.description.is_static) {
+      link.body = make_body(state_.world.get(), description, pose);
+      dBodySetAutoDisableFlag(link.body.get(), is_prop_ && state_.gravity != Vector3::Zero ? 1 : 0);
+    }
     for (const CollisionDescription& collision : description.collisions) {
       add_collider(link, collision, is_watched(description, collision.name));
     }
@@ -172,8 +177,16 @@ class ModelBuilder {
     joint.in_parent = parent == nullptr ? pose : link_pose(*parent).Inverse() * pose;
     joint.in_child = link_pose(child).Inverse() * pose;
     if (!model_.description.is_static) {
-      const JointBodies bodies{parent == nullptr ? nullptr : parent->body.get(), child.body.get()};
-      joint.joint = make_joint(state_.world.get(), description, pose, bodies);
+      JointSite site;
+      site.pose = pose;
+      site.parent = body_named(description.parent);
+      site.child = child.body.get();
+      if (description.type == "gearbox") {
+        site.reference = body_named(description.gearbox_reference);
+        site.parent_shaft = shaft_point(description.gearbox_reference, description.parent);
+        site.child_shaft = shaft_point(description.gearbox_reference, description.child);
+      }
+      joint.joint = make_joint(state_.world.get(), description, site);
     }
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
     if (joint.joint && !description.sensors.empty()) {
@@ -182,14 +195,42 @@ class ModelBuilder {
     model_.joints.push_back(std::move(joint));
   }
 
+  /// A point in the world of the axis about which a link turns in the reference body of a gearbox.
+  Vector3 shaft_point(const std::string& reference, const std::string& link) const {
+    const JointDescription* hinge = hinge_between(model_.description, reference, link);
+    return (model_.description.pose * hinge->pose).Pos();
+  }
+
+  dBodyID body_named(const std::string& name) const {
+    const Link* link = link_named(name);
+    return link == nullptr ? nullptr : link->body.get();
+  }
+
+  void connect_mimics() {
+    for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+      const std::vector<AxisDescription>& axes = model_.description.joints[i].axes;
+      for (std::size_t axis = 0; axis < axes.size() && model_.joints[i].joint; ++axis) {
+        if (!axes[axis].mimic) continue;
+        const auto leader =
+            std::find_if(model_.description.joints.begin(), model_.description.joints.end(),
+                         [&](const JointDescription& joint) { return joint.name == axes[axis].mimic->joint; });
+        model_.joints[i].joint->mimic(
+            static_cast<int>(axis),
+            *model_.joints[static_cast<std::size_t>(leader - model_.description.joints.begin())].joint);
+      }
+    }
+  }
+
   const World::State& state_;
   ObjectId id_;
+  bool is_prop_ = false;
   PlacedModel model_;
 };
 
 }  // namespace
 
-World::State::State(const Vector3& gravity_, std::uint64_t seed_) : gravity(gravity_), seed(seed_) {
+World::State::State(const Vector3& gravity_, std::uint64_t seed_)
+    : gravity(gravity_), seed(seed_), random(static_cast<std::uint32_t>(seed_)) {
   ode::prepare_this_thread();
   threading.reset(dThreadingAllocateSelfThreadedImplementation());
   world.reset(dWorldCreate());
@@ -198,57 +239,20 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_) : gravity(grav
   dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
   dWorldSetERP(world.get(), kErrorReduction);
   dWorldSetCFM(world.get(), kConstraintSoftness);
-  dWorldSetContactMaxCorrectingVel(world.get(), kMaxCorrectingVelocity);
   dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
   movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
   planes.reset(dSimpleSpaceCreate(nullptr));
+  dWorldSetQuickStepNumIterations(world.get(), kIterations);
+  dWorldSetAutoDisableAverageSamplesCount(world.get(), kSleepSamples);
+  dWorldSetAutoDisableLinearThreshold(world.get(), kSleepSpeed);
+  dWorldSetAutoDisableAngularThreshold(world.get(), kSleepSpeed);
+  dWorldSetAutoDisableTime(world.get(), kSleepTime);
+  dWorldSetAutoDisableSteps(world.get(), 0);
   contacts.reset(dJointGroupCreate(0));
-}
-
-ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
-  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
-  std::size_t sensors = 0;
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    const ObjectId link = tree.add(ObjectKind::kLink, model.links[i].name, id, i);
-    for (const SensorDescription& sensor : model.links[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++);
-    }
-  }
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const ObjectId joint = tree.add(ObjectKind::kJoint, model.joints[i].name, id, i);
-    for (const SensorDescription& sensor : model.joints[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++);
-    }
-    // The second axis of a steered wheel is an object of its own, so that scripts can name it.
-    for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
-      tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);
-    }
-  }
-  return id;
 }
 
 void place_model(World::State& state, ObjectId id, ModelDescription model) {
   state.models.emplace(id, ModelBuilder(state, id, std::move(model)).build());
-}
-
-void gather_statics(World::State& state) {
-  Extent extent;
-  std::vector<dGeomID> geoms;
-  for (const auto& [id, model] : state.models) {
-    for (const Collider& collider : model.colliders) {
-      dGeomID geom = collider.geom.get();
-      if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
-      if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.statics.get(), geom);
-      geoms.push_back(geom);
-      extent.include(geom);
-    }
-  }
-  const Vector3 centre = (extent.low + extent.high) / 2;
-  const Vector3 half = (extent.high - extent.low) / 2;
-  const dVector3 ode_centre = {centre.X(), centre.Y(), centre.Z()};
-  const dVector3 ode_half = {half.X(), half.Y(), half.Z()};
-  state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, kQuadtreeDepth));
-  for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
 }
 
 }  // namespace bubblesim

@@ -24,7 +24,7 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   }
   if (object.kind == ObjectKind::kLink) return {&state.link(id)};
   std::vector<const Link*> links;
-  for (const Link& link : state.model_of(id).links) links.push_back(&link);
+  for (const ObjectId link : state.tree.parts(id, ObjectKind::kLink)) links.push_back(&state.link(link));
   return links;
 }
 
@@ -32,7 +32,7 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
 ObjectId carrier(const World::State& state, const Object& object) {
   switch (object.kind) {
     case ObjectKind::kModel:
-      return state.models.at(object.id).canonical_link;
+      return state.frame(object.id).canonical_link;
     case ObjectKind::kLink:
       return object.id;
     case ObjectKind::kJoint:
@@ -76,7 +76,7 @@ Pose World::pose(ObjectId object) const {
   const Pose base = link == kNoObject ? Pose::Zero : link_pose(state_->link(link));
   switch (found.kind) {
     case ObjectKind::kModel:
-      return base * state_->models.at(object).in_canonical_link;
+      return base * state_->frame(object).in_canonical_link;
     case ObjectKind::kLink:
       return base;
     case ObjectKind::kJoint:
@@ -130,6 +130,7 @@ void World::set_pose(ObjectId object, const Pose& pose) {
   }
   const Pose wanted(pose.Pos(), q.Normalized());
   const Pose before = this->pose(object);
+  wake(*state_);
   for (const Link* link : links) {
     const Pose moved = wanted * (before.Inverse() * link_pose(*link));
     const Vector3 centre = moved.CoordPositionAdd(link->centre_of_mass);
@@ -143,6 +144,7 @@ void World::set_velocity(ObjectId object, const Twist& velocity) {
   const std::vector<const Link*> links = moving_links(*state_, object);
   check_velocity(*state_, object, velocity);
   const Vector3 origin = pose(object).Pos();
+  for (const Link* link : links) dBodyEnable(link->body.get());
   for (const Link* link : links) {
     dBodyID body = link->body.get();
     const Vector3 linear = velocity.linear + velocity.angular.Cross(to_vector(dBodyGetPosition(body)) - origin);

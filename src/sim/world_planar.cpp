@@ -42,15 +42,16 @@ PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
 void World::drive_in_plane(ObjectId model, double x, double y, double turning) {
   const Object& object = state_->tree.at(model);
   const std::string name = state_->shown(model);
-  if (object.kind != ObjectKind::kModel) {
-    throw InvalidInput(name + " is a " + std::string(kind_name(object.kind)) + ": only a model is driven as a whole");
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    throw InvalidInput(name + " is a " + std::string(kind_name(object.kind)) +
+                       ": only an outermost model is driven as a whole");
   }
   PlacedModel& placed = state_->models.at(model);
   if (placed.description.is_static) throw InvalidInput(name + " is static: it stays where the scene put it");
   if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
     throw InvalidInput(name + ": a velocity in the plane must be finite and at most 1e6");
   }
-  const Link& link = state_->link(placed.canonical_link);
+  const Link& link = state_->link(placed.frame.canonical_link);
   dBodyID body = link.body.get();
   if (placed.planar_motor.linear == nullptr) {
     placed.planar_motor = make_motor(state_->world.get(), body, kMaxAcceleration * total_mass(placed.description));

@@ -14,6 +14,7 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
+#include "islands.hpp"
 #include "joints/joint.hpp"
 #include "meshes/collision_mesh.hpp"
 #include "ode_handles.hpp"
@@ -38,7 +39,8 @@ struct Collider {
   Geometry geometry;
   Surface surface;
   Pose in_link;
-  bool watched = false;  // a contact sensor wants to know what it touches
+  bool watched = false;         // a contact sensor wants to know what it touches
+  int island = Islands::kNone;  // number of its model there; none when it is static
 };
 
 /// What ODE tells about one of its joints after each step.
@@ -87,18 +89,35 @@ struct PlanarMotor {
   ode::JointHandle angular;
 };
 
+/// What carries the frame of a model.
+struct ModelFrame {
+  ObjectId canonical_link = kNoObject;
+  Pose in_canonical_link;
+};
+
 /// A model with what ODE has of it; links, joints and sensors by Object::index. Members are destroyed in the reverse
 /// order: joints and geoms before bodies.
 struct PlacedModel {
   ModelDescription description;
-  Pose in_canonical_link;  // model frame in its canonical link's frame
-  ObjectId canonical_link = kNoObject;
+  ModelFrame frame;
+  std::vector<ModelFrame> nested;  // of the models in it
   std::deque<Link> links;          // a deque, for pointers to its elements are kept
   ode::SpaceHandle space;          // its moving geoms, inside World::State::movers; null when it is static
   std::deque<Collider> colliders;  // too
   std::vector<PlacedJoint> joints;
   std::vector<Pose> sensors;  // in the frame of their link or joint
   PlanarMotor planar_motor;
+};
+
+/// A link at some moment.
+struct LinkState {
+  ObjectId object = kNoObject;
+  Pose pose;       // of its body
+  Twist velocity;  // of its body
+};
+struct Moment {
+  double time = 0;  // s, of the world's age
+  std::vector<LinkState> links;
 };
 
 struct World::State {
@@ -121,11 +140,23 @@ struct World::State {
   std::deque<TouchReport> touch_reports;  // of this step; a deque, for ODE keeps pointers to them
   std::vector<Touch> touches;             // of the last advance()
   std::uint64_t steps = 0;                // begun in the last advance()
+  std::size_t island_count = 0;           // models that move
+  Islands islands;                        // of the last substep; models by their number
+  double bottom = 0;                      // m along gravity, the lowest place that a model or static shape was made at
+  double age = 0;                         // s since it was built
+  int steps_to_iterate = 0;               // after the exact solver found no solution
+  unsigned long random;                   // state of the iterative solver's random numbers
+  std::deque<Moment> history;             // the last passes
+  std::vector<ObjectId> lost_models;      // those that diverged
   bool diverged = false;
   bool interrupted = false;  // ODE threw in the middle of a step
 
-  const PlacedModel& model_of(ObjectId id) const { return models.at(tree.model_of(id)); }
+  const PlacedModel& model_of(ObjectId id) const { return models.at(tree.outermost_model_of(id)); }
   const Link& link(ObjectId id) const { return model_of(id).links[tree.at(id).index]; }
+  const ModelFrame& frame(ObjectId id) const {
+    const Object& object = tree.at(id);
+    return object.parent == kNoObject ? models.at(id).frame : model_of(id).nested[object.index];
+  }
   std::string shown(ObjectId id) const { return tree.short_path(id); }
 };
 
@@ -135,11 +166,17 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
 /// Builds a validated model whose objects are in the tree already. gather_statics() completes it when it is static.
 void place_model(World::State& state, ObjectId id, ModelDescription model);
 
+/// Gives the models that move their numbers in the islands, after models came or went.
+void number_islands(World::State& state);
+
+/// Wakes all that sleeps, after something was moved or taken away on which it may lie.
+void wake(World::State& state);
+
 /// Puts all static shapes into a space that fits them.
 void gather_statics(World::State& state);
 
-/// Finds what touches and makes ODE's contact joints for it.
-void find_contacts(World::State& state);
+/// Finds what touches and makes ODE's contact joints for it, for a substep of `step` seconds.
+void find_contacts(World::State& state, double step);
 
 /// Has ODE report on a contact joint between two shapes when a sensor watches one of them.
 void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,

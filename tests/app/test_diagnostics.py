@@ -109,9 +109,9 @@ def test_messages_pushed_out_of_a_queue_are_counted(roscore: RosCore, heard: Hea
     assert int(values["Bytes sent"]) > int(values["Messages sent"]) > 0
 
 
-def test_a_simulation_that_diverges_says_so_at_last(roscore: RosCore, heard: Heard, tmp_path: Path) -> None:
+def test_a_simulation_that_diverges_says_so(roscore: RosCore, heard: Heard, tmp_path: Path) -> None:
     with Node(roscore.env, tmp_path / "log", endless_fall(tmp_path), "--paused") as node:
         heard.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
         roscore.run("rosservice", "call", "/sim_ros_interface/unpause")
         heard.wait_for(SIMULATION, lambda level, text, _: level == ERROR and "/Ball" in text, "the end")
-        assert node.process.wait(timeout=20) == 4
+        assert node.process.poll() is None, "paused: others may put the world back"

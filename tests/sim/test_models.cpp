@@ -209,15 +209,24 @@ TEST(Reset, PutsTheModelsThatAreThereBackToWhereTheyCame) {
 }
 
 TEST(DivergedWorld, IsResetBeforeModelsComeOrGo) {
-  Simulation simulation(scene({model("Ball", link("link"), at(999999, 0, 0))}, {1e4, 0, 0}));
+  Simulation simulation(
+      scene({model("Ball", link("link"), at(999999, 0, 0)), model("Other", link("link"))}, {1e4, 0, 0}));
   EXPECT_THROW(history(simulation, 100), Diverged);
   const ObjectId ball = simulation.world().tree().find("/Ball");
   EXPECT_THROW(simulation.add_model(robot({})), Diverged);
-  EXPECT_THROW(simulation.remove_model(ball), Diverged);
+  EXPECT_THROW(simulation.remove_model(simulation.world().tree().find("/Other")), Diverged);
   simulation.reset();
   simulation.remove_model(ball);
   simulation.add_model(robot({}));
   simulation.step();
+}
+
+TEST(DivergedWorld, GoesOnWithoutWhatDiverged) {
+  Simulation simulation(
+      scene({model("Ball", link("link"), at(999999, 0, 0)), model("Other", link("link"))}, {1e4, 0, 0}));
+  EXPECT_THROW(history(simulation, 100), Diverged);
+  simulation.remove_model(simulation.world().tree().find("/Ball"));
+  EXPECT_NO_THROW(simulation.step());
 }
 
 /// Notes which models it is told of, and adds or removes one where it is asked to.

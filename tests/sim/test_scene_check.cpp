@@ -204,9 +204,9 @@ TEST(SceneCheck, JointsConnectTwoLinks) {
 }
 
 TEST(SceneCheck, UnknownJointTypesNameTheKnownOnes) {
-  EXPECT_EQ(problem_after([](auto& robot) { robot.joints[0].type = "screw"; }),
-            "/Robot/joint: joints of type 'screw' are not supported; supported are revolute, continuous, prismatic, "
-            "fixed, ball, revolute2\n");
+  EXPECT_EQ(problem_after([](auto& robot) { robot.joints[0].type = "rope"; }),
+            "/Robot/joint: joints of type 'rope' are not supported; supported are revolute, continuous, prismatic, "
+            "fixed, ball, revolute2, universal, screw, gearbox\n");
 }
 
 TEST(SceneCheck, JointsHaveAsManyAxesAsTheirTypeNeeds) {

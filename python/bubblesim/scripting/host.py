@@ -94,7 +94,7 @@ class ScriptHost:
         ending = self._scripts_of(model)
         _finish(ending)
         self.scripts = [script for script in self.scripts if script not in ending]
-        model_of = self.simulation.world.model_of
+        model_of = self.simulation.world.outermost_model_of
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
 
     def remove_model(self, model: int) -> None:
@@ -104,7 +104,7 @@ class ScriptHost:
         self.simulation.remove_model(model)
 
     def _scripts_of(self, model: int) -> list[ChildScript]:
-        model_of = self.simulation.world.model_of
+        model_of = self.simulation.world.outermost_model_of
         return [script for script in self.scripts if model_of(script.object_handle) == model]
 
     def make_modules(self, script: ChildScript) -> dict[str, Any]:

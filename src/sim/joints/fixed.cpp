@@ -7,8 +7,8 @@ namespace {
 
 class Fixed final : public Joint {
  public:
-  Fixed(dWorldID world, JointBodies bodies) : Joint({}), joint_(dJointCreateFixed(world, nullptr)) {
-    dJointAttach(joint_.get(), bodies.child, bodies.parent);
+  Fixed(dWorldID world, const JointSite& site) : Joint({}), joint_(dJointCreateFixed(world, nullptr)) {
+    dJointAttach(joint_.get(), site.child, site.parent);
     dJointSetFixed(joint_.get());
   }
 
@@ -16,16 +16,13 @@ class Fixed final : public Joint {
   double velocity(int) const override { return 0; }
 
  private:
-  void set_stop(int, int, double) override {}
-  void set_motor(int, int, double) override {}
-
   ode::JointHandle joint_;
 };
 
 }  // namespace
 
-std::unique_ptr<Joint> make_fixed(dWorldID world, const JointDescription&, const Pose&, JointBodies bodies) {
-  return std::make_unique<Fixed>(world, bodies);
+std::unique_ptr<Joint> make_fixed(dWorldID world, const JointDescription&, const JointSite& site) {
+  return std::make_unique<Fixed>(world, site);
 }
 
 }  // namespace bubblesim

@@ -7,19 +7,21 @@ namespace {
 
 class Hinge2 final : public Joint {
  public:
-  Hinge2(dWorldID world, const JointDescription& description, const Pose& pose, JointBodies bodies)
+  Hinge2(dWorldID world, const JointDescription& description, const JointSite& site)
       : Joint(description.axes), joint_(dJointCreateHinge2(world, nullptr)) {
     // Hinge2 needs two bodies and wants the one that holds the first axis first: the parent. It counts the turn of the
     // first body relative to the second; about the negative axes, that is the child's about the positive ones.
-    dJointAttach(joint_.get(), bodies.parent, bodies.child);
-    dJointSetHinge2Anchor(joint_.get(), pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
-    const Vector3 steering = -pose.Rot().RotateVector(description.axes[0].direction);
-    const Vector3 rolling = -pose.Rot().RotateVector(description.axes[1].direction);
+    dJointAttach(joint_.get(), site.parent, site.child);
+    dJointSetHinge2Anchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    const Vector3 steering = -axis_direction(description, 0, site);
+    const Vector3 rolling = -axis_direction(description, 1, site);
     const dVector3 axis1 = {steering.X(), steering.Y(), steering.Z()};
     const dVector3 axis2 = {rolling.X(), rolling.Y(), rolling.Z()};
     dJointSetHinge2Axes(joint_.get(), axis1, axis2);
-    steering_motor_ = separate_turning_motor(world, description.axes[0], steering, bodies.parent, bodies.child);
-    apply_axes();
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 0), Motion::kTurns,
+             {steering, site.parent, site.child, 1});
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 1), Motion::kTurns,
+             {rolling, site.parent, site.child, 2});
   }
 
   double position(int axis) const override {
@@ -31,26 +33,13 @@ class Hinge2 final : public Joint {
   }
 
  private:
-  void set_stop(int axis, int parameter, double value) override {
-    dJointSetHinge2Param(joint_.get(), axis * dParamGroup + parameter, value);
-  }
-  void set_motor(int axis, int parameter, double value) override {
-    if (axis == 0 && steering_motor_ != nullptr) {
-      dJointSetAMotorParam(steering_motor_.get(), parameter, value);
-    } else {
-      dJointSetHinge2Param(joint_.get(), axis * dParamGroup + parameter, value);
-    }
-  }
-
   ode::JointHandle joint_;
-  ode::JointHandle steering_motor_;  // null when the joint drives itself
 };
 
 }  // namespace
 
-std::unique_ptr<Joint> make_hinge2(dWorldID world, const JointDescription& description, const Pose& pose,
-                                   JointBodies bodies) {
-  return std::make_unique<Hinge2>(world, description, pose, bodies);
+std::unique_ptr<Joint> make_hinge2(dWorldID world, const JointDescription& description, const JointSite& site) {
+  return std::make_unique<Hinge2>(world, description, site);
 }
 
 }  // namespace bubblesim

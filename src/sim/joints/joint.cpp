@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_defaults.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -17,15 +19,7 @@ double shortest_turn(double from, double to) { return std::remainder(to - from, 
 bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) || std::isfinite(axis.upper); }
 
 bool needs_driving(const AxisDescription& axis) {
-  switch (axis.motor) {
-    case MotorMode::kPosition:
-      return true;
-    case MotorMode::kVelocity:
-      return has_limits(axis);
-    case MotorMode::kNone:
-      return axis.friction > 0 && axis.damping > 0;
-  }
-  return false;
+  return axis.motor == MotorMode::kPosition || axis.mimic || (axis.motor == MotorMode::kVelocity && has_limits(axis));
 }
 
 double target_speed(const AxisDescription& axis, double target) {
@@ -36,45 +30,62 @@ double target_speed(const AxisDescription& axis, double target) {
 
 Joint::Joint(std::vector<AxisDescription> axes) {
   for (AxisDescription& description : axes) {
-    if (needs_driving(description)) busy_.push_back(static_cast<int>(axes_.size()));
-    axes_.push_back({std::move(description), 0, 0});
+    if (needs_driving(description)) driven_.push_back(static_cast<int>(axes_.size()));
+    if (description.spring_stiffness > 0) sprung_.push_back(static_cast<int>(axes_.size()));
+    axes_.emplace_back().description = std::move(description);
   }
 }
 
-void Joint::apply_axes() {
-  for (int i = 0; i < axis_count(); ++i) {
-    const AxisDescription& description = axis(i);
-    if (std::isfinite(description.lower)) set_stop(i, dParamLoStop, description.lower);
-    if (std::isfinite(description.upper)) set_stop(i, dParamHiStop, description.upper);
-    apply_motor(i);
-  }
-}
+void Joint::follow(double) {}
 
-void Joint::apply_motor(int index) {
-  const Axis& axis = axes_[static_cast<std::size_t>(index)];
+void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line) {
+  std::size_t index = 0;
+  while (axes_[index].rows) ++index;
+  Axis& axis = axes_[index];
   const AxisDescription& description = axis.description;
-  if (description.motor == MotorMode::kNone) {
-    // A motor at rest that may slip: limited by the friction, softened by 1/damping (implicit, so stable for any
-    // value).
-    const bool damped = description.damping > 0 && description.friction == 0;  // for both see drive()
-    set_motor(index, dParamVel, 0);
-    set_motor(index, dParamFMax, damped ? dInfinity : description.friction);
-    if (damped) set_motor(index, dParamCFM, 1 / description.damping);
-    return;
+  axis.rows = std::move(rows);
+  set_stops(static_cast<int>(index), description.lower, description.upper);
+
+  const Motor* free_rows = has_limits(description) ? nullptr : &*axis.rows;
+  const auto take = [&](std::optional<Motor>& own) -> const Motor* {
+    if (free_rows != nullptr) return std::exchange(free_rows, nullptr);
+    own = motion == Motion::kTurns ? Motor::turning(world, line) : Motor::sliding(world, line);
+    return &*own;
+  };
+  axis.motor = take(axis.own_motor);  // also when nothing drives it yet; it costs nothing then
+  if (description.friction > 0) {
+    // A motor at rest that may slip.
+    axis.friction = take(axis.own_friction);
+    axis.friction->hold(0, description.friction);
   }
-  set_motor(index, dParamFMax, std::isfinite(description.max_force) ? description.max_force : dInfinity);
-  if (description.motor == MotorMode::kVelocity) {
-    set_motor(index, dParamVel, target_speed(description, axis.target_velocity));
+  if (description.damping > 0 || description.spring_stiffness > 0) {
+    axis.damper = take(axis.own_damper);
+    if (description.damping > 0) axis.damper->damp(0, description.damping);
   }
+  apply_motor(axis);
+}
+
+void Joint::set_stops(int axis, double lower, double upper) const {
+  const Motor& rows = *axes_[static_cast<std::size_t>(axis)].rows;
+  if (std::isfinite(lower)) rows.set(dParamLoStop, lower);
+  if (std::isfinite(upper)) rows.set(dParamHiStop, upper);
+}
+
+void Joint::apply_motor(Axis& axis) {
+  if (axis.motor == nullptr) return;
+  const AxisDescription& description = axis.description;
+  const bool driven = description.motor != MotorMode::kNone || description.mimic;
+  const bool by_velocity = description.motor == MotorMode::kVelocity && !description.mimic;
+  axis.motor->hold(by_velocity ? target_speed(description, axis.target_velocity) : 0,
+                   driven ? description.max_force : 0);
 }
 
 void Joint::set_motor_mode(int axis, MotorMode mode) {
-  AxisDescription& description = axes_[static_cast<std::size_t>(axis)].description;
-  description.motor = mode;
-  busy_.erase(std::remove(busy_.begin(), busy_.end(), axis), busy_.end());
-  if (needs_driving(description)) busy_.push_back(axis);
-  set_motor(axis, dParamCFM, 0);  // which a damped axis without a motor has
-  apply_motor(axis);
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.description.motor = mode;
+  driven_.erase(std::remove(driven_.begin(), driven_.end(), axis), driven_.end());
+  if (set.motor != nullptr && needs_driving(set.description)) driven_.push_back(axis);
+  apply_motor(set);
 }
 
 void Joint::set_target_position(int axis, double position) {
@@ -82,60 +93,63 @@ void Joint::set_target_position(int axis, double position) {
 }
 
 void Joint::set_target_velocity(int axis, double velocity) {
-  axes_[static_cast<std::size_t>(axis)].target_velocity = velocity;
-  apply_motor(axis);
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.target_velocity = velocity;
+  apply_motor(set);
 }
 
 void Joint::set_max_force(int axis, double force) {
-  axes_[static_cast<std::size_t>(axis)].description.max_force = force;
-  apply_motor(axis);
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.description.max_force = force;
+  apply_motor(set);
 }
+
+void Joint::mimic(int axis, const Joint& leader) { axes_[static_cast<std::size_t>(axis)].leader = &leader; }
 
 void Joint::drive(double step) {
-  follow();
-  for (const int index : busy_) drive_axis(index, step);
+  follow(step);
+  for (const int index : driven_) drive_motor(index, step);
+  for (const int index : sprung_) drive_spring(index, step);
 }
 
-void Joint::drive_axis(int index, double step) {
+void Joint::drive_motor(int index, double step) {
   const Axis& axis = axes_[static_cast<std::size_t>(index)];
   const AxisDescription& description = axis.description;
-  if (description.motor == MotorMode::kNone) {
-    // A brake of the force that friction and damping have at this speed: it can stop the motion, never turn it round.
-    set_motor(index, dParamFMax, description.friction + description.damping * std::abs(velocity(index)));
+  const double here = position(index);
+  if (axis.leader != nullptr) {
+    const MimicDescription& mimic = *description.mimic;
+    const double wanted = mimic.multiplier * (axis.leader->position(mimic.axis) - mimic.reference) + mimic.offset;
+    const double reachable = std::clamp(wanted, description.lower, description.upper);
+    const double along = reachable == wanted ? mimic.multiplier * axis.leader->velocity(mimic.axis) : 0;
+    const double speed = along + kErrorReduction * (reachable - here) / step;
+    axis.motor->set(dParamVel, target_speed(description, speed));
     return;
   }
-  const double here = position(index);
   if (description.motor == MotorMode::kVelocity) {
     // Not beyond the limit: motor and stop, each of any force, would meet somewhere behind it.
     const double speed = target_speed(description, axis.target_velocity);
     const double room = speed > 0 ? description.upper - here : here - description.lower;
-    set_motor(index, dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
+    axis.motor->set(dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
     return;
   }
   const double gap = has_limits(description)
                          ? std::clamp(axis.target_position, description.lower, description.upper) - here
                          : shortest_turn(here, axis.target_position);
-  set_motor(index, dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
+  axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
 }
 
-ode::JointHandle separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
-                                        dBodyID first, dBodyID second) {
-  if (!has_limits(axis)) return nullptr;
-  ode::JointHandle motor(dJointCreateAMotor(world, nullptr));
-  dJointAttach(motor.get(), first, second);
-  dJointSetAMotorNumAxes(motor.get(), 1);
-  dJointSetAMotorAxis(motor.get(), 0, 1, direction.X(), direction.Y(), direction.Z());
-  return motor;
+void Joint::drive_spring(int index, double step) {
+  const Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const AxisDescription& description = axis.description;
+  // The spring's force at the end of the step, k (reference - x - h v), is damping towards a velocity: stable for any
+  // k.
+  const double coefficient = description.damping + step * description.spring_stiffness;
+  const double force = description.spring_stiffness * (description.spring_reference - position(index));
+  axis.damper->damp(force / coefficient, coefficient);
 }
 
-ode::JointHandle separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
-                                        dBodyID first, dBodyID second) {
-  if (!has_limits(axis)) return nullptr;
-  ode::JointHandle motor(dJointCreateLMotor(world, nullptr));
-  dJointAttach(motor.get(), first, second);
-  dJointSetLMotorNumAxes(motor.get(), 1);
-  dJointSetLMotorAxis(motor.get(), 0, 1, direction.X(), direction.Y(), direction.Z());
-  return motor;
+Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site) {
+  return site.pose.Rot().RotateVector(description.axes[static_cast<std::size_t>(axis)].direction);
 }
 
 }  // namespace bubblesim

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every joint kind has in common: axes with a motor, limits, friction and damping.
+// What every joint kind has in common: axes with a motor, limits, friction, damping and a spring.
 #pragma once
 
 #include <ode/ode.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "motor.hpp"
 #include "ode_handles.hpp"
 
 namespace bubblesim {
 
-/// The two bodies that a joint connects; a null body is the world.
-struct JointBodies {
+/// Where a joint is made: the bodies that it connects, a null one is the world, and its frame in the world.
+struct JointSite {
+  Pose pose;
   dBodyID parent = nullptr;
   dBodyID child = nullptr;
+  /// Of a gearbox: the body that its shafts turn in, and a point of the parent's and of the child's axis, in the world.
+  dBodyID reference = nullptr;
+  Vector3 parent_shaft;
+  Vector3 child_shaft;
 };
 
 class Joint {
@@ -39,48 +46,54 @@ class Joint {
   void set_target_velocity(int axis, double velocity);
   void set_max_force(int axis, double force);
 
+  /// Lets an axis that has a MimicDescription follow another joint, which must live as long as this one.
+  void mimic(int axis, const Joint& leader);
+
   /// Sets ODE's motors for the next substep of `step` seconds.
   void drive(double step);
 
  protected:
-  /// Hands limits, friction and damping to ODE; to be called once the ODE joint exists.
-  void apply_axes();
-  /// Sets one of ODE's parameters (dParam...) of axis 0 or 1, without the group offset: a stop, or one of its motor.
-  virtual void set_stop(int axis, int parameter, double value) = 0;
-  virtual void set_motor(int axis, int parameter, double value) = 0;
+  enum class Motion { kTurns, kSlides };
+  /// To be called for each axis in its order, once the ODE joint exists. `rows` are those that the joint has for it.
+  void add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line);
+  void set_stops(int axis, double lower, double upper) const;
   /// Called before each substep.
-  virtual void follow() {}
+  virtual void follow(double step);
 
  private:
   struct Axis {
     AxisDescription description;
     double target_position = 0;
     double target_velocity = 0;
+    const Joint* leader = nullptr;
+    // ODE serves the stop and the motor of an axis by one constraint: a motor that pushes on a stop becomes a plain
+    // force, infinite when it has no limit. An axis with limits therefore leaves the motor of its rows alone.
+    std::optional<Motor> rows;
+    std::optional<Motor> own_motor, own_friction, own_damper;
+    const Motor* motor = nullptr;     // into the above; null in a gearbox
+    const Motor* friction = nullptr;  // null when there is none
+    const Motor* damper = nullptr;
   };
-  void apply_motor(int index);
-  void drive_axis(int index, double step);
+  void apply_motor(Axis& axis);
+  void drive_motor(int index, double step);
+  void drive_spring(int index, double step);
 
   std::vector<Axis> axes_;
-  std::vector<int> busy_;  // axes whose motor is set anew in each substep
+  std::vector<int> driven_;  // axes whose motor is set anew in each substep
+  std::vector<int> sprung_;
 };
 
-/// ODE serves the stop and the motor of an axis by one constraint: a motor that pushes on a stop becomes a plain force,
-/// infinite when it has no limit. An axis with limits therefore has its motor in a joint of its own; these make it, for
-/// the motion of the first body relative to the second. They return null for an axis without limits.
-ode::JointHandle separate_turning_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
-                                        dBodyID first, dBodyID second);
-ode::JointHandle separate_sliding_motor(dWorldID world, const AxisDescription& axis, const Vector3& direction,
-                                        dBodyID first, dBodyID second);
+/// The unit direction of an axis in the world, at the joint's site.
+Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site);
 
-/// Makes the joint in ODE. `pose` is the joint's frame in the world. Throws InvalidInput for a type that is not known.
-std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const Pose& pose,
-                                  JointBodies bodies);
+/// Makes the joint in ODE. Throws InvalidInput for a type that is not known.
+std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site);
 
 /// The kinds that make_joint() knows, and how many axes each takes.
 struct JointKind {
   const char* type;
   int axes;
-  std::unique_ptr<Joint> (*make)(dWorldID, const JointDescription&, const Pose&, JointBodies);
+  std::unique_ptr<Joint> (*make)(dWorldID, const JointDescription&, const JointSite&);
 };
 const std::vector<JointKind>& joint_kinds();
 

@@ -85,7 +85,7 @@ void RayScene::add_model(const World& world, ObjectId model, const ModelDescript
   auto placed = std::make_unique<ModelShapes>();
   const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                    [](const LinkDescription& link) { return !link.visuals.empty(); });
-  const std::vector<ObjectId> ids = world.tree().children(model, ObjectKind::kLink);
+  const std::vector<ObjectId> ids = world.tree().parts(model, ObjectKind::kLink);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const LinkDescription& link = description.links[i];
     const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;

@@ -57,9 +57,10 @@ std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription& descript
   const JointDescription& described = model.joints[joint.index];
   ObjectId parent = kNoObject;
   ObjectId child = kNoObject;
-  for (const ObjectId link : tree.children(tree.model_of(id), ObjectKind::kLink)) {
-    if (tree.at(link).name == described.parent) parent = link;
-    if (tree.at(link).name == described.child) child = link;
+  for (const ObjectId link : tree.parts(tree.outermost_model_of(id), ObjectKind::kLink)) {
+    const std::string& name = model.links[tree.at(link).index].name;
+    if (name == described.parent) parent = link;
+    if (name == described.child) child = link;
   }
   return std::make_unique<ForceTorque>(description, id, joint.id, parent, child);
 }

@@ -110,7 +110,7 @@ class Sonar final : public Sensor {
 }  // namespace
 
 std::unique_ptr<Sensor> make_sonar(const SonarDescription& description, ObjectId id, const World& world) {
-  return std::make_unique<Sonar>(description, id, world.tree().model_of(id));
+  return std::make_unique<Sonar>(description, id, world.tree().outermost_model_of(id));
 }
 
 }  // namespace bubblesim

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collects what is wrong with a description; knows which object it looks at.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/scene.hpp"
+
+namespace bubblesim {
+
+class Checker {
+ public:
+  void at(const Source& source, std::string object);
+  void report(std::string message);
+  void require(bool fine, const std::string& what, const std::string& found, const std::string& wanted);
+
+  void check_pose(const Pose& pose);
+  void check_length(const char* what, double value);
+  void check_color(const char* what, const Color& color);
+  /// That a model has a link of this name.
+  void check_link_name(const ModelDescription& model, const std::string& name, const std::string& role);
+
+  bool found_any() const { return !problems_.empty(); }
+  std::vector<Problem> found() { return std::move(problems_); }
+
+ private:
+  Source source_;
+  std::string object_;
+  std::vector<Problem> problems_;
+};
+
+/// What each file knows of; they move the checker to the objects that they look at.
+void check_shapes(Checker& checker, const ModelDescription& model, const LinkDescription& link,
+                  const std::string& path);
+void check_sensors(Checker& checker, const LinkDescription& link, const std::string& path);
+void check_sensors(Checker& checker, const JointDescription& joint, const std::string& path);
+void check_joint(Checker& checker, const ModelDescription& model, const JointDescription& joint);
+
+}  // namespace bubblesim

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The physics of a pass, and what comes of models that leave the world in it.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/simulation.hpp"
+#include "rays/ray_scene.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// Writes where everything was before; tells the file, or nothing when it cannot be written.
+std::string dump(const World& world) {
+  std::error_code failed;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(failed);
+  if (failed) return "";
+  const std::filesystem::path file = folder / ("bubblesim_diverged_" + std::to_string(::getpid()) + ".csv");
+  std::ofstream out(file);
+  world.write_last_states(out);
+  return out.flush() ? "; the last states are in " + file.string() : "";
+}
+
+void warn(const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.c_str()); }
+
+}  // namespace
+
+void Simulation::advance_physics(double physics_step) {
+  try {
+    world_.advance(scene_.time_step, physics_step);
+  } catch (const Diverged& divergence) {
+    handle(divergence);
+  }
+  for (const ObjectId model : world_.fallen_models()) {
+    warn(world_.tree().path(model) + " fell off the world and is removed");
+    take_out(model);
+  }
+}
+
+void Simulation::handle(const Diverged& divergence) {
+  const std::string what = divergence.what() + dump(world_);
+  const std::vector<ObjectId> lost = world_.diverged_models();
+  if (scene_.on_divergence == OnDivergence::kReset) {
+    warn(what + "; the world is put back to its start");
+    world_.reset();
+    make_all_sensors();
+    for (Participant* participant : participants_) participant->reset();
+  } else if (scene_.on_divergence == OnDivergence::kRemove && !lost.empty()) {
+    for (const ObjectId model : lost) {
+      warn(what + "; " + world_.tree().path(model) + " is removed");
+      take_out(model);
+    }
+  } else {
+    if (state_ == RunState::kRunning) state_ = RunState::kPaused;
+    throw Diverged(what);
+  }
+}
+
+}  // namespace bubblesim
