@@ -21,6 +21,18 @@
 namespace bubblesim {
 namespace {
 
+const std::vector<std::string> kSimulated = {"sonar",        "ray",         "lidar",
+                                             "gpu_ray",      "gpu_lidar",   "camera",
+                                             "depth_camera", "rgbd_camera", "segmentation_camera",
+                                             "imu",          "navsat",      "gps",
+                                             "contact",      "force_torque"};
+
+std::string list_of_simulated() {
+  std::string list;
+  for (const std::string& type : kSimulated) list += (list.empty() ? "" : ", ") + type;
+  return list;
+}
+
 const std::map<std::string, ProximityVolume>& volumes() {
   static const std::map<std::string, ProximityVolume> names = {
       {"ray", ProximityVolume::kRay},           {"cone", ProximityVolume::kCone},
@@ -156,8 +168,9 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
 }
 
 /// Reads what kind of sensor it is, and how it measures, into `description`, whose pose is known already. False when it
-/// cannot be told; the reason is reported.
-bool read_kind(const sdf::Sensor& sensor, SensorDescription& description, const Report& report) {
+/// cannot be told or is not simulated; the reason is reported.
+bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description,
+               const Report& report) {
   switch (sensor.Type()) {
     case sdf::SensorType::SONAR:
       return read_sonar(sensor, description, report);
@@ -194,11 +207,16 @@ bool read_kind(const sdf::Sensor& sensor, SensorDescription& description, const 
       }
       report(description.source, "a camera needs a <camera> element with <horizontal_fov>, <image> and <clip>");
       return false;
+    case sdf::SensorType::NONE: {
+      const auto type = sensor.Element()->Get<std::string>("type");
+      report(description.source, "SDFormat has no sensors of type '" + type + "'" + did_you_mean(type, kSimulated));
+      return false;
+    }
     default:
-      report(description.source, "sensors of type '" + sensor.TypeStr() +
-                                     "' are not supported; supported are sonar, ray or lidar, gpu_ray or gpu_lidar, "
-                                     "camera, depth_camera, rgbd_camera, segmentation_camera, imu, "
-                                     "navsat or gps, contact, force_torque");
+      SceneReading::warn(description.source, path,
+                         "sensors of type '" + sensor.TypeStr() +
+                             "' are not simulated, the model goes without this one; simulated are " +
+                             list_of_simulated());
       return false;
   }
 }
@@ -219,7 +237,7 @@ std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const st
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));
   };
-  if (!read_kind(sensor, description, report_here)) return std::nullopt;
+  if (!read_kind(sensor, path, description, report_here)) return std::nullopt;
   return description;
 }
 

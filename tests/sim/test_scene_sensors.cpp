@@ -114,5 +114,17 @@ TEST(Sonar, OfAFileHasTheVolumeNamed) {
   EXPECT_EQ(volume("<bubblesim:volume>cylinder</bubblesim:volume>"), ProximityVolume::kCylinder);
 }
 
+TEST(Sensors, OfAKindThatIsNotSimulatedAreLeftOutWithAWarning) {
+  ::testing::internal::CaptureStderr();
+  const TemporaryFile file("magnetometer.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
+                                                        "type='magnetometer'/></link></model>"));
+  const SceneDescription scene = load_scene(file.path());
+  const std::string warning = ::testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(scene.models.at(0).links.at(0).sensors.empty());
+  EXPECT_NE(warning.find("magnetometer.sdf:2: /m/l/s: sensors of type 'magnetometer' are not simulated"),
+            std::string::npos)
+      << warning;
+}
+
 }  // namespace
 }  // namespace bubblesim::test
