@@ -321,7 +321,7 @@ struct JointDescription {
   Pose pose;  ///< in the model's frame
   std::vector<AxisDescription> axes;
   std::vector<SensorDescription> sensors;  ///< of force and torque
-  double screw_lead = 1;     ///< m that a screw's child moves along the axis in a turn about it
+  double screw_lead = 1;                   ///< m that a screw's child moves along the axis in a turn about it
   double gearbox_ratio = 1;  ///< the child of a gearbox turns by -ratio times the parent's angle, both in the reference
   std::string gearbox_reference;  ///< link that both are held in by hinges, or "world"
   Source source;

@@ -57,14 +57,15 @@ def test_a_master_that_is_needed_and_missing_is_told(tmp_path: Path) -> None:
 def test_signals_end_all_of_it(tmp_path: Path, number: signal.Signals) -> None:
     port = free_port()
     log = tmp_path / "out"
+    own = ["--seed", str(port)]  # by which the node is told from those of others
     with log.open("w") as output:
         process = start(
-            [str(built("bubblesim")), "run", "ball", "--roscore"],
+            [str(built("bubblesim")), "run", "ball", "--roscore", *own],
             ros_environment(port, tmp_path / "log"),
             stdout=output,
             stderr=subprocess.STDOUT,
         )
-    wait_until(lambda: processes_with(f"{built('sim')} ball") != [], "the node to start", 60)
+    wait_until(lambda: processes_with(f"{built('sim')} ball {' '.join(own)}") != [], "the node to start", 60)
     process.send_signal(number)
     assert process.wait(timeout=60) == 0, log.read_text()
     assert processes_with(f"-p {port}") == []
