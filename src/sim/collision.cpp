@@ -78,14 +78,14 @@ dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
 void find_contacts(World::State& state, double step) {
   dJointGroupEmpty(state.contacts.get());
-  state.islands.clear(state.island_count);
+  state.islands.clear(state.moving.size());
   Search search{state, step};
   // Models against each other; the shapes of one model do not meet, unless it says so.
   dSpaceCollide(state.movers.get(), &search, touch_spaces);
-  for (const auto& [id, model] : state.models) {
-    dSpaceID space = model.space.get();
-    if (space == nullptr || sleeps(model)) continue;
-    if (model.description.self_collide) dSpaceCollide(space, &search, touch);
+  for (const PlacedModel* model : state.moving) {
+    dSpaceID space = model->space.get();
+    if (sleeps(*model)) continue;
+    if (model->description.self_collide) dSpaceCollide(space, &search, touch);
     dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &search, touch);
     dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &search, touch);
   }

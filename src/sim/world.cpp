@@ -36,7 +36,7 @@ World::World(const SceneDescription& scene, std::uint64_t seed) {
     place_model(*state_, enter_model(state_->tree, model), model);
   }
   gather_statics(*state_);
-  number_islands(*state_);
+  list_moving(*state_);
 }
 
 World::~World() = default;
@@ -48,7 +48,7 @@ void World::reset() {
   built->tree = state_->tree;
   for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
   gather_statics(*built);
-  number_islands(*built);
+  list_moving(*built);
   state_ = std::move(built);
 }
 
@@ -72,7 +72,7 @@ ObjectId World::add_model(ModelDescription model) {
     throw;
   }
   if (is_static) gather_statics(*state_);
-  number_islands(*state_);
+  list_moving(*state_);
   return id;
 }
 
@@ -95,7 +95,7 @@ void World::remove_model(ObjectId model) {
   std::vector<ObjectId>& lost = state_->lost_models;
   lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
   if (lost.empty()) state_->diverged = state_->interrupted;
-  number_islands(*state_);
+  list_moving(*state_);
   wake(*state_);
 }
 

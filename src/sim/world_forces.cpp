@@ -89,8 +89,8 @@ void forget_forces(World::State& state) {
   state.touches.clear();
   state.touch_reports.clear();
   state.steps = 0;
-  for (const auto& [id, model] : state.models) {
-    for (const PlacedJoint& placed : model.joints) {
+  for (const PlacedModel* model : state.moving) {
+    for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->sum = {};
     }
   }
@@ -103,8 +103,8 @@ void gather_forces(World::State& state, double step) {
     if (report.second->watched) add_point(state, report, false, step);
   }
   state.touch_reports.clear();
-  for (const auto& [id, model] : state.models) {
-    for (const PlacedJoint& placed : model.joints) {
+  for (const PlacedModel* model : state.moving) {
+    for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) gather_wrench(state, placed, step);
     }
   }

@@ -62,22 +62,21 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
   return id;
 }
 
-void number_islands(World::State& state) {
-  int count = 0;
+void list_moving(World::State& state) {
+  state.moving.clear();
   const Vector3 down = state.gravity.Normalized();
   for (auto& [id, model] : state.models) {
-    const int number = model.space == nullptr ? Islands::kNone : count++;
+    const bool moves = model.space != nullptr;
+    const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
+    if (moves) state.moving.push_back(&model);
     for (Collider& collider : model.colliders) collider.island = number;
     for (const Link& link : model.links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
   }
-  state.island_count = static_cast<std::size_t>(count);
 }
 
 void wake(World::State& state) {
-  for (auto& [id, model] : state.models) {
-    for (const Link& link : model.links) {
-      if (link.body != nullptr) dBodyEnable(link.body.get());
-    }
+  for (const PlacedModel* model : state.moving) {
+    for (const Link& link : model->links) dBodyEnable(link.body.get());
   }
 }
 

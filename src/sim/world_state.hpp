@@ -140,7 +140,7 @@ struct World::State {
   std::deque<TouchReport> touch_reports;  // of this step; a deque, for ODE keeps pointers to them
   std::vector<Touch> touches;             // of the last advance()
   std::uint64_t steps = 0;                // begun in the last advance()
-  std::size_t island_count = 0;           // models that move
+  std::vector<PlacedModel*> moving;       // the models that move, by their number in the islands
   Islands islands;                        // of the last substep; models by their number
   double bottom = 0;                      // m along gravity, the lowest place that a model or static shape was made at
   double age = 0;                         // s since it was built
@@ -166,8 +166,8 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
 /// Builds a validated model whose objects are in the tree already. gather_statics() completes it when it is static.
 void place_model(World::State& state, ObjectId id, ModelDescription model);
 
-/// Gives the models that move their numbers in the islands, after models came or went.
-void number_islands(World::State& state);
+/// Lists the models that move and gives them their numbers in the islands, after models came or went.
+void list_moving(World::State& state);
 
 /// Wakes all that sleeps, after something was moved or taken away on which it may lie.
 void wake(World::State& state);

@@ -30,10 +30,11 @@ bool is_finite(dBodyID body) {
 
 void check_bodies(World::State& state) {
   const Link* first = nullptr;
-  for (const auto& [id, model] : state.models) {
-    for (const Link& link : model.links) {
-      if (link.body == nullptr || is_finite(link.body.get())) continue;
+  for (const PlacedModel* model : state.moving) {
+    for (const Link& link : model->links) {
+      if (is_finite(link.body.get())) continue;
       if (first == nullptr) first = &link;
+      const ObjectId id = state.tree.outermost_model_of(link.object);
       if (state.lost_models.empty() || state.lost_models.back() != id) state.lost_models.push_back(id);
     }
   }
@@ -62,8 +63,8 @@ void step_iteratively(World::State& state, double step) {
 void substep(World::State& state, double step) {
   try {
     find_contacts(state, step);
-    for (const auto& [id, model] : state.models) {
-      for (const PlacedJoint& placed : model.joints) {
+    for (const PlacedModel* model : state.moving) {
+      for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
       }
     }
@@ -85,9 +86,8 @@ void substep(World::State& state, double step) {
 /// Remembers where everything is, for a report when it diverges.
 void remember(World::State& state, double duration) {
   std::vector<LinkState> now;
-  for (auto& [id, model] : state.models) {
-    for (Link& link : model.links) {
-      if (link.body == nullptr) continue;
+  for (PlacedModel* model : state.moving) {
+    for (Link& link : model->links) {
       link.before = body_velocity(link.body.get());
       now.push_back({link.object, body_pose(link.body.get()), link.before});
     }
