@@ -80,7 +80,7 @@ class Ours:
 
 
 class MuJoCo:
-    """The same tricycle, with MuJoCo's defaults."""
+    """The same tricycle, with MuJoCo's defaults but for the integrator: Euler's is unstable with these motors."""
 
     def __init__(self, box_count: int) -> None:
         """Build it."""
@@ -91,13 +91,14 @@ class MuJoCo:
         )
 
         def wheel(name: str, x: float, y: float, inside: str = "") -> str:
-            return f"""<body pos="{x} {y} 0"><joint name="{name}" axis="0 1 0"/>
+            return f"""<body name="{name}_wheel" pos="{x} {y} 0"><joint name="{name}" axis="0 1 0"/>
                 <inertial pos="0 0 0" mass="2" diaginertia=".05 .09 .05"/>
                 <geom type="sphere" size=".3" contype="{GROUND}" conaffinity="{GROUND}"/>
                 <geom type="cylinder" size=".29 .03" euler="90 0 0" contype="{OBSTACLE}" conaffinity="{OBSTACLE}"/>
                 {inside}</body>"""
 
-        self.model = mujoco.MjModel.from_xml_string(f"""<mujoco><option timestep="{STEP}"/><worldbody>
+        self.model = mujoco.MjModel.from_xml_string(f"""<mujoco>
+            <option timestep="{STEP}" integrator="implicitfast"/><worldbody>
             <geom type="plane" size="50 50 1" contype="{GROUND}" conaffinity="{GROUND}"/>{obstacles}
             <body name="frame" pos="0 0 .3"><freejoint/>
               <inertial pos=".4 0 .1" mass="20" diaginertia=".6 2.6 3"/>
@@ -106,6 +107,7 @@ class MuJoCo:
                 <inertial pos="0 0 0" mass="2" diaginertia=".02 .02 .02"/>{wheel("motor", 0, 0)}</body>
               {wheel("left", 0, 0.4)}{wheel("right", 0, -0.4)}
             </body></worldbody>
+            <contact><exclude body1="frame" body2="motor_wheel"/></contact>
             <actuator><position joint="steering" kp="200" kv="20" forcerange="-100 100"/>
               <velocity joint="motor" kv="50" forcerange="-50 50"/></actuator></mujoco>""")
         self.data = mujoco.MjData(self.model)

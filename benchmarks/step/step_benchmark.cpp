@@ -61,7 +61,9 @@ int main(int argc, char** argv) {
   plain.world().set_target_velocity(plain.world().tree().find("/FrontMotor"), kSpeed);
 
   Simulation scripted(tricycle_without_script());
-  ChildScripts scripts(scripted, nullptr, {{{"/Tricycle", FIVE_CALLS_SCRIPT}}, {}});
+  ScriptOptions options;
+  options.replacements = {{"/Tricycle", FIVE_CALLS_SCRIPT}};
+  ChildScripts scripts(scripted, nullptr, options);
   scripted.add(scripts);
 
   // Both must simulate the same thing, or the comparison means nothing.

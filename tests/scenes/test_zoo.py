@@ -37,7 +37,7 @@ def run(simulation: bubblesim.Simulation, seconds: float) -> None:
         assert link.position[2] > -0.1, f"{link.path} is below the ground"
 
 
-@pytest.mark.parametrize("file", FILES, ids=name)
+@pytest.mark.parametrize("file", FILES, ids=map(name, FILES))
 def test_it_loads_and_comes_to_rest(file: Path) -> None:
     simulation = bubblesim.Simulation(str(file))
     run(simulation, 2.0)
@@ -66,7 +66,10 @@ def has_wheels(file: Path) -> bool:
     return bool(wheels(ElementTree.parse(file).getroot()))
 
 
-@pytest.mark.parametrize("file", [file for file in FILES if file.name == "model.sdf" and has_wheels(file)], ids=name)
+DRIVING = [file for file in FILES if file.name == "model.sdf" and has_wheels(file)]
+
+
+@pytest.mark.parametrize("file", DRIVING, ids=map(name, DRIVING))
 def test_it_drives_on_its_wheels(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tree = ElementTree.parse(file)
     for axis in wheels(tree.getroot()):
