@@ -32,7 +32,7 @@ class Stick:
         self.heard = Velocities(core, folder / "heard")
         self._node = start([*NODE, f"_dev:={self._pipe}", *arguments], core.env)
         self.plug_in()
-        wait_until(lambda: self._hears(), "somebody to listen")
+        wait_until(lambda: self._hears(), "somebody to listen", timeout=3 * DEADLINE)  # rostopic takes its time
 
     def _hears(self) -> bool:
         for value in (32767, 0):  # what is sent before the listener is connected is lost

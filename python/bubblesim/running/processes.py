@@ -10,7 +10,8 @@ import subprocess
 from pathlib import Path
 from types import TracebackType
 
-_PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}  # s that each has to take effect
+# s that each has to take effect; a roscore itself waits 15 s for its master, which outlives it when it is cut short.
+_PATIENCE = {signal.SIGINT: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
 
 
 class RunError(Exception):
