@@ -8,17 +8,16 @@ without a command, after which it stops), ~odom_frame, ~base_frame, ~publish_tf.
 
 import argparse
 import dataclasses
-import math
 import sys
 import threading
 
 import rospy
 import tf2_ros
-from geometry_msgs.msg import TransformStamped, Twist
+from geometry_msgs.msg import Quaternion, TransformStamped, Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Float32
 
-from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved, quaternion_of_heading
 from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
 
 RATE = 20.0  # Hz, of the odometry
@@ -82,8 +81,7 @@ class CmdVelToTricycle:
         message.child_frame_id = self._base_frame
         message.pose.pose.position.x = self._pose.x
         message.pose.pose.position.y = self._pose.y
-        message.pose.pose.orientation.z = math.sin(self._pose.heading / 2)
-        message.pose.pose.orientation.w = math.cos(self._pose.heading / 2)
+        message.pose.pose.orientation = Quaternion(*quaternion_of_heading(self._pose.heading))
         now = velocity(self._tricycle, self._wheel)
         message.twist.twist.linear.x = now.linear
         message.twist.twist.angular.z = now.angular

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim.control.frames import pose_message, vector_message
-from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, quaternion_of_heading
 
 Message = dict[str, Any]
 
@@ -28,11 +28,6 @@ def header(stamp: float, frame: str) -> Message:
     return {"stamp": stamp, "frame_id": frame}
 
 
-def heading(angle: float) -> list[float]:
-    """Quaternion of a turn about the vertical."""
-    return [0.0, 0.0, math.sin(angle / 2), math.cos(angle / 2)]
-
-
 def transform(stamp: float, frame: str, child: str, pose: Sequence[float]) -> Message:
     """geometry_msgs/TransformStamped, from [x, y, z, qx, qy, qz, qw]."""
     placed = pose_message(pose)
@@ -45,7 +40,7 @@ def transform(stamp: float, frame: str, child: str, pose: Sequence[float]) -> Me
 
 def planar_transform(stamp: float, frame: str, child: str, pose: Pose2D) -> Message:
     """geometry_msgs/TransformStamped of what stands on the floor."""
-    return transform(stamp, frame, child, [pose.x, pose.y, 0.0, *heading(pose.heading)])
+    return transform(stamp, frame, child, [pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)])
 
 
 def planar_odometry(
@@ -59,7 +54,7 @@ def planar_odometry(
         stamp,
         frame,
         child,
-        pose=[pose.x, pose.y, 0.0, *heading(pose.heading)],
+        pose=[pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)],
         linear=[velocity.linear, 0.0, 0.0],
         angular=[0.0, 0.0, velocity.angular],
         variances=[variance, variance, _UNKNOWN, _UNKNOWN, _UNKNOWN, variance],

@@ -5,7 +5,8 @@ import math
 
 import pytest
 
-from bubblesim.running.recording import Pose, Recording, Sample, heading_of
+from bubblesim.controllers.planar_motion import heading_of
+from bubblesim.running.recording import Pose, Recording, Sample
 
 
 def recording(*points: tuple[float, float, float, float]) -> Recording:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from bubblesim.control.frames import pose_message
-from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, heading_of, quaternion_of_heading
 from bubblesim.devices.device import Device
 
 UNKNOWN = 1e12  # the variance of what wheels cannot know: height, roll and pitch
@@ -30,22 +30,14 @@ def motion_in_world(world: Any, model: int) -> Motion:
     """How a model moves, exactly."""
     pose = world.pose(model)
     (x, y, _), (_, _, turning) = world.velocity(model)
-    yaw = heading(pose)
+    yaw = heading_of(*pose[3:])
     cos, sin = math.cos(yaw), math.sin(yaw)
     return Motion(pose, cos * x + sin * y, cos * y - sin * x, turning)
 
 
 def motion_on_plane(pose: Pose2D, velocity: Velocity) -> Motion:
     """How wheels say that a robot moves."""
-    half = pose.heading / 2
-    values = [pose.x, pose.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half)]
-    return Motion(values, velocity.linear, 0.0, velocity.angular)
-
-
-def heading(pose: Sequence[float]) -> float:
-    """The angle about z, from roll, pitch and yaw, of a pose."""
-    x, y, z, w = pose[3:]
-    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return Motion([pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)], velocity.linear, 0.0, velocity.angular)
 
 
 def covariance(x: float, y: float, yaw: float) -> list[float]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import math
 
+from bubblesim.controllers.planar_motion import heading_of
 from bubblesim.devices.device import Device, Message, Place
-from bubblesim.devices.odometry import Odometry, covariance, heading, motion_in_world
+from bubblesim.devices.odometry import Odometry, covariance, motion_in_world
 from bubblesim.devices.rate import Rate
 
 
@@ -51,7 +52,7 @@ class PlanarMove(Device):
         if 0 <= self._patience < self.simulation.time - self._heard_at:
             self._forward = self._leftward = self._turning = 0.0
         # The heading in the middle of the pass, so that it keeps to its arc.
-        yaw = heading(self.world.pose(self.place.model)) + self._turning * self.simulation.time_step / 2
+        yaw = heading_of(*self.world.pose(self.place.model)[3:]) + self._turning * self.simulation.time_step / 2
         cos, sin = math.cos(yaw), math.sin(yaw)
         x = cos * self._forward - sin * self._leftward
         y = sin * self._forward + cos * self._leftward

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from bubblesim.controllers import planar_motion
 from bubblesim.controllers.planar_motion import Pose2D
 
 Point = tuple[float, float]
@@ -27,7 +28,7 @@ def placed(pose: Pose2D, seen: Point) -> Point:
 
 def heading_of(rotation: Any) -> float:
     """rad about z, of a geometry_msgs/Quaternion."""
-    return math.atan2(2 * (rotation.w * rotation.z + rotation.x * rotation.y), 1 - 2 * (rotation.y**2 + rotation.z**2))
+    return planar_motion.heading_of(rotation.x, rotation.y, rotation.z, rotation.w)
 
 
 def pose_of(transform: Any) -> Pose2D:

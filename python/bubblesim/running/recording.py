@@ -86,8 +86,3 @@ class Recording:
             closest = f"{self.closest:.2f} m" if math.isfinite(self.closest) else "none"
             lines.append(f"closest echo       {closest}")
         return "\n".join(lines)
-
-
-def heading_of(x: float, y: float, z: float, w: float) -> float:
-    """Rotation about the vertical axis, rad, of a unit quaternion."""
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
