@@ -6,7 +6,6 @@ Parameters: ~wheelbase, ~wheel_radius (m), ~max_steering (rad), ~max_speed (rad/
 without a command, after which it stops), ~odom_frame, ~base_frame, ~publish_tf.
 """
 
-import argparse
 import dataclasses
 import sys
 import threading
@@ -19,6 +18,7 @@ from std_msgs.msg import Float32
 
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved, quaternion_of_heading
 from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
+from bubblesim.nodes.run_node import run_node
 
 RATE = 20.0  # Hz, of the odometry
 
@@ -102,16 +102,7 @@ def read_tricycle() -> Tricycle:
 
 def main() -> int:
     """Runs the node until it is told to stop; 2 for parameters that no tricycle can have."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.parse_args(rospy.myargv(sys.argv)[1:])
-    rospy.init_node("cmd_vel_to_tricycle")
-    try:
-        CmdVelToTricycle(read_tricycle())
-    except (TypeError, ValueError) as error:
-        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
-        return 2
-    rospy.spin()
-    return 0
+    return run_node("cmd_vel_to_tricycle", __doc__, lambda: CmdVelToTricycle(read_tricycle()))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ Topics: map and go_to/arrived in; move_base_simple/goal out, ~done (Bool, latche
 Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~shortest (m, of a frontier that is worth going to).
 """
 
-import argparse
 import sys
 import threading
 
@@ -20,6 +19,7 @@ from bubblesim.navigation.exploration import Explorer
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, pose_of
+from bubblesim.nodes.run_node import run_node
 
 SPARE = 0.1  # m: viewpoints are where go_to.py surely finds a way to
 PATIENCE = 5  # maps in a row without a goal, after which all is known
@@ -84,13 +84,8 @@ class Explore:
 
 
 def main() -> int:
-    """Runs the node until it is told to stop."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.parse_args(rospy.myargv(sys.argv)[1:])
-    rospy.init_node("explore")
-    Explore()
-    rospy.spin()
-    return 0
+    """Runs the node until it is told to stop; 2 for parameters that cannot be."""
+    return run_node("explore", __doc__, Explore)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, tha
 turns on the spot), ~tolerance (m), ~patience (s before something in the way, after which it gives up).
 """
 
-import argparse
 import dataclasses
 import sys
 import threading
@@ -27,6 +26,7 @@ from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_following import STANDING, Driver
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
+from bubblesim.nodes.run_node import run_node
 from bubblesim.nodes.twist_commands import TwistCommands
 
 RATE = 10.0  # Hz, of commands
@@ -132,20 +132,16 @@ def read_driver() -> Driver:
     return driver
 
 
+def make() -> GoTo:
+    """The node of the robot that the parameters describe."""
+    driver = read_driver()
+    comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
+    return GoTo(driver, Footprint(driver.radius + SPARE, comfort))
+
+
 def main() -> int:
     """Runs the node until it is told to stop; 2 for parameters that no robot can have."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.parse_args(rospy.myargv(sys.argv)[1:])
-    rospy.init_node("go_to")
-    try:
-        driver = read_driver()
-        comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
-        GoTo(driver, Footprint(driver.radius + SPARE, comfort))
-    except (TypeError, ValueError) as error:
-        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
-        return 2
-    rospy.spin()
-    return 0
+    return run_node("go_to", __doc__, make)
 
 
 if __name__ == "__main__":

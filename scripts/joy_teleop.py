@@ -6,7 +6,6 @@ Parameters: ~dev (/dev/input/js0), ~speed (m/s) and ~turn (rad/s) at the stick's
 (0), ~enable_button (which has to be held; -1: none), ~dead_zone, ~rate (Hz), ~stamped, ~frame_id.
 """
 
-import argparse
 import os
 import select
 import sys
@@ -18,6 +17,7 @@ import rospy
 from bubblesim.controllers.joystick import Joystick
 from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
 from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.nodes.run_node import run_node
 from bubblesim.nodes.twist_commands import TwistCommands
 
 
@@ -81,16 +81,7 @@ class JoyTeleop:
 
 def main() -> int:
     """Runs the node until it is told to stop; 2 for parameters that cannot be."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.parse_args(rospy.myargv(sys.argv)[1:])
-    rospy.init_node("joy_teleop")
-    try:
-        teleop = JoyTeleop()
-    except (TypeError, ValueError, ZeroDivisionError) as error:
-        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
-        return 2
-    teleop.run()
-    return 0
+    return run_node("joy_teleop", __doc__, JoyTeleop, JoyTeleop.run)
 
 
 if __name__ == "__main__":
