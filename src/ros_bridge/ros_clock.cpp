@@ -46,6 +46,7 @@ void RosClock::register_at_master() {
 /// for it only stamps log messages.
 void RosClock::read_use_sim_time() {
   RpcAnswer answer = ask_master("getParam", {"/use_sim_time"});
+  if (!answer.answered) return;  // gone again: what the last one said stands
   use_sim_time_ =
       answer.succeeded && answer.value.getType() == XmlRpc::XmlRpcValue::TypeBoolean && static_cast<bool>(answer.value);
   if (!use_sim_time_ || ros::Time::isSimTime() || std::exchange(follows_, true)) return;
