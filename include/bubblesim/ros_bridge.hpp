@@ -49,6 +49,8 @@ class RosBridge final : public messages::Bridge {
                                  bool latch) override;
   messages::EndpointId subscribe(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
                                  messages::MessageCallback callback, bool tcp_no_delay) override;
+  void make_urgent(messages::EndpointId subscriber_or_server) override;
+  bool urgent_waits() const override;
   void give_way(messages::EndpointId endpoint) override;
   bool wants_messages(messages::EndpointId publisher) const override;
   bool has_publisher(messages::EndpointId subscriber) const override;

@@ -98,6 +98,8 @@ class Simulation {
   /// Between passes. Throws what step() throws.
   void carry_out_requests();
   bool has_requests() const;
+  /// Whether a stop was asked for and is not done yet. Any thread.
+  bool stop_is_due() const;
   /// Whether whoever runs the passes should run one.
   bool pass_is_due() const;
   /// step(), by which a trigger is used up.

@@ -153,6 +153,10 @@ void bind_bridge(py::module_& core) {
            "Whether publish() would send anything: somebody listens, or the topic is latched.")
       .def("give_way", &Bridge::give_way, py::arg("endpoint"), without_gil,
            "Leaves the topic of a publisher or subscriber to others of this bridge, while there are any.")
+      .def("make_urgent", &Bridge::make_urgent, py::arg("endpoint"),
+           "Has urgent_waits() look at a subscriber or service.")
+      .def("urgent_waits", &Bridge::urgent_waits,
+           "Whether something has come to an urgent endpoint and not been delivered yet. From any thread.")
       .def("has_publisher", &Bridge::has_publisher, py::arg("subscriber"),
            "Whether anybody publishes to a subscriber, as it was a quarter of a second ago.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)

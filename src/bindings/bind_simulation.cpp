@@ -235,6 +235,7 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def("trigger_pass", &Simulation::trigger_pass)
       .def_property_readonly("state", &Simulation::state)
       .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
+      .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "A stop was asked for and is not done yet.")
       .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
       .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
       .def("object", &find_object, py::arg("path"),

@@ -18,6 +18,7 @@
 
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
+#include "counting_queue.hpp"
 
 namespace bubblesim {
 
@@ -62,6 +63,8 @@ class SubscriberEndpoint {
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
+  /// Messages that have come and not been delivered yet.
+  WaitingCount waiting() const;
   /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
   void silence();
 
@@ -80,7 +83,6 @@ class SubscriberEndpoint {
   const messages::MessageType& type_;
   const std::uint32_t queue_size_;
   const bool tcp_no_delay_;
-  ros::CallbackQueueInterface& queue_;
   const boost::shared_ptr<Receiver> receiver_;
   std::atomic<bool> has_publisher_{false};
 };

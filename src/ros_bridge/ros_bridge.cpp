@@ -5,12 +5,15 @@
 #include <ros/master.h>
 #include <ros/this_node.h>
 
+#include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "arrivals.hpp"
+#include "counting_queue.hpp"
 #include "diagnostics.hpp"
 #include "endpoint_table.hpp"
 #include "endpoints.hpp"
@@ -70,6 +73,9 @@ struct RosBridge::Impl {
   Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
   Parameters parameters{master};
+
+  mutable std::mutex urgent_mutex;  // guards what follows
+  std::vector<WaitingCount> urgent;
 };
 
 RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
@@ -139,6 +145,18 @@ EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& typ
   impl_->clock.check_type(resolved, type);
   impl_->topics.subscribe(impl_->next_id, resolved, type, queue_size, std::move(callback), tcp_no_delay);
   return impl_->next_id++;
+}
+
+void RosBridge::make_urgent(EndpointId endpoint) {
+  WaitingCount waiting =
+      impl_->topics.has_subscriber(endpoint) ? impl_->topics.waiting(endpoint) : impl_->services.waiting(endpoint);
+  const std::lock_guard lock(impl_->urgent_mutex);
+  impl_->urgent.push_back(std::move(waiting));
+}
+
+bool RosBridge::urgent_waits() const {
+  const std::lock_guard lock(impl_->urgent_mutex);
+  return std::any_of(impl_->urgent.begin(), impl_->urgent.end(), [](const auto& waiting) { return *waiting > 0; });
 }
 
 void RosBridge::give_way(EndpointId endpoint) { impl_->topics.give_way(endpoint); }

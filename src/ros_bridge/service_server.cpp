@@ -36,8 +36,8 @@ ros::SerializedMessage to_response(const WireBuffer& message) {
 
 class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
  public:
-  Responder(ServiceCallback callback, CallbackGuard& guard)
-      : callback_(std::make_shared<ServiceCallback>(std::move(callback))), guard_(guard) {}
+  Responder(ServiceCallback callback, ros::CallbackQueueInterface& queue_to_use, CallbackGuard& guard)
+      : queue(queue_to_use), callback_(std::make_shared<ServiceCallback>(std::move(callback))), guard_(guard) {}
 
   // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
   void silence() { callback_.reset(); }
@@ -74,6 +74,8 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
     return true;
   }
 
+  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+
  private:
   std::shared_ptr<ServiceCallback> callback_;
   CallbackGuard& guard_;
@@ -84,10 +86,11 @@ ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type
                              RequestQueue& queue, CallbackGuard& guard)
     : name_(std::move(name)),
       type_(type),
-      queue_(queue),
-      responder_(boost::make_shared<Responder>(std::move(callback), guard)) {}
+      responder_(boost::make_shared<Responder>(std::move(callback), queue, guard)) {}
 
 WireBuffer ServiceServer::answer(WireView request) { return responder_->answer(request); }
+
+WaitingCount ServiceServer::waiting() const { return responder_->queue.waiting(); }
 
 bool ServiceServer::is_answering() const { return responder_->is_answering(); }
 
@@ -101,7 +104,7 @@ void ServiceServer::register_at_master() {
   options.req_datatype = type_.request->name;
   options.res_datatype = type_.response->name;
   options.helper = responder_;
-  options.callback_queue = &queue_;
+  options.callback_queue = &responder_->queue;
   const auto& services = ros::ServiceManager::instance();
   if (services->advertiseService(options)) publication_ = services->lookupServicePublication(name_);
 }

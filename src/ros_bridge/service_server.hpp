@@ -8,6 +8,7 @@
 
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
+#include "counting_queue.hpp"
 #include "request_queue.hpp"
 
 namespace bubblesim {
@@ -24,6 +25,8 @@ class ServiceServer {
   const messages::ServiceType& type() const { return type_; }
   /// Calls the callback. Throws ServiceError with the text of whatever that throws.
   messages::WireBuffer answer(messages::WireView request);
+  /// Requests that have come and not been answered yet, nor begun to be.
+  WaitingCount waiting() const;
   /// Whether the callback is running.
   bool is_answering() const;
   /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
@@ -39,7 +42,6 @@ class ServiceServer {
 
   const std::string name_;
   const messages::ServiceType& type_;
-  RequestQueue& queue_;
   const boost::shared_ptr<Responder> responder_;
   ros::ServicePublicationPtr publication_;
 };

@@ -109,6 +109,10 @@ void Services::serve() {
 
 void Services::remove_client(EndpointId id) { clients_.erase(find_endpoint(clients_, id, "service client")); }
 
+WaitingCount Services::waiting(EndpointId server) const {
+  return find_endpoint(servers_, server, "service server")->second->waiting();
+}
+
 const ServiceType& Services::type(EndpointId id) const {
   const auto client = clients_.find(id);
   if (client != clients_.end()) return client->second->type;

@@ -38,6 +38,7 @@ class Services {
   void add_client(messages::EndpointId id, const std::string& name, const messages::ServiceType& type);
   void remove_server(messages::EndpointId id);
   void remove_client(messages::EndpointId id);
+  WaitingCount waiting(messages::EndpointId server) const;
   const messages::ServiceType& type(messages::EndpointId id) const;
 
   messages::WireBuffer call(messages::EndpointId client, messages::WireBuffer request, double timeout);

@@ -24,8 +24,10 @@ class OwnType final : public std::type_info {
 
 class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelper {
  public:
-  Receiver(messages::MessageCallback callback, bool has_header, CallbackGuard& guard)
-      : callback_(std::make_shared<messages::MessageCallback>(std::move(callback))),
+  Receiver(messages::MessageCallback callback, bool has_header, ros::CallbackQueueInterface& queue_to_use,
+           CallbackGuard& guard)
+      : queue(queue_to_use),
+        callback_(std::make_shared<messages::MessageCallback>(std::move(callback))),
         has_header_(has_header),
         guard_(guard) {}
 
@@ -47,6 +49,8 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
   bool isConst() override { return true; }
   bool hasHeader() override { return has_header_; }
 
+  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+
  private:
   std::shared_ptr<messages::MessageCallback> callback_;
   const bool has_header_;
@@ -61,15 +65,16 @@ SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::Messag
       type_(type),
       queue_size_(queue_size),
       tcp_no_delay_(tcp_no_delay),
-      queue_(queue),
-      receiver_(boost::make_shared<Receiver>(std::move(callback), type.has_header, guard)) {}
+      receiver_(boost::make_shared<Receiver>(std::move(callback), type.has_header, queue, guard)) {}
+
+WaitingCount SubscriberEndpoint::waiting() const { return receiver_->queue.waiting(); }
 
 void SubscriberEndpoint::silence() { receiver_->silence(); }
 
 void SubscriberEndpoint::register_at_master() {
   ros::SubscribeOptions options(topic_, queue_size_, type_.md5, type_.name);
   options.helper = receiver_;
-  options.callback_queue = &queue_;
+  options.callback_queue = &receiver_->queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay(tcp_no_delay_);
   ros::TopicManager::instance()->subscribe(options);
 }

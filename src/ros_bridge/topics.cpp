@@ -144,6 +144,10 @@ bool Topics::has_publisher(EndpointId subscriber) const {
   return find_endpoint(subscribers_, subscriber, "subscriber")->second->has_publisher();
 }
 
+WaitingCount Topics::waiting(EndpointId subscriber) const {
+  return find_endpoint(subscribers_, subscriber, "subscriber")->second->waiting();
+}
+
 void Topics::look_for_publishers() {
   for (const auto& subscriber : registered_) subscriber->look_for_publisher();
 }

@@ -34,6 +34,8 @@ class Topics {
   void give_way(messages::EndpointId id);
   bool wants_messages(messages::EndpointId publisher) const;
   bool has_publisher(messages::EndpointId subscriber) const;
+  WaitingCount waiting(messages::EndpointId subscriber) const;
+  bool has_subscriber(messages::EndpointId id) const { return subscribers_.count(id) != 0; }
   const messages::MessageType& type(messages::EndpointId id) const;
   void publish(messages::EndpointId publisher, messages::WireBuffer message);
   void shutdown_publisher(messages::EndpointId publisher);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How a simulation is started, paused and stopped by those who do not run its passes.
+#include <algorithm>
 #include <utility>
 
 #include "bubblesim/simulation.hpp"
@@ -45,6 +46,11 @@ void Simulation::run_pass() {
 bool Simulation::has_requests() const {
   const std::lock_guard lock(requests_mutex_);
   return !requests_.empty();
+}
+
+bool Simulation::stop_is_due() const {
+  const std::lock_guard lock(requests_mutex_);
+  return state_ == RunState::kStopping || std::count(requests_.begin(), requests_.end(), Request::kStop) > 0;
 }
 
 void Simulation::forget_triggers() {

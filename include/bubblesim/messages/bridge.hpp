@@ -62,6 +62,10 @@ class Bridge {
   /// For endpoints of the simulator itself: from now on this publisher (subscriber) publishes (delivers) nothing while
   /// there is another on its topic, nor while its topic is used under another type, which it does not keep from being.
   virtual void give_way(EndpointId publisher_or_subscriber) = 0;
+  /// For endpoints of the simulator itself: has urgent_waits() look at this subscriber or service server.
+  virtual void make_urgent(EndpointId subscriber_or_server) = 0;
+  /// Whether a message or request has come to such an endpoint and not been delivered yet. From any thread.
+  virtual bool urgent_waits() const = 0;
   /// Whether publish() would have any effect now: somebody listens, or the publisher latches.
   virtual bool wants_messages(EndpointId publisher) const = 0;
   /// Whether anybody publishes to a subscriber, as it was a quarter of a second ago.

@@ -22,16 +22,15 @@ class GazeboServices:
 
     def __init__(self, host: ScriptHost) -> None:
         """Offer the services below /gazebo."""
+        assert host.bridge is not None
         self._host = host
+        self._bridge = host.bridge
         self._simulation = host.simulation
         self._world = host.simulation.world
-        for name, action in (
-            ("pause_physics", self._simulation.pause),
-            ("unpause_physics", self._simulation.start),
-            ("reset_world", self._simulation.reset_world),
-            ("reset_simulation", host.restart),
-        ):
-            self._offer(name, "std_srvs/Empty", answering_empty(action))
+        self._offer("pause_physics", "std_srvs/Empty", answering_empty(self._simulation.pause))
+        self._offer("unpause_physics", "std_srvs/Empty", answering_empty(self._simulation.start))
+        for name, action in (("reset_world", self._simulation.reset_world), ("reset_simulation", host.restart)):
+            self._bridge.make_urgent(self._offer(name, "std_srvs/Empty", answering_empty(action)))
         for name, kind, answer in (
             ("spawn_sdf_model", "SpawnModel", self._spawn),
             ("spawn_urdf_model", "SpawnModel", self._spawn),
@@ -44,9 +43,11 @@ class GazeboServices:
         ):
             self._offer(name, f"gazebo_msgs/{kind}", telling_errors(answer))
 
-    def _offer(self, name: str, service_type: str, answer: object) -> None:
-        assert self._host.bridge is not None
-        self._host.bridge.advertise_service(f"/gazebo/{name}", service_type, answer, _core.messages.TimeForm.FLOAT)
+    def _offer(self, name: str, service_type: str, answer: object) -> int:
+        server: int = self._bridge.advertise_service(
+            f"/gazebo/{name}", service_type, answer, _core.messages.TimeForm.FLOAT
+        )
+        return server
 
     def _spawn(self, request: Message) -> Message:
         pose = _pose(request["initial_pose"])

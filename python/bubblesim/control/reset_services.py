@@ -13,4 +13,5 @@ from bubblesim.scripting.host import ScriptHost
 def offer_reset_services(bridge: Any, host: ScriptHost) -> None:
     """Offer both, as std_srvs/Empty, under the node's name; they are done when they answer."""
     for name, action in (("~reset", host.simulation.reset_world), ("~reset_simulation", host.restart)):
-        bridge.advertise_service(name, "std_srvs/Empty", answering_empty(action), _core.messages.TimeForm.FLOAT)
+        answer = answering_empty(action)
+        bridge.make_urgent(bridge.advertise_service(name, "std_srvs/Empty", answer, _core.messages.TimeForm.FLOAT))

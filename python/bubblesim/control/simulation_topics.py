@@ -27,18 +27,19 @@ class SimulationTopics:
         self._simulation = simulation
         self._subscribe("/startSimulation", lambda _: simulation.start())
         self._subscribe("/pauseSimulation", lambda _: simulation.pause())
-        self._subscribe("/stopSimulation", lambda _: simulation.stop())
+        self._bridge.make_urgent(self._subscribe("/stopSimulation", lambda _: simulation.stop()))
         self._subscribe("/enableSyncMode", simulation.set_synchronous)
         self._subscribe("/triggerNextStep", lambda _: simulation.trigger_pass(), _UNLIMITED)
         self._state = self._advertise("/simulationState", "std_msgs/Int32", _QUEUE)
         self._time = self._advertise("/simulationTime", "std_msgs/Float32", _QUEUE_OF_PASSES)
         self._step_done = self._advertise("/simulationStepDone", "std_msgs/Bool", _QUEUE_OF_PASSES)
 
-    def _subscribe(self, topic: str, action: Callable[[bool], None], queue_size: int = _QUEUE) -> None:
-        subscriber = self._bridge.subscribe(
+    def _subscribe(self, topic: str, action: Callable[[bool], None], queue_size: int = _QUEUE) -> int:
+        subscriber: int = self._bridge.subscribe(
             topic, "std_msgs/Bool", lambda message: action(message["data"]), queue_size, _core.messages.TimeForm.FLOAT
         )
         self._bridge.give_way(subscriber)
+        return subscriber
 
     def _advertise(self, topic: str, message_type: str, queue_size: int) -> int:
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, False))

@@ -41,6 +41,7 @@ class ChildScript:
         self.follows_pauses = False
         self.running = False  # its code is on the call stack
         self.doing = "loading"  # what it was called for last
+        self.stuck_at = ""  # where it was when somebody looked why it does not return
         self.programs: list[Program] = []  # that it started
         self.at_end: dict[Hashable, Hook] = {}  # undoes what else the script made: publishers
         self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
@@ -126,7 +127,12 @@ class ChildScript:
         return self._stamps.differ()
 
     def where_now(self, thread: int) -> str:
-        """FILE:LINE where its code is that runs in another thread, or nothing."""
+        """FILE:LINE where its code is that the simulation waits for, or nothing.
+
+        :param thread: the simulation's.
+        """
+        if self._thread and self._thread.ident and self.doing == "sysCall_thread":
+            thread = self._thread.ident
         return self._code.where_now(thread)
 
     def _call(self, name: str) -> None:
@@ -152,22 +158,32 @@ class ChildScript:
         except SystemExit:
             self._end()
         except BaseException as error:
-            place = self._code.place(error)
-            where = f"{what} ({place})" if place else what
-            if interruption.requested and self._code.broken_off(error):
-                write_line(
-                    sys.stderr,
-                    f"warning: child script of {self.object_path} was broken off in {where}: "
-                    "the simulator was told to end",
-                )
-                return False
+            self._report(error, what)
+        else:
+            return True
+        return False
+
+    def _report(self, error: BaseException, what: str) -> None:
+        """Tell why it did not return from ``what``, and end it unless all ends."""
+        for_stop, interruption.for_stop = interruption.for_stop, False
+        broken_off = (for_stop or interruption.requested) and self._code.broken_off(error)
+        place = (self.stuck_at if broken_off and for_stop else "") or self._code.place(error)
+        where = f"{what} ({place})" if place else what
+        if not broken_off:
             self._fail(
                 f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
                 + self._code.report(error)
             )
+        elif interruption.requested:
+            write_line(
+                sys.stderr,
+                f"warning: child script of {self.object_path} was broken off in {where}: the simulator was told to end",
+            )
         else:
-            return True
-        return False
+            self._fail(
+                f"error: child script of {self.object_path} was broken off in {where} and is disabled: it did not "
+                "return, and a stop or a reset waited for it"
+            )
 
     def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
         """Make a callback that ends the script when it fails. ``function`` may be the name of a script global."""

@@ -168,6 +168,13 @@ class ScriptHost:
         if self.simulation.state != _core.RunState.STOPPED:
             self.start()
 
+    def stop_waits(self) -> bool:
+        """Whether a stop or a reset waits for the script that runs; for any thread."""
+        if self.bridge is not None and self.bridge.urgent_waits():
+            return True
+        script = self.running_script  # to clean up belongs to a stop, and may take its time
+        return script is not None and script.doing != "sysCall_cleanup" and bool(self.simulation.stop_is_due)
+
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and end what they started."""
         _finish(self.scripts)

@@ -23,6 +23,7 @@ class LuaThread:
         """
         self.stepping = 0  # how often it asked to keep its turns until it gives them back
         self.exit_requested = False
+        self.ident = None
         self._resume = resume
         self._done = False
         self._turn_ends = 0.0  # by time.monotonic()

@@ -73,11 +73,15 @@ end
 -- A script that loops for ever must be able to be ended: its code is interrupted now and then, in coroutines too.
 local function pulse()
   local may_go_on, place_wanted = pcall(host.pulse)
-  if not may_go_on then error("broken off", 2) end
-  if place_wanted then
-    local at = getinfo(2, "Sl")
-    host.tell_place(at.short_src, at.currentline)
+  if may_go_on and not place_wanted then return end
+  local level = 2  -- of the script's own code, which may have called what stands here
+  local at = getinfo(level, "Sl")
+  while at and (at.short_src == "[sandbox]" or at.what == "C") do
+    level = level + 1
+    at = getinfo(level, "Sl")
   end
+  if not may_go_on then error("broken off", level) end
+  if at then host.tell_place(at.short_src, at.currentline) end
 end
 local function with_pulse(body)
   return function(...)

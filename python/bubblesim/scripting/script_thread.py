@@ -30,6 +30,10 @@ class AnyThread(Protocol):
     stepping: int
     exit_requested: bool
 
+    @property
+    def ident(self) -> int | None:
+        """Of the thread of the operating system that it has for itself."""
+
     def give_turn(self) -> None:
         """Let the thread work in its turn; raise the error that it ended with."""
 
@@ -101,6 +105,11 @@ class ScriptThread:
             with self._changed:
                 self._done = True
                 self._changed.notify_all()
+
+    @property
+    def ident(self) -> int | None:
+        """See AnyThread; none before its first turn."""
+        return self._thread.ident
 
     def give_turn(self) -> None:
         """Let the thread work until it steps, ends, sleeps or its slice is over; raise the error that it ended with."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Notices a callback that does not return, while the simulation waits for it."""
+"""Notices a callback that does not return, while the simulation waits for it, and breaks it off for a stop."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ import threading
 import weakref
 from typing import TYPE_CHECKING
 
+from bubblesim.scripting import interruption
 from bubblesim.scripting.output import write_line
 
 if TYPE_CHECKING:
+    from bubblesim.scripting.child_script import ChildScript
     from bubblesim.scripting.host import ScriptHost
 
 _BETWEEN_LOOKS = 0.5  # s
@@ -35,11 +37,23 @@ def _watch(find_host: weakref.ref[ScriptHost], simulation_thread: int) -> None:
         call = host.calls
         looks = looks + 1 if script is not None and call == last_call else 0
         last_call = call
-        if script is not None and looks == _LOOKS:
-            place = script.where_now(simulation_thread)
-            write_line(
-                sys.stderr,
-                f"warning: child script of {script.object_path} has not returned from {script.doing} for "
-                f"{_LOOKS * _BETWEEN_LOOKS:g} s{f', now at {place}' if place else ''}: the simulation waits for it",
-            )
+        if script is not None and looks >= _LOOKS:
+            script.stuck_at = script.where_now(simulation_thread)
+            if looks == _LOOKS:
+                _warn(script)
+            if host.stop_waits():
+                _break_off(host, call, simulation_thread)
         del host, script
+
+
+def _break_off(host: ScriptHost, call: int, simulation_thread: int) -> None:
+    interruption.break_off(simulation_thread, lambda: host.running_script is not None and host.calls == call)
+
+
+def _warn(script: ChildScript) -> None:
+    place = f", now at {script.stuck_at}" if script.stuck_at else ""
+    write_line(
+        sys.stderr,
+        f"warning: child script of {script.object_path} has not returned from {script.doing} for "
+        f"{_LOOKS * _BETWEEN_LOOKS:g} s{place}: the simulation waits for it",
+    )
