@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The simulator's node as tests run it: to its end, or in the background."""
 
+import json
 import os
 import re
 import signal
@@ -9,6 +10,7 @@ import textwrap
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from ros_support import DEADLINE, RosCore, built, start, stop, wait_until
 
@@ -111,6 +113,19 @@ class Node:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         stop(self.process)
+
+
+def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
+    """The JSON object that a probe, code of a Python node, prints at its end."""
+    told = folder / "told"
+    with told.open("w") as output:
+        process = start(["/usr/bin/python3", str(write(folder / "probe.py", probe))], env, stdout=output)
+    try:
+        wait_until(lambda: told.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
+    finally:
+        stop(process)
+    found: dict[str, Any] = json.loads(told.read_text())
+    return found
 
 
 def processes_with(text: str) -> list[str]:

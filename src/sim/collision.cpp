@@ -43,8 +43,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   auto& [state, step] = *static_cast<Search*>(data);
   const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
   const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
-  if ((a.surface.collide_bitmask & b.surface.collide_bitmask) == 0 || a.link == b.link) return;
-  if (a.surface.collide_without_contact || b.surface.collide_without_contact) return;
+  if (a.link == b.link) return;
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
   if (sleeps(body_a) && sleeps(body_b)) return;
@@ -56,7 +55,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (count == 0) return;
   state.islands.touch(a.island, b.island, count);
   const SurfacePair pair = combine(a.surface, b.surface, step);
-  dContact contact{};
+  dContact contact;  // fdir1 counts only with its bit of the mode
   for (int i = 0; i < count; ++i) {
     contact.surface = pair.ode;
     contact.geom = found[static_cast<std::size_t>(i)];
@@ -81,7 +80,7 @@ void find_contacts(World::State& state, double step) {
   state.islands.clear(state.moving.size());
   Search search{state, step};
   // Models against each other; the shapes of one model do not meet, unless it says so.
-  dSpaceCollide(state.movers.get(), &search, touch_spaces);
+  if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &search, touch_spaces);
   for (const PlacedModel* model : state.moving) {
     dSpaceID space = model->space.get();
     if (sleeps(*model)) continue;

@@ -19,28 +19,33 @@ using Optional = std::optional<double>;
 Optional lower(const Optional& a, const Optional& b) { return a && b ? std::min(*a, *b) : (a ? a : b); }
 Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max(*a, *b) : (a ? a : b); }
 
-/// Two springs one behind the other, two dampers side by side: what both do in a step, in ODE's terms. Tells whether
-/// the contact is one of rigid bodies after all.
-bool soften(const Surface& a, const Surface& b, double step, dSurfaceParameters& made) {
-  const auto compliance = [](const Surface& surface) { return 1 / std::max(surface.kp.value_or(kRigid), kSoftest); };
-  const double kp = 1 / (compliance(a) + compliance(b));
-  if (kp < kStiff) {
+/// How a contact gives, in ODE's terms.
+struct Softness {
+  int mode = 0;
+  double erp = kErrorReduction;
+  double cfm = 0;
+  bool rigid = true;
+};
+
+/// Two springs one behind the other, two dampers side by side: what both do in a step.
+Softness soften(const Surface& a, const Surface& b, double step) {
+  Softness made;
+  if (a.kp || b.kp) {
+    const auto compliance = [](const Surface& surface) { return 1 / std::max(surface.kp.value_or(kRigid), kSoftest); };
+    const double kp = 1 / (compliance(a) + compliance(b));
+    if (kp >= kStiff) return made;
     const double kd = a.kd.value_or(0) + b.kd.value_or(0);
-    made.mode |= dContactSoftERP | dContactSoftCFM;
-    made.soft_erp = step * kp / (step * kp + kd);
-    made.soft_cfm = 1 / (step * kp + kd);
-    return false;
+    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false};
   }
-  if (a.kp || b.kp) return true;
   if (const Optional erp = lower(a.soft_erp, b.soft_erp)) {
     made.mode |= dContactSoftERP;
-    made.soft_erp = *erp;
+    made.erp = *erp;
   }
   if (const Optional cfm = higher(a.soft_cfm, b.soft_cfm)) {
     made.mode |= dContactSoftCFM;
-    made.soft_cfm = std::max(*cfm, kConstraintSoftness);
+    made.cfm = std::max(*cfm, kConstraintSoftness);
   }
-  return true;
+  return made;
 }
 
 }  // namespace
@@ -69,12 +74,15 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.bounce_vel = std::min(a.bounce_threshold, b.bounce_threshold);
   if (made.bounce > 0) made.mode |= dContactBounce;
 
-  made.soft_erp = kErrorReduction;
-  const bool rigid = soften(a, b, step, made);
+  const Softness softness = soften(a, b, step);
+  made.mode |= softness.mode;
+  made.soft_erp = softness.erp;
+  made.soft_cfm = softness.cfm;
   pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
   // What is soft pushes as its spring does; a limit would let heavy things sink in.
   const double speed = higher(a.max_vel, b.max_vel).value_or(kMaxCorrectingVelocity);
-  pair.max_depth = rigid && made.soft_erp > 0 ? speed * step / made.soft_erp : std::numeric_limits<double>::infinity();
+  const bool limited = softness.rigid && softness.erp > 0;
+  pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();
   return pair;
 }
 

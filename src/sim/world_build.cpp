@@ -151,6 +151,10 @@ class ModelBuilder {
     collider.in_link = description.pose;
     dGeomID geom = collider.geom.get();
     dGeomSetData(geom, &collider);
+    // Pairs of shapes that share no bit are left out before anything else is looked at.
+    const unsigned long bits = description.surface.collide_without_contact ? 0 : description.surface.collide_bitmask;
+    dGeomSetCategoryBits(geom, bits);
+    dGeomSetCollideBits(geom, bits);
     if (std::holds_alternative<Plane>(description.geometry)) {
       dSpaceAdd(state_.planes.get(), geom);
     } else if (link.body == nullptr) {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Pioneer P3DX: how it drives, and what its script tells."""
 
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,8 @@ import pytest
 import bubblesim
 from bubblesim.controllers.differential_drive import DifferentialDrive, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
-from node_support import Node, run_sim, write
-from ros_support import RosCore, start, stop, wait_until
+from node_support import Node, run_sim, told_by, write
+from ros_support import RosCore
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33)
 FURNITURE = ("Table", "Chair", "Shelf", "Sofa", "CoffeeTable", "Plant", "FloorLamp")
@@ -142,15 +141,8 @@ def test_it_follows_velocities_and_tells_where_it_is(roscore: RosCore, tmp_path:
     roscore.set_param("/use_sim_time", True)
     roscore.set_param("/sim_ros_interface/odometry_noise", noise)
     with Node(roscore.env, tmp_path / "log", "pioneer", "--speed", "2") as node:
-        told = tmp_path / "told"
-        with told.open("w") as output:
-            probe = start(["/usr/bin/python3", str(write(tmp_path / "probe.py", PROBE))], roscore.env, stdout=output)
-        try:
-            wait_until(lambda: told.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
-        finally:
-            stop(probe)
+        found = told_by(PROBE, roscore.env, tmp_path)
         assert node.end() == 0
-    found = json.loads(told.read_text())
     assert found["frames"] == ["odom", "base_link"]
     assert found["true_speeds"] == pytest.approx([0.4, 0.5], rel=0.01)
     error = math.dist(found["odom"], found["truth"])

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tricycle's camera, GPS receiver and odometry on their topics."""
 
-import json
 import math
 from pathlib import Path
 
 import pytest
 
-from node_support import Node, run_script, write
-from ros_support import RosCore, start, stop, wait_until
+from node_support import Node, run_script, told_by
+from ros_support import RosCore
 
 PROBE = """
 import json
@@ -46,15 +45,8 @@ print(json.dumps({
 def test_what_they_tell_agrees(roscore: RosCore, tmp_path: Path) -> None:
     roscore.set_param("/use_sim_time", True)
     with Node(roscore.env, tmp_path / "log", "tricycle", "--speed", "2") as node:
-        told = tmp_path / "told"
-        with told.open("w") as output:
-            probe = start(["/usr/bin/python3", str(write(tmp_path / "probe.py", PROBE))], roscore.env, stdout=output)
-        try:
-            wait_until(lambda: told.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
-        finally:
-            stop(probe)
+        found = told_by(PROBE, roscore.env, tmp_path)
         assert node.end() == 0
-    found = json.loads(told.read_text())
     assert found["frames"] == ["odom", "base_link", "Gps", "Camera_optical"]
     # A degree of latitude at 48 degrees north is 111 194 m long, one of longitude 74 395 m (WGS84). x is the east, and
     # the receiver stands on base_link; its noise has a deviation of 2 cm.

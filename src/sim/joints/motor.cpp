@@ -8,20 +8,20 @@ namespace bubblesim {
 
 Motor Motor::turning(dWorldID world, const AxisLine& line) {
   ode::JointHandle joint(dJointCreateAMotor(world, nullptr));
-  dJointAttach(joint.get(), line.first, line.second);
   dJointSetAMotorNumAxes(joint.get(), 1);
-  dJointSetAMotorAxis(joint.get(), 0, line.carrier, line.direction.X(), line.direction.Y(), line.direction.Z());
-  Motor motor(joint.get(), dJointSetAMotorParam, 0);
-  motor.own_ = std::move(joint);
-  return motor;
+  return between(line, std::move(joint), dJointSetAMotorAxis, dJointSetAMotorParam);
 }
 
 Motor Motor::sliding(dWorldID world, const AxisLine& line) {
   ode::JointHandle joint(dJointCreateLMotor(world, nullptr));
-  dJointAttach(joint.get(), line.first, line.second);
   dJointSetLMotorNumAxes(joint.get(), 1);
-  dJointSetLMotorAxis(joint.get(), 0, line.carrier, line.direction.X(), line.direction.Y(), line.direction.Z());
-  Motor motor(joint.get(), dJointSetLMotorParam, 0);
+  return between(line, std::move(joint), dJointSetLMotorAxis, dJointSetLMotorParam);
+}
+
+Motor Motor::between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set) {
+  dJointAttach(joint.get(), line.first, line.second);
+  set_axis(joint.get(), 0, line.carrier, line.direction.X(), line.direction.Y(), line.direction.Z());
+  Motor motor(joint.get(), set, 0);
   motor.own_ = std::move(joint);
   return motor;
 }

@@ -37,6 +37,9 @@ class Motor {
   void damp(double velocity, double coefficient) const;
 
  private:
+  using SetAxis = void (*)(dJointID, int, int, dReal, dReal, dReal);
+  static Motor between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set);
+
   ode::JointHandle own_;  // null when the rows are part of another joint
   dJointID joint_;
   SetParameter set_;
