@@ -115,13 +115,14 @@ enum class LightKind {
   kSpot,         ///< in a cone
 };
 
+/// Position and direction are in the world, or in the frame of the link that carries it.
 struct Light {
-  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines, world axes; of no meaning to a point light
+  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines; of no meaning to a point light
   Color diffuse{0.8F, 0.8F, 0.8F};
   bool cast_shadows = true;
   LightKind kind = LightKind::kDirectional;
   // Of point lights and spotlights:
-  Vector3 position;                  ///< in the world
+  Vector3 position;
   double range = 10;                 ///< m, beyond which it does not shine
   double constant_attenuation = 1;   ///< it shines with 1 / (constant + linear d + quadratic d^2) at a distance of d
   double linear_attenuation = 0;     ///< 1/m
@@ -148,6 +149,7 @@ struct Environment {
   bool shadows = true;
   std::vector<Light> lights{Light{}};
   GeographicOrigin origin;
+  Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  ///< T, world axes; SDFormat's default
 };
 
 /// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
@@ -236,6 +238,17 @@ struct NavSatDescription {
   NoiseDescription vertical_velocity_noise;    ///< m/s
 };
 
+/// Tells how high it is above where it started.
+struct AltimeterDescription {
+  NoiseDescription position_noise;  ///< m
+  NoiseDescription velocity_noise;  ///< m/s
+};
+
+/// Feels the magnetic field of the Earth; noise along x, y, z.
+struct MagnetometerDescription {
+  std::array<NoiseDescription, 3> field_noise;  ///< T
+};
+
 /// Feels what its link touches.
 struct ContactDescription {
   std::vector<std::string> collisions;  ///< of the link; empty for all of them
@@ -261,7 +274,7 @@ struct SensorDescription {
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
-               ContactDescription, ForceTorqueDescription>
+               AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>
       kind;
   std::vector<PluginDescription> plugins;
   std::string topic;  ///< on which it is published; empty: its plugins may publish it
@@ -281,6 +294,7 @@ struct LinkDescription {
   std::vector<CollisionDescription> collisions;
   std::vector<VisualDescription> visuals;
   std::vector<SensorDescription> sensors;
+  std::vector<Light> lights;  ///< positions and directions in the link's frame
   Source source;
 };
 

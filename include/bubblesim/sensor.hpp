@@ -72,6 +72,17 @@ struct NavSatReading {
   Vector3 velocity;      ///< m/s, to the east, to the north and up
 };
 
+/// How high an altimeter is.
+struct AltimeterReading {
+  double height = 0;    ///< m above where it was when it came into the world
+  double velocity = 0;  ///< m/s upwards
+};
+
+/// What a magnetometer felt, in its own frame.
+struct MagnetometerReading {
+  Vector3 field;  ///< T
+};
+
 /// What a link touches.
 struct ContactReading {
   std::vector<Contact> contacts;
@@ -83,10 +94,11 @@ struct ForceTorqueReading {
   Vector3 torque;  ///< N m, the mean over the last pass
 };
 
-using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, ContactReading,
-                                 ForceTorqueReading>;
+using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, AltimeterReading,
+                                 MagnetometerReading, ContactReading, ForceTorqueReading>;
 
-/// "proximity sensor", "lidar", "camera", "IMU", "GPS receiver", "contact sensor" or "force-torque sensor".
+/// "proximity sensor", "lidar", "camera", "IMU", "GPS receiver", "altimeter", "magnetometer", "contact sensor" or
+/// "force-torque sensor".
 std::string_view kind_name(const Measurement& measurement);
 
 struct Reading {

@@ -120,6 +120,8 @@ class Simulation {
   /// Makes a camera show a picture: three bytes a pixel, the uppermost row first. It measures no more then, until the
   /// world or the simulation is reset. Throws NoSuchObject for what is no camera, InvalidInput when sizes differ.
   void show_picture(ObjectId camera, const std::vector<std::uint8_t>& rgb);
+  /// How many times sensors have measured so far.
+  std::uint64_t measurements() const { return measurements_; }
   /// See kind_name(); it measures nothing.
   std::string_view sensor_kind(ObjectId sensor);
   /// The same for sensors of one kind; NoSuchObject for those of others.
@@ -153,6 +155,7 @@ class Simulation {
   World world_;
   std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
+  std::uint64_t measurements_ = 0;
   std::vector<Participant*> participants_;
   std::uint64_t passes_ = 0;
   double first_time_step_;  // s, of the scene

@@ -121,9 +121,6 @@ class World {
   /// between -pi and pi, unless their limits reach beyond: then whole turns count.
   double joint_position(ObjectId joint, int axis = 0) const;
   double joint_velocity(ObjectId joint, int axis = 0) const;
-  /// What the motor of an axis did to the child, N along the axis or N m about it, as the mean over the last advance().
-  /// It is measured from the first call on, which returns 0; so do those for an axis without a motor.
-  double motor_force(ObjectId joint, int axis = 0);
   /// The links that a joint connects, the parent first; kNoObject is the world.
   std::pair<ObjectId, ObjectId> joint_links(ObjectId joint) const;
   /// How many there are; none of a fixed or ball joint, nor of one that belongs to a static model.
@@ -154,6 +151,8 @@ class World {
   std::optional<RayHit> cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,
                                  ObjectId ignored_model = kNoObject) const;
   std::vector<PlacedShape> shapes() const;
+  /// The lights of links, where they are now.
+  std::vector<Light> carried_lights() const;
 
   /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the seed: equal for equal
   /// histories.

@@ -9,6 +9,7 @@
 """
 
 from bubblesim._core import (
+    AltimeterReading,
     CameraImage,
     CollisionShape,
     Contact,
@@ -18,6 +19,7 @@ from bubblesim._core import (
     ForceTorqueReading,
     ImuReading,
     LidarScan,
+    MagnetometerReading,
     NavSatReading,
     NoSuchObject,
     Object,
@@ -29,6 +31,7 @@ from bubblesim._core import (
 )
 
 __all__ = [
+    "AltimeterReading",
     "CameraImage",
     "CollisionShape",
     "Contact",
@@ -38,6 +41,7 @@ __all__ = [
     "ForceTorqueReading",
     "ImuReading",
     "LidarScan",
+    "MagnetometerReading",
     "NavSatReading",
     "NoSuchObject",
     "Object",

@@ -50,6 +50,7 @@ void RunMeter::note(const Simulation& simulation, const ChildScripts& scripts) {
   report_.simulation_time = simulation.time();
   report_.disabled_scripts = scripts.disabled();
   report_.script_errors = scripts.failures();
+  report_.measurements = simulation.measurements();
   if (!report_.running) {
     last_end_.reset();
   } else {

@@ -82,7 +82,7 @@ void bind_objects(py::module_& module) {
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
           "What a sensor measured last: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"
-          "NavSatReading, ContactReading or ForceTorqueReading.")
+          "NavSatReading, AltimeterReading, MagnetometerReading, ContactReading or ForceTorqueReading.")
       .def_property_readonly(
           "urdf", [](const View& v) { return to_urdf(v.world().description(v.id())); },
           "The model that the object belongs to as the text of a URDF file, for robot_state_publisher and RViz; each\n"

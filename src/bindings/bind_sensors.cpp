@@ -32,6 +32,8 @@ using HeldScan = Held<LidarScan>;
 using HeldImage = Held<CameraImage>;
 using HeldImu = Held<ImuReading>;
 using HeldNavSat = Held<NavSatReading>;
+using HeldAltimeter = Held<AltimeterReading>;
+using HeldMagnetometer = Held<MagnetometerReading>;
 using HeldContacts = Held<ContactReading>;
 using HeldForceTorque = Held<ForceTorqueReading>;
 
@@ -77,6 +79,8 @@ struct ToPython {
   py::object operator()(const CameraImage&) const { return py::cast(HeldImage{reading}); }
   py::object operator()(const ImuReading&) const { return py::cast(HeldImu{reading}); }
   py::object operator()(const NavSatReading&) const { return py::cast(HeldNavSat{reading}); }
+  py::object operator()(const AltimeterReading&) const { return py::cast(HeldAltimeter{reading}); }
+  py::object operator()(const MagnetometerReading&) const { return py::cast(HeldMagnetometer{reading}); }
   py::object operator()(const ContactReading&) const { return py::cast(HeldContacts{reading}); }
   py::object operator()(const ForceTorqueReading&) const { return py::cast(HeldForceTorque{reading}); }
 };
@@ -194,6 +198,25 @@ void bind_navsat(py::module_& module) {
           "m/s to the east, to the north and up.");
 }
 
+void bind_altimeter(py::module_& module) {
+  py::class_<HeldAltimeter>(module, "AltimeterReading", "How high an altimeter is.")
+      .def_property_readonly(
+          "time", [](const HeldAltimeter& a) { return a.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "height", [](const HeldAltimeter& a) { return a->height; },
+          "Metres above where it was when it came into the world.")
+      .def_property_readonly(
+          "velocity", [](const HeldAltimeter& a) { return a->velocity; }, "m/s upwards.");
+}
+
+void bind_magnetometer(py::module_& module) {
+  py::class_<HeldMagnetometer>(module, "MagnetometerReading", "What a magnetometer felt, in its own frame.")
+      .def_property_readonly(
+          "time", [](const HeldMagnetometer& m) { return m.reading->time; }, "Simulated seconds.")
+      .def_property_readonly(
+          "field", [](const HeldMagnetometer& m) { return to_numpy(m->field); }, "T.");
+}
+
 void bind_contacts(py::module_& module) {
   py::class_<ContactPoint>(module, "ContactPoint", "Where two shapes touch; world axes.")
       .def_property_readonly(
@@ -242,6 +265,8 @@ void bind_sensors(py::module_& module) {
   bind_image(module);
   bind_imu(module);
   bind_navsat(module);
+  bind_altimeter(module);
+  bind_magnetometer(module);
   bind_contacts(module);
   bind_force_torque(module);
 
@@ -294,7 +319,8 @@ void bind_sensors(py::module_& module) {
       "Makes a camera show a picture, three bytes a pixel from the top row down, in place of what it sees.");
   module.def(
       "sensor_kind", [](Simulation& s, ObjectId sensor) { return std::string(s.sensor_kind(sensor)); },
-      "'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'contact sensor' or 'force-torque sensor'.");
+      "'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'altimeter', 'magnetometer', 'contact sensor' or "
+      "'force-torque sensor'.");
   module.def(
       "read_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },

@@ -80,6 +80,7 @@ void Diagnostics::tell_simulation(Status& status) {
              report.passes == 0 ? 0.0 : 1e3 * report.step_time / static_cast<double>(report.passes));
   status.add("Step time, longest (ms)", 1e3 * report.longest_step);
   status.add("Script errors", report.script_errors);
+  status.add("Measurements of sensors", report.measurements);
 }
 
 void Diagnostics::tell_topics(Status& status) {

@@ -81,6 +81,15 @@ void check_sensor(Checker& checker, const NavSatDescription& navsat) {
   check_noise(checker, navsat.vertical_velocity_noise);
 }
 
+void check_sensor(Checker& checker, const AltimeterDescription& altimeter) {
+  check_noise(checker, altimeter.position_noise);
+  check_noise(checker, altimeter.velocity_noise);
+}
+
+void check_sensor(Checker& checker, const MagnetometerDescription& magnetometer) {
+  for (const NoiseDescription& noise : magnetometer.field_noise) check_noise(checker, noise);
+}
+
 void check_sensor(Checker&, const ContactDescription&) {}
 
 void check_sensor(Checker& checker, const ForceTorqueDescription& force_torque) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model_folders.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -40,6 +41,17 @@ fs::path find_in_package(const fs::path& name_and_rest, const fs::path& near) {
   return package.empty() ? fs::path() : find_in({package}, without_first(name_and_rest));
 }
 
+/// $(find NAME) as roslaunch and xacro have it: the package's folder. What is not found stays.
+std::string with_packages(std::string uri, const fs::path& near) {
+  const std::string start = "$(find ";
+  const std::size_t open = uri.find(start);
+  const std::size_t close = uri.find(')', std::min(open, uri.size()));
+  if (open == std::string::npos || close == std::string::npos) return uri;
+  const std::size_t name = open + start.size();
+  const fs::path package = find_package(uri.substr(name, close - name), near);
+  return package.empty() ? uri : uri.replace(open, close + 1 - open, package.string());
+}
+
 }  // namespace
 
 std::vector<fs::path> model_folders(const fs::path& scene_folder) {
@@ -52,7 +64,8 @@ std::vector<fs::path> model_folders(const fs::path& scene_folder) {
   return folders;
 }
 
-fs::path find_model(const std::string& uri, const fs::path& scene_folder) {
+fs::path find_model(const std::string& given, const fs::path& scene_folder) {
+  const std::string uri = with_packages(given, scene_folder);
   if (const auto path = after("file://", uri)) return find_in(model_folders(scene_folder), *path);
   if (const auto in_package = after("package://", uri)) return find_in_package(*in_package, scene_folder);
   const auto of_model = after("model://", uri);

@@ -31,18 +31,6 @@ void check_inertia(Checker& checker, const LinkDescription& link) {
                   "ixx iyy izz " + text(d) + ", ixy ixz iyz " + text(p), "a positive definite matrix");
 }
 
-void check_link(Checker& checker, const ModelDescription& model, const LinkDescription& link) {
-  const std::string path = "/" + model.name + "/" + link.name;
-  checker.check_pose(link.pose);
-  if (!model.is_static) {
-    checker.require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg",
-                    "above 0 and at most 1e6 kg");
-    check_inertia(checker, link);
-  }
-  check_shapes(checker, model, link, path);
-  check_sensors(checker, link, path);
-}
-
 void check_light(Checker& checker, const Light& light) {
   checker.check_color("the light's colour", light.diffuse);
   checker.require(within(light.direction, 1e6) && light.direction.Length() > 1e-9, "the light's direction",
@@ -55,10 +43,25 @@ void check_light(Checker& checker, const Light& light) {
   checker.require(light.falloff >= 0, "the light's falloff", text(light.falloff), "0 or more");
 }
 
+void check_link(Checker& checker, const ModelDescription& model, const LinkDescription& link) {
+  const std::string path = "/" + model.name + "/" + link.name;
+  checker.check_pose(link.pose);
+  if (!model.is_static) {
+    checker.require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg",
+                    "above 0 and at most 1e6 kg");
+    check_inertia(checker, link);
+  }
+  check_shapes(checker, model, link, path);
+  for (const Light& light : link.lights) check_light(checker, light);
+  check_sensors(checker, link, path);
+}
+
 void check_environment(Checker& checker, const Environment& environment) {
   checker.check_color("the ambient light", environment.ambient);
   checker.check_color("the background", environment.background);
   for (const Light& light : environment.lights) check_light(checker, light);
+  checker.require(within(environment.magnetic_field, 1e3), "the magnetic field", text(environment.magnetic_field),
+                  "finite and at most 1e3 T");
   const GeographicOrigin& origin = environment.origin;
   checker.require(within(origin.latitude, 90), "the latitude", text(origin.latitude), "-90 to 90 degrees");
   checker.require(within(origin.longitude, 180), "the longitude", text(origin.longitude), "-180 to 180 degrees");

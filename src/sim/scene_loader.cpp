@@ -2,12 +2,15 @@
 // Reads SDFormat through its own DOM and reports all that is wrong with a file at once.
 #include "bubblesim/scene_loader.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sdf/sdf.hh>
 #include <utility>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/nearest_names.hpp"
+#include "checks.hpp"
 #include "model_folders.hpp"
 #include "own_elements.hpp"
 #include "scene_check.hpp"
@@ -18,6 +21,7 @@
 #include "sdf_plugins.hpp"
 #include "sdf_source.hpp"
 #include "sdf_visuals.hpp"
+#include "urdf_reading.hpp"
 
 namespace bubblesim {
 namespace {
@@ -39,8 +43,11 @@ class SceneLoader {
   /// From the file, or from what is to be read in its place.
   SceneDescription load_scene(const fs::path& file, const std::optional<SceneText>& text) {
     sdf::Root root;
-    reading_.take(text ? root.LoadSdfString(text->text, parser_config()) : root.Load(file.string(), parser_config()),
-                  "");
+    parse(
+        [&](const sdf::ParserConfig& config) {
+          return text ? root.LoadSdfString(text->text, config) : root.Load(file.string(), config);
+        },
+        root);
     SceneDescription scene;
     scene.name = file.stem().string();
     scene.file = file;
@@ -53,7 +60,11 @@ class SceneLoader {
     } else if (root.Model() != nullptr) {
       scene.is_model_file = true;
       if (root.Model()->Name() != kGroundPlane) scene.models.push_back(ground_plane());
-      scene.models.push_back(read_model(*root.Model(), root.Model()->RawPose(), reading_));
+      scene.models.push_back(read_root_model(root));
+    } else if (root.Light() != nullptr) {
+      scene.is_model_file = true;
+      scene.models.push_back(ground_plane());
+      scene.environment.lights = {read_light(*root.Light(), root.Light()->RawPose())};
     } else if (problems_.empty()) {
       problems_.push_back({file.string(), 0, "", "holds neither a <world> nor a <model>"});
     }
@@ -67,11 +78,11 @@ class SceneLoader {
 
   ModelDescription load_model(const std::string& text) {
     sdf::Root root;
-    reading_.take(root.LoadSdfString(text, parser_config()), "");
+    parse([&](const sdf::ParserConfig& config) { return root.LoadSdfString(text, config); }, root);
     read_own_elements(root);
     ModelDescription model;
     if (root.Model() != nullptr) {
-      model = read_model(*root.Model(), root.Model()->RawPose(), reading_);
+      model = read_root_model(root);
     } else if (problems_.empty()) {
       problems_.push_back(
           {kText, 0, "", root.WorldCount() > 0 ? "holds a <world>: a <model> is wanted" : "holds no <model>"});
@@ -88,6 +99,27 @@ class SceneLoader {
     config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
     config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
     return config;
+  }
+
+  template <class Load>
+  void parse(const Load& load, sdf::Root& root) {
+    try {
+      if (reading_.xml().is_urdf()) {
+        load_urdf(root, parser_config(), reading_);
+      } else {
+        reading_.take(without_urdf_messages([&] { return load(parser_config()); }), "");
+      }
+    } catch (const SceneError&) {
+      throw;
+    } catch (const std::exception& error) {  // its assertions, and numbers that it did not expect
+      reading_.report({reading_.xml().file(), 0}, "", std::string("SDFormat cannot read it: ") + error.what());
+    }
+  }
+
+  ModelDescription read_root_model(const sdf::Root& root) {
+    ModelDescription model = read_model(*root.Model(), root.Model()->RawPose(), reading_);
+    if (reading_.xml().is_urdf()) finish_urdf(model, reading_);
+    return model;
   }
 
   void read_own_elements(const sdf::Root& root) {
@@ -123,15 +155,48 @@ class SceneLoader {
                         did_you_mean(policy, {"pause", "reset", "remove"}));
   }
 
+  /// The longest pass of whole physics steps that is not over the default, or a single one.
+  static void fit_time_step(SceneDescription& scene) {
+    if (!(scene.physics_step >= kMinPhysicsStep && scene.physics_step <= kMaxPhysicsStep)) return;  // told later
+    const double steps = scene.time_step / scene.physics_step;
+    const bool fits = std::abs(steps - std::round(steps)) < 1e-6;
+    if (!fits) scene.time_step = scene.physics_step * std::max(1.0, std::floor(steps + 1e-6));
+  }
+
+  /// What worlds may hold that is not simulated.
+  static void tell_left_out(const sdf::World& world) {
+    const std::pair<const char*, const char*> kinds[] = {{"actor", "actors"},
+                                                         {"road", "roads"},
+                                                         {"population", "populations of models"},
+                                                         {"joint", "joints between models"}};
+    for (const auto& [name, called] : kinds) {
+      if (!world.Element()->HasElement(name)) continue;
+      for (auto element = world.Element()->GetElement(name); element != nullptr;
+           element = element->GetNextElement(name)) {
+        SceneReading::warn(source_of(element), "/" + element->Get<std::string>("name"),
+                           "<" + std::string(name) + "> is left out: " + called + " are not simulated");
+      }
+    }
+  }
+
   void read_world(const sdf::World& world, SceneDescription& scene) {
     scene.source = source_of(world.Element());
     scene.plugins = read_plugins(world.Element());
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
-    if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) scene.time_step = *step;
+    if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) {
+      scene.time_step = *step;
+    } else {
+      fit_time_step(scene);
+    }
     if (const auto policy = own_text(world.Element(), kOnDivergence)) read_policy(*policy, world, scene);
+    // SDFormat rounds its own default to millionths.
+    if (const auto field = world.Element()->FindElement("magnetic_field"); field && field->GetExplicitlySetInFile()) {
+      scene.environment.magnetic_field = field->Get<Vector3>();
+    }
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
     if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
+    tell_left_out(world);
     std::vector<Light> lights;
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
       const sdf::Light& light = *world.LightByIndex(i);
@@ -140,6 +205,10 @@ class SceneLoader {
     if (!lights.empty()) scene.environment.lights = lights;
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
+      if (model.Static() && model.LinkCount() == 0 && model.ModelCount() == 0) {
+        SceneReading::warn(source_of(model.Element()), "/" + model.Name(), "has no link and is left out");
+        continue;
+      }
       scene.models.push_back(read_model(model, reading_.resolved(model, "/" + model.Name()), reading_));
     }
   }

@@ -21,6 +21,10 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
   // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is enough.
   if (!object.empty() && frames_broken_) return;
   for (Problem& problem : xml_.located(errors, object)) {
+    if (problem.message.rfind("Root object can only contain one model", 0) == 0) {
+      warn({problem.file, problem.line}, "", "holds several models: the first one is taken");
+      continue;
+    }
     if (object.empty()) frames_broken_ = true;
     if (problem.message.rfind("Unable to find uri[", 0) == 0) problem.message += where_models_are();
     problems_.push_back(std::move(problem));

@@ -13,8 +13,8 @@ struct SceneText {
   std::string name;  ///< what errors call it
 };
 
-/// What is to be read in place of a file: a .xacro as xacro expands it, and a scene of before SDFormat 1.3, whose root
-/// was <gazebo>. Nothing for all others. Throws SceneError.
+/// What is to be read in place of a file: a .xacro as xacro expands it, a scene of before SDFormat 1.3, whose root was
+/// <gazebo>, and one that is not in UTF-8. Nothing for all others. Throws SceneError.
 std::optional<SceneText> scene_text(const std::filesystem::path& file);
 
 }  // namespace bubblesim

@@ -15,6 +15,7 @@ namespace {
 
 // What SDFormat calls a text that came from no file.
 constexpr const char* kText = "<data-string>";
+constexpr const char* kUrdf = "<urdf-string>";
 
 using Visitor = std::function<void(const tinyxml2::XMLElement&)>;
 
@@ -88,6 +89,14 @@ void SceneXml::check(tinyxml2::XMLError result) const {
   if (name != "sdf" && name != "robot" && name != "gazebo") {
     throw SceneError({{file_, root->GetLineNum(), "", "is no scene: it starts with <" + name + ">, not with <sdf>"}});
   }
+  if (name == "robot") return;
+  static const std::regex wanted(R"(\d+\.\d+.*)");
+  const char* version = root->Attribute("version");
+  if (version == nullptr || !std::regex_match(version, wanted)) {
+    throw SceneError({{file_, root->GetLineNum(), "",
+                       version == nullptr ? "<" + name + "> has no version: write <" + name + " version=\"1.6\">"
+                                          : "the version '" + std::string(version) + "' is not one such as 1.6"}});
+  }
 }
 
 void SceneXml::place_elements(const sdf::ElementPtr& root) const {
@@ -99,7 +108,7 @@ void SceneXml::place_elements(const sdf::ElementPtr& root) const {
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
     // SDFormat does not name the file of a text, nor when it has converted URDF.
     const std::string& named = element->FilePath();
-    if (named.empty() || named == kText || named == "urdf file") element->SetFilePath(file_);
+    if (named.empty() || named == kText || named == kUrdf || named == "urdf file") element->SetFilePath(file_);
     const std::string where = place(element);
     if (element->FilePath() == file_ && needs_line(element->GetName(), where)) {
       const auto found = lines.lower_bound(where);
@@ -122,18 +131,7 @@ Source SceneXml::place_of(const std::string& element, const std::string& text) c
   return source;
 }
 
-std::optional<MimicDescription> SceneXml::urdf_mimic(const std::string& joint) const {
-  if (std::string_view(document_.RootElement()->Name()) != "robot") return std::nullopt;
-  for (const auto* element = document_.RootElement()->FirstChildElement("joint"); element != nullptr;
-       element = element->NextSiblingElement("joint")) {
-    const auto* mimic = element->FirstChildElement("mimic");
-    if (mimic == nullptr || element->Attribute("name") == nullptr || joint != element->Attribute("name")) continue;
-    const char* leader = mimic->Attribute("joint");
-    return MimicDescription{leader != nullptr ? leader : "", 0, mimic->DoubleAttribute("multiplier", 1),
-                            mimic->DoubleAttribute("offset", 0), 0};
-  }
-  return std::nullopt;
-}
+bool SceneXml::is_urdf() const { return std::string_view(document_.RootElement()->Name()) == "robot"; }
 
 /// `<mu> is 'slippery', ...` for an element that SDFormat could not read and says no more about.
 std::string SceneXml::unusable_text(const std::string& element, int line) const {
@@ -172,7 +170,7 @@ int SceneXml::line_of_object(const std::string& path) const {
 
 std::string SceneXml::file_of(const sdf::Error& error) const {
   const std::string file = error.FilePath().value_or(kText);
-  return file == kText ? file_ : file;
+  return file == kText || file == kUrdf ? file_ : file;
 }
 
 std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::string& object) const {
@@ -183,7 +181,9 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     if (only_follows(error.Message())) continue;
     // Many models have moments of inertia that belong to no body. ODE moves them all the same, as long as they are
     // positive definite, and the scene check tells whether they are.
-    if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID) {
+    // Whoever reads the sensor tells of a type that is not known.
+    if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID ||
+        error.Message().rfind("Attempting to load a Sensor, but the provided sensor type", 0) == 0) {
       harmless = true;
       continue;
     }

@@ -5,7 +5,6 @@
 #include <tinyxml2.h>
 
 #include <filesystem>
-#include <optional>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
 #include <string>
@@ -30,8 +29,11 @@ class SceneXml {
   /// Where an element of this name and text is written: SDFormat keeps no places of what stands in an <include>.
   Source place_of(const std::string& element, const std::string& text) const;
 
-  /// The <mimic> of a joint in URDF, which SDFormat drops.
-  std::optional<MimicDescription> urdf_mimic(const std::string& joint) const;
+  const tinyxml2::XMLDocument& document() const { return document_; }
+  /// What errors call it.
+  const std::string& file() const { return file_; }
+  /// Whether it is a robot in URDF, which SDFormat converts.
+  bool is_urdf() const;
 
   /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
   /// `object` is the path of the object that was being read, or empty.

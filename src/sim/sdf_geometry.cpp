@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "meshes/finish_mesh.hpp"
 #include "meshes/made_meshes.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_file.hpp"
@@ -42,21 +41,28 @@ class GeometryReader {
   }
 
   Geometry polylines() const {
-    TriangleMesh all;
+    std::vector<Extrusion> parts;
     for (auto line = element_->GetElement("polyline"); line != nullptr; line = line->GetNextElement("polyline")) {
-      std::vector<ignition::math::Vector2d> outline;
-      if (line->HasElement("point")) {
-        for (auto point = line->GetElement("point"); point != nullptr; point = point->GetNextElement("point")) {
-          outline.push_back(point->Get<ignition::math::Vector2d>());
-        }
-      }
-      try {
-        append(*extrude(std::move(outline), line->Get<double>("height", 1).first), all);
-      } catch (const MeshError& error) {
-        throw MeshError("the polyline " + std::string(error.what()));
+      Extrusion& part = parts.emplace_back();
+      part.height = line->Get<double>("height", 1).first;
+      if (!line->HasElement("point")) continue;
+      for (auto point = line->GetElement("point"); point != nullptr; point = point->GetNextElement("point")) {
+        part.outline.push_back(point->Get<ignition::math::Vector2d>());
       }
     }
-    return Mesh{finish_mesh(std::move(all))};
+    try {
+      return Mesh{extrude(std::move(parts))};
+    } catch (const MeshError& error) {
+      throw MeshError("the polyline " + std::string(error.what()));
+    }
+  }
+
+  Geometry walls() const {
+    const sdf::ElementPtr image = element_->GetElement("image");
+    return from_file(image->Get<std::string>("uri", "").first, [&](const fs::path& file) {
+      return raise_walls(read_heights(file), image->Get<double>("scale", 1).first,
+                         image->Get<double>("threshold", 200).first, image->Get<double>("height", 1).first);
+    });
   }
 
  private:
@@ -91,10 +97,11 @@ std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, const fs::p
   if (const auto* mesh = geometry.MeshShape()) return reader.mesh(*mesh);
   if (const auto* map = geometry.HeightmapShape()) return reader.heightmap(*map);
   if (geometry.Element() != nullptr && geometry.Element()->HasElement("polyline")) return reader.polylines();
+  if (geometry.Element() != nullptr && geometry.Element()->HasElement("image")) return reader.walls();
   if (geometry.Element() != nullptr && geometry.Element()->HasElement("empty")) return std::nullopt;
   throw MeshError(
       "this geometry is not supported; supported are box, sphere, cylinder, capsule, ellipsoid, plane, mesh, polyline, "
-      "heightmap and empty");
+      "heightmap, image and empty");
 }
 
 }  // namespace bubblesim

@@ -80,9 +80,10 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
     description.lower = limit(axis.Lower(), -none);
     description.upper = limit(axis.Upper(), none);
   }
-  // A negative effort or velocity means that there is no limit.
+  // A negative effort or velocity means that there is no limit; many files write a velocity of 0, which Gazebo's motors
+  // do not heed.
   description.max_force = axis.Effort() < 0 ? none : limit(axis.Effort(), none);
-  description.max_velocity = axis.MaxVelocity() < 0 ? none : limit(axis.MaxVelocity(), none);
+  description.max_velocity = axis.MaxVelocity() <= 0 ? none : limit(axis.MaxVelocity(), none);
   description.friction = axis.Friction();
   description.damping = axis.Damping();
   description.spring_stiffness = axis.SpringStiffness();
@@ -134,9 +135,6 @@ JointDescription read_joint(const sdf::Joint& joint, const std::string& model_pa
     }
     if (auto read = read_sensor(sensor, path, sensor.RawPose(), reading))
       description.sensors.push_back(std::move(*read));
-  }
-  if (!description.axes.empty() && !description.axes[0].mimic) {
-    description.axes[0].mimic = reading.xml().urdf_mimic(description.name);
   }
   if (description.type == "universal") complete_universal(description);
   if (description.type == "screw") description.screw_lead = read_screw_lead(joint, path, reading);

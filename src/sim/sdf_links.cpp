@@ -18,7 +18,8 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kThin = 1e-3;  // m, of a plane that can move and thus ends somewhere
+constexpr double kBallRadius = 0.1;  // m
+constexpr double kThin = 1e-3;       // m, of a plane that can move and thus ends somewhere
 
 Quaternion turn_from_z(const Vector3& direction) {
   Quaternion turn;
@@ -80,6 +81,12 @@ void read_visual(const sdf::Visual& visual, const std::string& link_path, bool i
   }
 }
 
+/// Many robots leave it at zero, with which nothing can turn.
+void give_inertia(LinkDescription& link, const std::string& path) {
+  link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
+  SceneReading::warn(link.source, path, "the inertia is 0: that of a ball with a radius of 0.1 m is taken instead");
+}
+
 }  // namespace
 
 LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading) {
@@ -95,16 +102,29 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.centre_of_mass = inertial.Pose().Pos();
   description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
   description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+  // Not by ==, which takes what is small for zero.
+  const bool is_zero = description.inertia_diagonal.Length() == 0 && description.inertia_products.Length() == 0;
+  if (!is_static && description.mass > 0 && is_zero) give_inertia(description, path);
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
     const sdf::Collision& collision = *link.CollisionByIndex(i);
     if (auto read = read_collision(collision, path, reading)) description.collisions.push_back(std::move(*read));
   }
   for (std::uint64_t i = 0; i < link.VisualCount(); ++i)
     read_visual(*link.VisualByIndex(i), path, is_static, description, reading);
+  for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
+    const sdf::Light& light = *link.LightByIndex(i);
+    description.lights.push_back(read_light(light, reading.resolved(light, path + "/" + light.Name())));
+  }
   for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
     const sdf::Sensor& sensor = *link.SensorByIndex(i);
     const Pose pose = reading.resolved(sensor, path + "/" + sensor.Name());
-    if (auto read = read_sensor(sensor, path, pose, reading)) description.sensors.push_back(std::move(*read));
+    if (sensor.Type() == sdf::SensorType::MULTICAMERA) {
+      for (SensorDescription& read : read_multicamera(sensor, path, pose, reading)) {
+        description.sensors.push_back(std::move(read));
+      }
+    } else if (auto read = read_sensor(sensor, path, pose, reading)) {
+      description.sensors.push_back(std::move(*read));
+    }
   }
   return description;
 }

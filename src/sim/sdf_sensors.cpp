@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <map>
+#include <sdf/Altimeter.hh>
 #include <sdf/Camera.hh>
 #include <sdf/ForceTorque.hh>
 #include <sdf/Imu.hh>
 #include <sdf/Lidar.hh>
+#include <sdf/Magnetometer.hh>
 #include <sdf/NavSat.hh>
 #include <sdf/Noise.hh>
 #include <string>
@@ -21,11 +23,12 @@
 namespace bubblesim {
 namespace {
 
-const std::vector<std::string> kSimulated = {"sonar",        "ray",         "lidar",
-                                             "gpu_ray",      "gpu_lidar",   "camera",
-                                             "depth_camera", "rgbd_camera", "segmentation_camera",
-                                             "imu",          "navsat",      "gps",
-                                             "contact",      "force_torque"};
+const std::vector<std::string> kSimulated = {"sonar",        "ray",          "lidar",
+                                             "gpu_ray",      "gpu_lidar",    "camera",
+                                             "depth_camera", "rgbd_camera",  "segmentation_camera",
+                                             "imu",          "navsat",       "gps",
+                                             "altimeter",    "magnetometer", "contact",
+                                             "force_torque"};
 
 std::string list_of_simulated() {
   std::string list;
@@ -92,6 +95,14 @@ NavSatDescription read_navsat(const sdf::NavSat& navsat) {
   description.horizontal_velocity_noise = read_noise(navsat.HorizontalVelocityNoise());
   description.vertical_velocity_noise = read_noise(navsat.VerticalVelocityNoise());
   return description;
+}
+
+AltimeterDescription read_altimeter(const sdf::Altimeter& altimeter) {
+  return {read_noise(altimeter.VerticalPositionNoise()), read_noise(altimeter.VerticalVelocityNoise())};
+}
+
+MagnetometerDescription read_magnetometer(const sdf::Magnetometer& magnetometer) {
+  return {{read_noise(magnetometer.XNoise()), read_noise(magnetometer.YNoise()), read_noise(magnetometer.ZNoise())}};
 }
 
 ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor) {
@@ -167,6 +178,12 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
   return true;
 }
 
+void tell_left_out(const Source& source, const std::string& path, const std::string& type) {
+  SceneReading::warn(source, path,
+                     "sensors of type '" + type +
+                         "' are not simulated, the model goes without this one; simulated are " + list_of_simulated());
+}
+
 /// Reads what kind of sensor it is, and how it measures, into `description`, whose pose is known already. False when it
 /// cannot be told or is not simulated; the reason is reported.
 bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description,
@@ -180,6 +197,14 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::NAVSAT:
     case sdf::SensorType::GPS:
       description.kind = sensor.NavSatSensor() != nullptr ? read_navsat(*sensor.NavSatSensor()) : NavSatDescription{};
+      return true;
+    case sdf::SensorType::ALTIMETER:
+      description.kind =
+          sensor.AltimeterSensor() != nullptr ? read_altimeter(*sensor.AltimeterSensor()) : AltimeterDescription{};
+      return true;
+    case sdf::SensorType::MAGNETOMETER:
+      description.kind = sensor.MagnetometerSensor() != nullptr ? read_magnetometer(*sensor.MagnetometerSensor())
+                                                                : MagnetometerDescription{};
       return true;
     case sdf::SensorType::CONTACT:
       description.kind = read_contact(sensor.Element());
@@ -209,23 +234,20 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
       return false;
     case sdf::SensorType::NONE: {
       const auto type = sensor.Element()->Get<std::string>("type");
+      if (type == "air_speed" || type == "custom" || type == "dvl") {  // of later versions
+        tell_left_out(description.source, path, type);
+        return false;
+      }
       report(description.source, "SDFormat has no sensors of type '" + type + "'" + did_you_mean(type, kSimulated));
       return false;
     }
     default:
-      SceneReading::warn(description.source, path,
-                         "sensors of type '" + sensor.TypeStr() +
-                             "' are not simulated, the model goes without this one; simulated are " +
-                             list_of_simulated());
+      tell_left_out(description.source, path, sensor.TypeStr());
       return false;
   }
 }
 
-}  // namespace
-
-std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                             const Pose& pose, SceneReading& reading) {
-  const std::string path = carrier_path + "/" + sensor.Name();
+SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose) {
   SensorDescription description;
   description.name = sensor.Name();
   description.source = source_of(sensor.Element());
@@ -234,11 +256,39 @@ std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const st
   description.plugins = read_plugins(sensor.Element());
   description.topic = own_text(sensor.Element(), "bubblesim:topic").value_or("");
   description.frame = own_text(sensor.Element(), "bubblesim:frame").value_or("");
+  return description;
+}
+
+}  // namespace
+
+std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
+                                             const Pose& pose, SceneReading& reading) {
+  const std::string path = carrier_path + "/" + sensor.Name();
+  SensorDescription description = read_any(sensor, pose);
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));
   };
   if (!read_kind(sensor, path, description, report_here)) return std::nullopt;
   return description;
+}
+
+std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const std::string& carrier_path,
+                                                const Pose& pose, SceneReading& reading) {
+  const std::string path = carrier_path + "/" + sensor.Name();
+  const Report report_here = [&](const Source& source, std::string message) {
+    reading.report(source, path, std::move(message));
+  };
+  std::vector<SensorDescription> all;
+  for (auto element = sensor.Element()->FindElement("camera"); element; element = element->GetNextElement("camera")) {
+    sdf::Camera camera;
+    reading.take(camera.Load(element), path);
+    SensorDescription& description = all.emplace_back(read_any(sensor, pose * camera.RawPose()));
+    description.name += "_" + camera.Name();
+    if (!description.topic.empty()) description.topic += "/" + camera.Name();
+    description.kind = read_camera(camera, false, report_here);
+  }
+  if (all.empty()) report_here(source_of(sensor.Element()), "a multicamera needs a <camera> for each of its cameras");
+  return all;
 }
 
 }  // namespace bubblesim

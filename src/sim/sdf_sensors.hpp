@@ -5,6 +5,7 @@
 #include <optional>
 #include <sdf/Sensor.hh>
 #include <string>
+#include <vector>
 
 #include "bubblesim/scene.hpp"
 #include "scene_reading.hpp"
@@ -15,5 +16,9 @@ namespace bubblesim {
 /// is reported, or when it is of a kind that is not simulated, which is a warning.
 std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
                                              const Pose& pose, SceneReading& reading);
+
+/// The cameras of a sensor of type multicamera, each a sensor named SENSOR_CAMERA.
+std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const std::string& carrier_path,
+                                                const Pose& pose, SceneReading& reading);
 
 }  // namespace bubblesim

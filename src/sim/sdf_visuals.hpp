@@ -23,7 +23,7 @@ void read_surroundings(const sdf::Scene& scene, Environment& environment);
 /// Where on Earth the world's origin lies.
 void read_origin(const ignition::math::SphericalCoordinates& place, GeographicOrigin& origin);
 
-/// `pose` is the light's in the world.
+/// `pose` is the light's in the world, or in the frame of its link.
 Light read_light(const sdf::Light& light, const Pose& pose);
 
 }  // namespace bubblesim

@@ -194,7 +194,10 @@ void Simulation::update_sensors() {
   }
 }
 
-void Simulation::update(SensorSlot& slot) { slot.sensor->update({world_, *rays_, time(), seed_}); }
+void Simulation::update(SensorSlot& slot) {
+  slot.sensor->update({world_, *rays_, time(), seed_});
+  ++measurements_;
+}
 
 Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
   for (SensorSlot& slot : sensors_) {

@@ -62,6 +62,7 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   const bool b_directed = b.fdir1 != Vector3::Zero;
   if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
 
+  // As Gazebo has it since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
   made.slip1 = a.slip1 + b.slip1;
   made.slip2 = a.slip2 + b.slip2;
   if (made.slip1 > 0) made.mode |= dContactSlip1;

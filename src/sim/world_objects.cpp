@@ -159,4 +159,19 @@ void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) 
   set_velocity(object, velocity);
 }
 
+std::vector<Light> World::carried_lights() const {
+  std::vector<Light> lights;
+  for (const auto& [id, model] : state_->models) {
+    for (std::size_t i = 0; i < model.links.size(); ++i) {
+      for (Light light : model.description.links[i].lights) {
+        const Pose pose = link_pose(model.links[i]);
+        light.position = pose.CoordPositionAdd(light.position);
+        light.direction = pose.Rot().RotateVector(light.direction);
+        lights.push_back(std::move(light));
+      }
+    }
+  }
+  return lights;
+}
+
 }  // namespace bubblesim

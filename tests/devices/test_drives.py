@@ -98,6 +98,17 @@ GZ = plugin(
     left_joint="left_joint",
     right_joint="right_joint",
 ) + plugin("gz-sim-joint-state-publisher-system", topic="gz/joints", joint_name="left_joint")
+GZ_CAR = plugin(
+    "gz-sim-ackermann-steering-system",
+    left_joint="left_joint",
+    right_joint="right_joint",
+    left_steering_joint="gz_left_steering",
+    right_steering_joint="gz_right_steering",
+    wheel_base=str(WHEELBASE),
+    wheel_separation=str(TRACK),
+    kingpin_width=str(TRACK),
+    wheel_radius=str(RADIUS),
+)
 GAZEBO = plugin("libDiffDrivePlugin.so", left_joint="left_joint", right_joint="right_joint", torque="20")
 CASTER = (
     link("ball", WHEELBASE, 0, 0.05, 0.2, 0.0002, "<sphere><radius>0.05</radius></sphere>").replace(
@@ -113,6 +124,26 @@ ARM = (
     + joint("arm_joint", "base", "arm", "0 0 1")
     + plugin("libgazebo_ros_joint_pose_trajectory.so", robotNamespace="/")
     + plugin("libgazebo_ros_joint_state_publisher.so", robotNamespace="/", jointName="arm_joint")
+)
+GZ_ARM = (
+    link("base", 0, 0, 0.5, 50, 1)
+    + link("arm", 0, 0, 1, 1, 0.1)
+    + link("disc", 0, 0, 1.5, 1, 0.1)
+    + '<joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>'
+    + joint("gz_arm_joint", "base", "arm", "0 0 1")
+    + joint("gz_disc_joint", "arm", "disc", "0 0 1")
+    + plugin("gz-sim-joint-position-controller-system", joint_name="gz_arm_joint", initial_position="0.2")
+    + plugin("gz-sim-joint-controller-system", joint_name="gz_disc_joint", topic="gz_disc")
+    + plugin("gz-sim-joint-state-publisher-system", topic="gz_arm/joints")
+)
+ROS2 = plugin(
+    "libgazebo_ros_diff_drive.so",
+    left_joint="left_joint",
+    right_joint="right_joint",
+    wheel_separation=str(TRACK),
+    wheel_diameter=str(2 * RADIUS),
+    max_wheel_torque="20",
+    publish_odom="true",
 )
 PLANAR = plugin("libgazebo_ros_planar_move.so", robotNamespace="sledge", odometryFrame="odom", robotBaseFrame="body")
 BOX = link("body", 0, 0, 0, 5, 0.1, "<box><size>0.5 0.5 0.1</size></box>")
@@ -130,7 +161,15 @@ WORLD = "".join(
             ACKERMANN,
         ),
         robot("gz", 30, REAR + CASTER, GZ),
+        robot(
+            "gz_car",
+            70,
+            REAR + steered("gz_left", WHEELBASE, TRACK / 2) + steered("gz_right", WHEELBASE, -TRACK / 2),
+            GZ_CAR,
+        ),
         robot("plain", 40, REAR + CASTER, GAZEBO),
+        robot("ros2", 80, REAR + CASTER, ROS2),
+        f'<model name="gz_arm"><pose>0 90 0 0 0 0</pose>{GZ_ARM}</model>',
         f'<model name="robot_arm"><pose>0 60 0 0 0 0</pose>{ARM}</model>',
         f'<model name="sledge"><pose>0 50 0.05 0 0 0</pose>{BOX}{PLANAR}</model>',
         "</world></sdf>",
@@ -201,6 +240,34 @@ def test_gz_sims_drive_keeps_to_its_limits(peer: Peer) -> None:
     assert velocity(odom) == pytest.approx((0.4, 0.0), abs=0.01)
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("gz/odom", "gz/base_link")
     assert peer.next("/gz/joints", "sensor_msgs/JointState")["velocity"] == pytest.approx([0.4 / RADIUS], rel=0.02)
+
+
+def test_gz_sims_car_turns_as_fast_as_it_is_told(peer: Peer) -> None:
+    peer.drive("/model/gz_car/cmd_vel", 0.5, 0.3)
+    odom = moving(peer, "/model/gz_car/odometry", "yaw", 0.2)
+    assert velocity(odom) == pytest.approx((0.5, 0.3), rel=0.07)
+    assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("gz_car/odom", "gz_car/base_link")
+
+
+def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
+    def arm(position: float, speed: float) -> None:
+        def there(state: Message) -> bool:
+            axes = {name: i for i, name in enumerate(state["name"])}
+            return state["position"][axes["gz_arm_joint"]] == pytest.approx(position, abs=0.01) and state["velocity"][
+                axes["gz_disc_joint"]
+            ] == pytest.approx(speed, abs=0.01)
+
+        peer.wait_for("/gz_arm/joints", "sensor_msgs/JointState", there, f"the joints to follow {position}, {speed}")
+
+    arm(0.2, 0.0)
+    peer.say("/model/gz_arm/joint/gz_arm_joint/0/cmd_pos", "std_msgs/Float64", {"data": -0.5})
+    peer.say("/gz_disc", "std_msgs/Float64", {"data": 1.5})
+    arm(-0.5, 1.5)
+
+
+def test_ros_2s_drive_turns_to_the_left_for_a_positive_rate(peer: Peer) -> None:
+    peer.drive("/ros2/cmd_vel", 0.3, 0.5)
+    assert velocity(moving(peer, "/ros2/odom", "yaw", 0.4)) == pytest.approx((0.3, 0.5), abs=0.05)
 
 
 def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None:

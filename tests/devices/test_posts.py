@@ -55,6 +55,11 @@ def test_a_velodyne_gives_points_with_their_rings(peer: Peer) -> None:
     assert set(points["intensity"]) == {7.0}
 
 
+def test_a_ray_sensor_of_ros_2_gives_what_it_is_told_where_it_is_told(peer: Peer) -> None:
+    scan = peer.next("/two/scan", "sensor_msgs/LaserScan")
+    assert (scan["header"]["frame_id"], len(scan["ranges"])) == ("head", 15)
+
+
 def test_a_range_is_that_of_the_nearest(peer: Peer) -> None:
     message = peer.next("/range", "sensor_msgs/Range")
     assert message["range"] == pytest.approx(WALL, abs=1e-3)
@@ -90,11 +95,44 @@ def test_a_gps_tells_the_place_on_the_earth(peer: Peer) -> None:
     assert far["longitude"] - 13 == pytest.approx(2.0 / 68.68, rel=1e-3)
 
 
+def test_a_compass_feels_the_field_of_the_earth(peer: Peer) -> None:
+    # x is north, the field points down by 60 degrees, and the link looks to the west: north is on its right.
+    field = peer.next("/magnetic", "sensor_msgs/MagneticField")
+    felt = [field["magnetic_field"][axis] for axis in "xyz"]
+    assert felt == pytest.approx([0, -5e-5 * math.cos(math.pi / 3), -5e-5 * math.sin(math.pi / 3)], abs=1e-12)
+    assert field["header"]["frame_id"] == "needle"
+
+
+def test_a_barometer_tells_its_height(peer: Peer) -> None:
+    assert peer.next("/pressure_height", "geometry_msgs/PointStamped")["point"]["z"] == pytest.approx(102)
+
+
+def test_a_stereo_head_gives_a_picture_of_each_side(peer: Peer) -> None:
+    left = peer.next("/head/left/image_raw", "sensor_msgs/Image")
+    right = peer.next("/head/right/image_raw", "sensor_msgs/Image")
+    assert (left["width"], right["width"]) == (8, 12)
+    assert left["header"]["frame_id"] == right["header"]["frame_id"] == "eyes"
+    # Tx is -fx times the baseline, of the right one only.
+    for side, baseline in (("left", 0.0), ("right", 0.1)):
+        matrix = peer.next(f"/head/{side}/camera_info", "sensor_msgs/CameraInfo")["P"]
+        assert matrix[3] == pytest.approx(-matrix[0] * baseline)
+
+
 def test_what_falls_feels_no_weight(peer: Peer) -> None:
     imu = peer.next("/falling", "sensor_msgs/Imu", count=3)
     felt = [imu["linear_acceleration"][axis] for axis in "xyz"]
     assert imu["header"]["frame_id"] == "body"
     assert felt == pytest.approx([0, 0, 0], abs=1e-6)
+
+
+def test_hectors_imu_and_sonar_have_their_own_noise_and_angle(peer: Peer) -> None:
+    imu = peer.next("/hector/imu", "sensor_msgs/Imu")
+    assert imu["header"]["frame_id"] == "body"
+    assert [imu["angular_velocity"][axis] for axis in "xyz"] == pytest.approx([0, 0, 0], abs=1e-6)
+    assert imu["linear_acceleration_covariance"][0] == pytest.approx(0.16)
+    sonar = peer.next("/hector/sonar", "sensor_msgs/Range")
+    assert (sonar["header"]["frame_id"], sonar["field_of_view"]) == ("sonar_link", pytest.approx(0.2))
+    assert sonar["range"] == pytest.approx(WALL, abs=1e-3)
 
 
 def test_a_sensor_publishes_itself_on_its_own_topic(peer: Peer) -> None:
@@ -107,4 +145,7 @@ def test_a_sensor_publishes_itself_on_its_own_topic(peer: Peer) -> None:
     np.testing.assert_allclose(np.frombuffer(depth["data"], "<f4"), WALL, atol=1e-3)
     fix = peer.next("/own/fix", "sensor_msgs/NavSatFix")
     assert (fix["latitude"], fix["longitude"], fix["altitude"]) == pytest.approx((0, 0, 1), abs=1e-6)
+    assert peer.next("/own/height", "geometry_msgs/PointStamped")["point"]["z"] == pytest.approx(0.25)
+    field = peer.next("/own/field", "sensor_msgs/MagneticField")["magnetic_field"]
+    assert [field[axis] for axis in "xyz"] == pytest.approx([5.5645e-6, 22.8758e-6, -42.3884e-6])
     assert peer.next("/own/camera_info", "sensor_msgs/CameraInfo")["height"] == 6

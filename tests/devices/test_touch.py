@@ -10,7 +10,7 @@ from ros_peer import Message, Peer
 from node_support import write
 
 WORLD = """\
-<sdf version="1.9">
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
   <world name="touch">
     <model name="floor"><static>true</static><link name="link">
       <collision name="top"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>
@@ -22,6 +22,7 @@ WORLD = """\
         <sensor name="bumper" type="contact">
           <update_rate>20</update_rate>
           <contact><collision>shell</collision></contact>
+          <bubblesim:topic>own/bumper</bubblesim:topic>
           <plugin name="bumper" filename="libgazebo_ros_bumper.so">
             <bumperTopicName>bumper</bumperTopicName><frameName>body</frameName>
           </plugin>
@@ -65,6 +66,14 @@ def test_a_bumper_tells_what_touches_it_in_its_frame(peer: Peer) -> None:
     for position, normal in zip(state["contact_positions"], state["contact_normals"], strict=True):
         assert [abs(at) for at in vector(position)] == pytest.approx([0.1, 0.1, 0.1], abs=2e-3)
         assert vector(normal) == pytest.approx([0, 0, 1], abs=1e-6)
+
+
+def test_a_contact_sensor_publishes_itself_in_world_axes(peer: Peer) -> None:
+    message = peer.next("/own/bumper", "gazebo_msgs/ContactsState", count=10)
+    (state,) = message["states"]
+    assert state["collision2_name"] == "floor::link::top"
+    assert vector(state["contact_normals"][0]) == pytest.approx([0, 0, 1], abs=1e-6)
+    assert vector(state["contact_positions"][0])[2] == pytest.approx(0, abs=2e-3)
 
 
 def test_a_joint_tells_what_hangs_from_it(peer: Peer) -> None:

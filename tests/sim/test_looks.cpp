@@ -216,5 +216,33 @@ TEST(Shadow, IsNotThrownByVisualsThatSaySo) {
   }
 }
 
+TEST(Lamp, OfALinkGoesWithIt) {
+  CameraDescription camera;
+  camera.width = camera.height = 1;
+  camera.horizontal_fov = 1e-4;
+  camera.near = 0.01;
+  ModelDescription carrier = model("Carrier", link("link"), Pose(0, 0, 1, 0, 0, 0));
+  Light lamp;
+  lamp.kind = LightKind::kSpot;
+  lamp.diffuse = kFullyLit;
+  lamp.direction = Vector3::UnitX;
+  lamp.inner_angle = lamp.outer_angle = 0.5;
+  carrier.links[0].lights.push_back(lamp);
+  Material white;
+  white.diffuse = kFullyLit;
+  // The lamp looks ahead; the camera, at the same place, down at a white floor.
+  SceneDescription described =
+      with_sensor("Camera", camera, {showing(visual(Box{{9, 9, 0.1}}, white), Pose(0, 0, -0.05, 0, 0, 0)), carrier},
+                  Pose(0, 0, 1, 0, M_PI / 2, 0));
+  described.environment.lights.clear();
+  described.environment.ambient = {};
+  Simulation simulation(described);
+  const ObjectId eye = simulation.world().tree().find("/Camera");
+  const auto red = [&] { return int{std::get<CameraImage>(simulation.measure(eye)->measurement).rgb[0]}; };
+  EXPECT_EQ(red(), 0);
+  simulation.world().set_pose(simulation.world().tree().find("/Carrier"), Pose(0, 0, 1, 0, M_PI / 2, 0));
+  EXPECT_EQ(red(), 255);
+}
+
 }  // namespace
 }  // namespace bubblesim::test

@@ -63,7 +63,7 @@ TEST(MeshContact, EveryShapeRestsOnTriangles) {
 TEST(MeshContact, AManySidedPrismStandsStill) {
   std::vector<ignition::math::Vector2d> outline;
   for (int i = 0; i < 64; ++i) outline.emplace_back(0.2 * std::cos(M_PI * i / 32), 0.2 * std::sin(M_PI * i / 32));
-  const Mesh prism{extrude(outline, 0.2)};
+  const Mesh prism{extrude({{outline, 0.2}})};
   for (const ModelDescription& ground : grounds()) {
     expect_at_rest(after_two_seconds(prism, at(0, 0, 0.01), ground), 0);
   }
@@ -73,7 +73,8 @@ TEST(MeshContact, AConcaveThingKeepsItsHollow) {
   // An arch: a ball of 0.15 m fits below it.
   const std::vector<ignition::math::Vector2d> outline = {{-0.4, 0}, {-0.3, 0}, {-0.3, 0.4}, {0.3, 0.4},
                                                          {0.3, 0},  {0.4, 0},  {0.4, 0.5},  {-0.4, 0.5}};
-  ModelDescription arch = model("Arch", link_with(Mesh{extrude(outline, 0.4)}), Pose(0, 0.2, 0.002, M_PI / 2, 0, 0));
+  ModelDescription arch =
+      model("Arch", link_with(Mesh{extrude({{outline, 0.4}})}), Pose(0, 0.2, 0.002, M_PI / 2, 0, 0));
   arch.links[0].centre_of_mass = {0, 0.3, 0.2};
   World world(scene({floor(), arch, solid("Ball", Sphere{0.15}, at(0, 0, 0.16))}), 0);
   world.advance(2, kStep);

@@ -213,7 +213,7 @@ TEST_P(Extrusion, OfAConcaveOutlineEnclosesItsAreaTimesItsHeight) {
   // An L: three unit squares.
   std::vector<Point2> outline = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   if (GetParam()) std::reverse(outline.begin(), outline.end());
-  const auto mesh = extrude(outline, 0.5);
+  const auto mesh = extrude({{outline, 0.5}});
   EXPECT_NEAR(volume(*mesh), 1.5, 1e-6);
   expect_near(size(*mesh), {2, 2, 0.5});
 }
@@ -221,14 +221,34 @@ TEST_P(Extrusion, OfAConcaveOutlineEnclosesItsAreaTimesItsHeight) {
 INSTANTIATE_TEST_SUITE_P(EitherWayRound, Extrusion, ::testing::Bool());
 
 TEST(Extrusions, TakeAClosedOutlineAndCornersInOneLine) {
-  EXPECT_NEAR(volume(*extrude({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}}, 1)), 4, 1e-6);
+  EXPECT_NEAR(volume(*extrude({{{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}}, 1}})), 4, 1e-6);
 }
 
 TEST(Extrusions, TellWhatIsWrongWithAnOutline) {
-  EXPECT_EQ(complaint([] { extrude({{0, 0}, {1, 0}}, 1); }), "has less than three corners");
-  EXPECT_EQ(complaint([] { extrude({{0, 0}, {1, 0}, {2, 0}}, 1); }), "has no area");
-  EXPECT_EQ(complaint([] { extrude({{0, 0}, {1, 0}, {1, 1}}, 0); }), "has no height above 0");
-  EXPECT_EQ(complaint([] { extrude({{0, 0}, {2, 2}, {2, 0}, {0, 3}}, 1); }), "crosses itself");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}}, 1}}); }), "has less than three corners");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {2, 0}}, 1}}); }), "has no area");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {1, 1}}, 0}}); }), "has no height above 0");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {2, 2}, {2, 0}, {0, 3}}, 1}}); }), "crosses itself");
+}
+
+TEST(Extrusions, HaveHolesWhereOutlinesLieInOthers) {
+  const auto square = [](double half, double x = 0) {
+    return std::vector<Point2>{{x - half, -half}, {x + half, -half}, {x + half, half}, {x - half, half}};
+  };
+  // A frame with a pillar in it, two windows in a wall, and two squares that cross.
+  EXPECT_NEAR(volume(*extrude({{square(3), 1}, {square(2), 1}, {square(1), 1}})), 36 - 16 + 4, 1e-5);
+  EXPECT_NEAR(volume(*extrude({{square(1, -2), 1}, {square(4), 0.5}, {square(1, 2), 1}})), (64 - 4 - 4) * 0.5, 1e-5);
+  EXPECT_NEAR(volume(*extrude({{square(1), 1}, {square(1, 1.5), 1}})), 8, 1e-5);
+}
+
+TEST(Walls, StandOnTheDarkPixelsOfAPicture) {
+  // Three pixels in an L, of 3 x 2; the picture's upper edge is at +y.
+  const Heights picture{3, 2, {0, 1, 1, 0, 0.5F, 1}};
+  const auto mesh = raise_walls(picture, 0.1, 200, 2);
+  EXPECT_NEAR(volume(*mesh), 3 * 0.1 * 0.1 * 2, 1e-6);
+  expect_near(mesh->low, {-0.15, -0.1, 0});
+  expect_near(mesh->high, {0.05, 0.1, 2});
+  EXPECT_EQ(complaint([&] { raise_walls(picture, 0.1, 0, 1); }), "has no pixel darker than the <threshold>");
 }
 
 TEST(Ground, HasItsUpperEdgeAtPlusYAndItsBrightestPixelAtItsHeight) {

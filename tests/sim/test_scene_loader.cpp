@@ -301,8 +301,8 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
       {sphere_model("heavy"), "<data-string>:3: <mass> is 'heavy'"},
       {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
-      {"<robot name='r'><link name='l'/></robot>", "must have at least one link"},
-      {"<robot/>", "<data-string>: SDFormat can make no model of it"},
+      {"<robot name='r'><link name='l'/></robot>", "no link that would be left has a mass"},
+      {"<robot/>", "<data-string>: No name given for the robot."},
   };
   for (const auto& [text, expected] : cases) {
     const std::string error = complaints_about_model(text);

@@ -116,14 +116,50 @@ TEST(Sonar, OfAFileHasTheVolumeNamed) {
 
 TEST(Sensors, OfAKindThatIsNotSimulatedAreLeftOutWithAWarning) {
   ::testing::internal::CaptureStderr();
-  const TemporaryFile file("magnetometer.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
-                                                        "type='magnetometer'/></link></model>"));
+  const TemporaryFile file("logical_camera.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
+                                                          "type='logical_camera'/></link></model>"));
   const SceneDescription scene = load_scene(file.path());
   const std::string warning = ::testing::internal::GetCapturedStderr();
   EXPECT_TRUE(scene.models.at(0).links.at(0).sensors.empty());
-  EXPECT_NE(warning.find("magnetometer.sdf:2: /m/l/s: sensors of type 'magnetometer' are not simulated"),
+  EXPECT_NE(warning.find("logical_camera.sdf:2: /m/l/s: sensors of type 'logical_camera' are not simulated"),
             std::string::npos)
       << warning;
+}
+
+TEST(Altimeter, HoldsWhatTheFileSays) {
+  const SensorDescription sensor = loaded(
+      "<sensor name='s' type='altimeter'><altimeter><vertical_position><noise type='gaussian'><stddev>0.1</stddev>"
+      "</noise></vertical_position><vertical_velocity><noise type='gaussian'><stddev>0.2</stddev></noise>"
+      "</vertical_velocity></altimeter></sensor>");
+  const auto& read = std::get<AltimeterDescription>(sensor.kind);
+  EXPECT_EQ(read.position_noise.stddev, 0.1);
+  EXPECT_EQ(read.velocity_noise.stddev, 0.2);
+}
+
+TEST(Magnetometer, HoldsWhatTheFileSays) {
+  const SensorDescription sensor = loaded(
+      "<sensor name='s' type='magnetometer'><magnetometer><y><noise type='gaussian'><stddev>1e-7</stddev></noise></y>"
+      "</magnetometer></sensor>");
+  const auto& read = std::get<MagnetometerDescription>(sensor.kind);
+  EXPECT_EQ(read.field_noise[0].stddev, 0);
+  EXPECT_EQ(read.field_noise[1].stddev, 1e-7);
+}
+
+TEST(Multicamera, IsACameraForEachOfItsOwn) {
+  const auto camera = [](const std::string& name, const std::string& pose) {
+    return "<camera name='" + name + "'><pose>" + pose + "</pose><horizontal_fov>1.3</horizontal_fov><image><width>8" +
+           "</width><height>6</height></image><clip><near>0.1</near><far>9</far></clip></camera>";
+  };
+  const TemporaryFile file(
+      "stereo.sdf",
+      in_world("<model name='m'><link name='l'><sensor name='eyes' type='multicamera'><pose>1 0 0 0 0 0</pose>" +
+               camera("left", "0 0.1 0 0 0 0") + camera("right", "0 -0.1 0 0 0 0") + "</sensor></link></model>"));
+  const auto sensors = load_scene(file.path()).models.at(0).links.at(0).sensors;
+  ASSERT_EQ(sensors.size(), 2U);
+  EXPECT_EQ(sensors[0].name, "eyes_left");
+  EXPECT_EQ(sensors[1].name, "eyes_right");
+  EXPECT_EQ(sensors[1].pose, Pose(1, -0.1, 0, 0, 0, 0));
+  EXPECT_EQ(std::get<CameraDescription>(sensors[1].kind).width, 8);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from bubblesim._core import read_sensor
@@ -35,27 +35,9 @@ class Bumper(Device):
     def publish(self) -> None:
         """Tell what is touched, also that it is nothing."""
         if self.wanted(self._publisher) and (reading := self._readings.take()):
-            states = [self._state(contact) for contact in reading.contacts]
+            link = self.world.parent(self.place.owner)
+            states = [contact_state(self.world, link, each, self._turned, self._placed) for each in reading.contacts]
             self.bridge.publish(self._publisher, {"header": self.header(self._frame.lstrip("/")), "states": states})
-
-    def _state(self, contact: Any) -> Message:
-        forces = [self._turned(point.force.tolist()) for point in contact.points]
-        total = [sum(along) for along in zip(*forces, strict=True)] if forces else [0.0, 0.0, 0.0]
-        own = f"{self._scoped(self.world.parent(self.place.owner))}::{contact.collision}"
-        other = f"{self._scoped(contact.other)}::{contact.other_collision}"
-        return {
-            "info": f"{own} touches {other}",
-            "collision1_name": own,
-            "collision2_name": other,
-            "wrenches": [{"force": vector_message(force)} for force in forces],
-            "total_wrench": {"force": vector_message(total)},
-            "contact_positions": [vector_message(self._placed(point.position.tolist())) for point in contact.points],
-            "contact_normals": [vector_message(self._turned(point.normal.tolist())) for point in contact.points],
-            "depths": [point.depth for point in contact.points],
-        }
-
-    def _scoped(self, link: int) -> str:
-        return f"{self.world.name(self.world.model_of(link))}::{self.world.name(link)}"
 
     def _turned(self, vector: Sequence[float]) -> Sequence[float]:
         return vector if self._reference is None else into(self.world.pose(self._reference), vector)
@@ -65,3 +47,31 @@ class Bumper(Device):
             return position
         origin = self.world.pose(self._reference)[:3]
         return self._turned([at - start for at, start in zip(position, origin, strict=True)])
+
+
+def contact_state(
+    world: Any,
+    link: int,
+    contact: Any,
+    turned: Callable[[Sequence[float]], Sequence[float]] = list,
+    placed: Callable[[Sequence[float]], Sequence[float]] = list,
+) -> Message:
+    """A gazebo_msgs/ContactState of a link, in world axes unless vectors and places are to be turned into others."""
+    forces = [turned(point.force.tolist()) for point in contact.points]
+    total = [sum(along) for along in zip(*forces, strict=True)] if forces else [0.0, 0.0, 0.0]
+    own = f"{_scoped(world, link)}::{contact.collision}"
+    other = f"{_scoped(world, contact.other)}::{contact.other_collision}"
+    return {
+        "info": f"{own} touches {other}",
+        "collision1_name": own,
+        "collision2_name": other,
+        "wrenches": [{"force": vector_message(force)} for force in forces],
+        "total_wrench": {"force": vector_message(total)},
+        "contact_positions": [vector_message(placed(point.position.tolist())) for point in contact.points],
+        "contact_normals": [vector_message(turned(point.normal.tolist())) for point in contact.points],
+        "depths": [point.depth for point in contact.points],
+    }
+
+
+def _scoped(world: Any, link: int) -> str:
+    return f"{world.name(world.model_of(link))}::{world.name(link)}"

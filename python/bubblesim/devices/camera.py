@@ -27,7 +27,7 @@ class Camera(Device):
         p = self.parameters
         self.enter_namespace()
         self.frame_id = self.frame(p.text("frameName", "/world"))
-        self._info = CameraInfo(p)
+        self.info = CameraInfo(p)
         self._images = NewReadings(self, read_camera, p.number("updateRate", 0.0, least=0.0))
         image = self.below_camera(p.text("imageTopicName", self.image_topic))
         info = self.below_camera(p.text("cameraInfoTopicName", self.info_topic))
@@ -36,9 +36,9 @@ class Camera(Device):
         self._compressed: int | None = None
         if find_spec("cv2") is not None:  # Debian's python3-opencv, which compresses
             self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
-        self._infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
+        self.infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
         pictures = [self._image] if self._compressed is None else [self._image, self._compressed]
-        self._publishers = [*pictures, *self._infos]
+        self._publishers = [*pictures, *self.infos]
 
     def below_camera(self, name: str) -> str:
         """A topic in the namespace that the camera's name makes."""
@@ -53,7 +53,7 @@ class Camera(Device):
 
     def advertise_more_infos(self, topic: str) -> None:
         """A further topic that tells of the optics."""
-        self._infos.append(self.advertise_more(topic, "sensor_msgs/CameraInfo"))
+        self.infos.append(self.advertise_more(topic, "sensor_msgs/CameraInfo"))
 
     def reset(self) -> None:
         """Start over."""
@@ -74,9 +74,9 @@ class Camera(Device):
                 data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
                 message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
                 self.bridge.publish(self._compressed, message)
-        listening = [publisher for publisher in self._infos if self.wanted(publisher)]
+        listening = [publisher for publisher in self.infos if self.wanted(publisher)]
         if listening:
-            info = {"header": header, **self._info.message(width, height, image.horizontal_fov)}
+            info = {"header": header, **self.info.message(width, height, image.horizontal_fov)}
             for publisher in listening:
                 self.bridge.publish(publisher, info)
 

@@ -17,7 +17,7 @@ class CameraInfo:
         p = parameters
         self._centre = p.number("Cx", 0.0), p.number("Cy", 0.0)
         self._focal_length = p.number("focalLength", 0.0)
-        self._baseline = p.number("hackBaseline", 0.0)
+        self.baseline = p.number("hackBaseline", 0.0)
         names = ("distortionK1", "distortionK2", "distortionT1", "distortionT2", "distortionK3")
         self._distortion = [p.number(name, 0.0) for name in names]
         p.ignore("CxPrime", "borderCrop", "distortion_k1", "autoDistortion")
@@ -33,5 +33,5 @@ class CameraInfo:
             "D": self._distortion,
             "K": [f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0],
             "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-            "P": [f, 0.0, cx, -f * self._baseline, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+            "P": [f, 0.0, cx, -f * self.baseline, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
         }

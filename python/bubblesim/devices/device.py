@@ -156,6 +156,10 @@ class Device:
         hint = did_you_mean(nearest_names(name, sorted(parts)))
         raise self.parameters.fail(parameter, f"names no {kind} of {model}: it has no '{name}'{hint}")
 
+    def first_link(self) -> int:
+        """The handle of the model's first link."""
+        return next(part for part in self.parts_of_model() if self.world.kind(part) == "link")
+
     def parts_of_model(self) -> list[int]:
         """The handles of all that belongs to the model."""
 

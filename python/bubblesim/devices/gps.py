@@ -23,8 +23,7 @@ class Gps(Device):
         super().__init__(place)
         p = self.parameters
         self.enter_namespace()
-        links = [part for part in self.parts_of_model() if self.world.kind(part) == "link"]
-        self._link = self.link("bodyName", self.world.name(links[0]))
+        self._link = self.link("bodyName", self.world.name(self.first_link()))
         self._frame = p.text("frameId", self.world.name(self._link))
         self._latitude = p.number("referenceLatitude", 49.9)
         self._longitude = p.number("referenceLongitude", 8.9)

@@ -7,6 +7,7 @@ import re
 from pathlib import PurePosixPath
 
 from bubblesim.devices.ackermann_drive import AckermannDrive
+from bubblesim.devices.baro import Baro
 from bubblesim.devices.block_laser import BlockLaser, VelodyneLaser
 from bubblesim.devices.bumper import Bumper
 from bubblesim.devices.camera import Camera
@@ -16,15 +17,20 @@ from bubblesim.devices.diff_drive import DiffDrive
 from bubblesim.devices.ft_sensor import FtSensor
 from bubblesim.devices.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
 from bubblesim.devices.gps import Gps
+from bubblesim.devices.gz_ackermann_steering import GzAckermannSteering
 from bubblesim.devices.gz_diff_drive import GzDiffDrive
+from bubblesim.devices.gz_joint_controllers import GzJointController, GzJointPositionController
 from bubblesim.devices.gz_odometry_publisher import GzOdometryPublisher
-from bubblesim.devices.imu import ImuSensor, LinkImu
+from bubblesim.devices.imu import HectorImu, ImuSensor, LinkImu
 from bubblesim.devices.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
 from bubblesim.devices.laser import Laser
+from bubblesim.devices.magnetic import Magnetic
+from bubblesim.devices.multi_camera import MultiCamera
 from bubblesim.devices.p3d import P3D
 from bubblesim.devices.planar_move import PlanarMove
-from bubblesim.devices.range import Range
+from bubblesim.devices.range import HectorSonar, Range
+from bubblesim.devices.ray_sensor import RaySensor
 from bubblesim.devices.skid_steer_drive import SkidSteerDrive
 from bubblesim.devices.tricycle_drive import TricycleDrive
 from bubblesim.messages.names import did_you_mean, nearest_names
@@ -46,17 +52,26 @@ DEVICES: dict[str, type[Device]] = {
     "gazebo_ros_joint_pose_trajectory": JointPoseTrajectory,
     "gazebo_ros_joint_state_publisher": JointStatePublisher,
     "gazebo_ros_laser": Laser,
+    "gazebo_ros_multicamera": MultiCamera,
     "gazebo_ros_openni_kinect": OpenniKinect,
     "gazebo_ros_p3d": P3D,
     "gazebo_ros_planar_move": PlanarMove,
     "gazebo_ros_range": Range,
+    "gazebo_ros_ray_sensor": RaySensor,
     "gazebo_ros_skid_steer_drive": SkidSteerDrive,
     "gazebo_ros_tricycle_drive": TricycleDrive,
+    "hector_gazebo_ros_baro": Baro,
     "hector_gazebo_ros_gps": Gps,
+    "hector_gazebo_ros_imu": HectorImu,
+    "hector_gazebo_ros_magnetic": Magnetic,
+    "hector_gazebo_ros_sonar": HectorSonar,
     "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
     "gazebo_ros_velodyne_laser": VelodyneLaser,
+    "gz-ackermann-steering-system": GzAckermannSteering,
     "gz-diff-drive-system": GzDiffDrive,
     "gz-odometry-publisher-system": GzOdometryPublisher,
+    "gz-joint-controller-system": GzJointController,
+    "gz-joint-position-controller-system": GzJointPositionController,
     "gz-joint-state-publisher-system": GzJointStatePublisher,
 }
 
@@ -80,6 +95,8 @@ NOT_NEEDED = frozenset(
         "gz-imu-system",
         "gz-forcetorque-system",
         "gz-navsat-system",
+        "gz-altimeter-system",
+        "gz-magnetometer-system",
     }
 )
 

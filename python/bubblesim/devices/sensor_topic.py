@@ -12,6 +12,7 @@ import numpy as np
 from bubblesim._core import CameraImage, read_sensor
 from bubblesim.control.frames import vector_message
 from bubblesim.devices.block_laser import cloud_of_returns, directions
+from bubblesim.devices.bumper import contact_state
 from bubblesim.devices.camera import image_message
 from bubblesim.devices.camera_info import CameraInfo
 from bubblesim.devices.device import Device, Message, Place
@@ -36,7 +37,8 @@ class SensorTopic(Device):
 
     A sonar gives a Range, infinite for nothing in range (REP 117); a lidar of one ring a LaserScan, of several a
     PointCloud2; a camera an Image, in metres from a depth camera, with a camera_info beside it; an IMU an Imu; a GPS
-    receiver a NavSatFix; a force-torque sensor a WrenchStamped.
+    receiver a NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a
+    MagneticField; a contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
     """
 
     def __init__(self, place: Place) -> None:
@@ -92,10 +94,22 @@ class SensorTopic(Device):
                 )
             case "NavSatReading":
                 return "sensor_msgs/NavSatFix", _fix
+            case "AltimeterReading":
+                return "geometry_msgs/PointStamped", lambda reading: {"point": {"z": reading.height}}
+            case "MagnetometerReading":
+                return "sensor_msgs/MagneticField", lambda reading: {
+                    "magnetic_field": vector_message(reading.field.tolist())
+                }
+            case "ContactReading":
+                return "gazebo_msgs/ContactsState", self._contacts
             case "ForceTorqueReading":
                 return "geometry_msgs/WrenchStamped", _wrench
             case kind:
                 raise ValueError(f"there is no message for a {kind}: take it out, or read it in a script")
+
+    def _contacts(self, reading: Any) -> Message:
+        link = self.world.parent(self.place.owner)
+        return {"states": [contact_state(self.world, link, contact) for contact in reading.contacts]}
 
     def _range(self, reading: Any) -> Message:
         least, most, angle = self.world.sonar_limits(self.place.owner)

@@ -52,6 +52,7 @@ class Camera final : public Sensor {
   void measure(const Moment& moment, Measurement& measurement) override {
     auto& image = std::get<CameraImage>(measurement);
     moment.rays.refresh(moment.world);
+    if (description_.color) shading_.place_lights(moment.world);
     const Pose sensor = moment.world.pose(id_);
     const ignition::math::Matrix3d turn(sensor.Rot());
     const auto width = static_cast<std::size_t>(description_.width);

@@ -12,6 +12,8 @@ std::unique_ptr<Sensor> make_sonar(const SonarDescription&, ObjectId, const Worl
 std::unique_ptr<Sensor> make_imu(const ImuDescription&, ObjectId);
 std::unique_ptr<Sensor> make_lidar(const LidarDescription&, ObjectId);
 std::unique_ptr<Sensor> make_navsat(const NavSatDescription&, const GeographicOrigin&, ObjectId);
+std::unique_ptr<Sensor> make_altimeter(const AltimeterDescription&, ObjectId, const World&);
+std::unique_ptr<Sensor> make_magnetometer(const MagnetometerDescription&, const Vector3& field, ObjectId);
 std::unique_ptr<Sensor> make_contact(const ContactDescription&, ObjectId, const World&);
 std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription&, ObjectId, const World&);
 std::unique_ptr<Sensor> make_camera(const CameraDescription&, const Environment&, ObjectId);

@@ -16,6 +16,12 @@ struct SensorMaker {
   std::unique_ptr<Sensor> operator()(const NavSatDescription& navsat) const {
     return make_navsat(navsat, environment.origin, id);
   }
+  std::unique_ptr<Sensor> operator()(const AltimeterDescription& altimeter) const {
+    return make_altimeter(altimeter, id, world);
+  }
+  std::unique_ptr<Sensor> operator()(const MagnetometerDescription& magnetometer) const {
+    return make_magnetometer(magnetometer, environment.magnetic_field, id);
+  }
   std::unique_ptr<Sensor> operator()(const ContactDescription& contact) const {
     return make_contact(contact, id, world);
   }

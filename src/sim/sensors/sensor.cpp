@@ -16,6 +16,8 @@ std::string_view kind_name(const Measurement& measurement) {
     std::string_view operator()(const CameraImage&) const { return "camera"; }
     std::string_view operator()(const ImuReading&) const { return "IMU"; }
     std::string_view operator()(const NavSatReading&) const { return "GPS receiver"; }
+    std::string_view operator()(const AltimeterReading&) const { return "altimeter"; }
+    std::string_view operator()(const MagnetometerReading&) const { return "magnetometer"; }
     std::string_view operator()(const ContactReading&) const { return "contact sensor"; }
     std::string_view operator()(const ForceTorqueReading&) const { return "force-torque sensor"; }
   };

@@ -66,6 +66,11 @@ Arrival arrive(const Light& light, const Vector3& axis, const Vector3& point) {
 
 }  // namespace
 
+void Shading::place_lights(const World& world) {
+  lights_ = environment_.lights;
+  for (Light& light : world.carried_lights()) lights_.push_back(std::move(light));
+}
+
 Color Shading::behind(const Vector3& direction) const {
   if (!environment_.sky) return environment_.background;
   const double height = direction.Z() / direction.Length();
@@ -89,7 +94,7 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, std::siz
     accumulate(colors[i], product(surface.diffuse, environment_.ambient), weight);
     accumulate(colors[i], surface.emissive, weight);
   }
-  for (const Light& light : environment_.lights) {
+  for (const Light& light : lights_) {
     const Vector3 axis = light.direction.Normalized();
     Arrivals arrivals;
     RTCRay16 shadow;

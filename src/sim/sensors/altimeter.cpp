@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Altimeter: height above where it came into the world, and how fast it climbs.
+#include "kinds.hpp"
+#include "noise.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Altimeter final : public Sensor {
+ public:
+  Altimeter(const AltimeterDescription& description, ObjectId id, double start)
+      : Sensor(AltimeterReading{}), description_(description), id_(id), start_(start) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    AltimeterReading reading{moment.world.pose(id_).Pos().Z() - start_, moment.world.velocity(id_).linear.Z()};
+    distort(reading.height, description_.position_noise, moment, id_, 0);
+    distort(reading.velocity, description_.velocity_noise, moment, id_, 1);
+    measurement = reading;
+  }
+
+  AltimeterDescription description_;
+  ObjectId id_;
+  double start_;  // m
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_altimeter(const AltimeterDescription& description, ObjectId id, const World& world) {
+  return std::make_unique<Altimeter>(description, id, world.pose(id).Pos().Z());
+}
+
+}  // namespace bubblesim

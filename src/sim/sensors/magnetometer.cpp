@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Magnetometer: the magnetic field of the world, which is the same everywhere.
+#include "kinds.hpp"
+#include "noise.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Magnetometer final : public Sensor {
+ public:
+  Magnetometer(const MagnetometerDescription& description, const Vector3& field, ObjectId id)
+      : Sensor(MagnetometerReading{}), description_(description), field_(field), id_(id) {}
+
+ private:
+  void measure(const Moment& moment, Measurement& measurement) override {
+    MagnetometerReading reading{moment.world.pose(id_).Rot().RotateVectorReverse(field_)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      distort(reading.field[axis], description_.field_noise[axis], moment, id_, axis);
+    }
+    measurement = reading;
+  }
+
+  MagnetometerDescription description_;
+  Vector3 field_;  // T, world axes
+  ObjectId id_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_magnetometer(const MagnetometerDescription& description, const Vector3& field,
+                                          ObjectId id) {
+  return std::make_unique<Magnetometer>(description, field, id);
+}
+
+}  // namespace bubblesim

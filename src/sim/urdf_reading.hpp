@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What URDF says and SDFormat refuses or drops without a word, which then is told.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <functional>
+#include <sdf/Error.hh>
+#include <sdf/ParserConfig.hh>
+#include <sdf/Root.hh>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "scene_reading.hpp"
+
+namespace bubblesim {
+
+/// Reads a <robot>, with what its parser says against it among the problems of the reading.
+void load_urdf(sdf::Root& root, const sdf::ParserConfig& config, SceneReading& reading);
+
+/// What `load` returns; the parser of URDF, which SDFormat tries on what it cannot read, does not write to stderr.
+sdf::Errors without_urdf_messages(const std::function<sdf::Errors()>& load);
+
+/// Lets go what <joint type="floating"> and "planar" hold, takes mimics over, and tells of all joints that SDFormat
+/// left out. For a model of which load_urdf() made the root.
+void finish_urdf(ModelDescription& model, SceneReading& reading);
+
+}  // namespace bubblesim
