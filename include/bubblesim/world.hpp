@@ -121,6 +121,9 @@ class World {
   /// between -pi and pi, unless their limits reach beyond: then whole turns count.
   double joint_position(ObjectId joint, int axis = 0) const;
   double joint_velocity(ObjectId joint, int axis = 0) const;
+  /// What the motor of an axis did to the child, N along the axis or N m about it, as the mean over the last advance().
+  /// It is measured from the first call on, which returns 0; so do those for an axis without a motor.
+  double motor_force(ObjectId joint, int axis = 0);
   /// The links that a joint connects, the parent first; kNoObject is the world.
   std::pair<ObjectId, ObjectId> joint_links(ObjectId joint) const;
   /// How many there are; none of a fixed or ball joint, nor of one that belongs to a static model.

@@ -118,6 +118,9 @@ void bind_world(py::module_& module) {
       .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
+      .def("motor_force", &World::motor_force, py::arg("joint"), py::arg("axis") = 0,
+           "What its motor did to the child, the mean over the last pass; measured from the first call on, which "
+           "returns 0.")
       .def("joint_links", &World::joint_links, py::arg("joint"),
            "Handles of the links that it connects, the parent first; -1 is the world.")
       .def("joint_axes", &World::joint_axes, py::arg("joint"), "How many it has.")

@@ -38,10 +38,9 @@ void add_point(World::State& state, const TouchReport& report, bool of_first, do
 }
 
 /// What the parent does to the child, by one of ODE's joints: torque about the child's centre of mass.
-Wrench on_child(const JointReport& report, dBodyID child) {
-  const dJointFeedback& feedback = report.feedback;
-  const dBodyID first = dJointGetBody(report.joint, 0);
-  const dBodyID second = dJointGetBody(report.joint, 1);
+Wrench on_child(dJointID joint, const dJointFeedback& feedback, dBodyID child) {
+  const dBodyID first = dJointGetBody(joint, 0);
+  const dBodyID second = dJointGetBody(joint, 1);
   // A joint with one body tells its force first, whichever place the body has.
   if (first == child || second == nullptr || first == nullptr) return {to_vector(feedback.f1), to_vector(feedback.t1)};
   return {to_vector(feedback.f2), to_vector(feedback.t2)};
@@ -52,11 +51,23 @@ void gather_wrench(const World::State& state, const PlacedJoint& placed, double 
   const Vector3 origin = (link_pose(child) * placed.in_child).Pos();
   const Vector3 lever = to_vector(dBodyGetPosition(child.body.get())) - origin;
   for (const JointReport& report : placed.meter->reports) {
-    const Wrench wrench = on_child(report, child.body.get());
+    const Wrench wrench = on_child(report.joint, report.feedback, child.body.get());
     // The child does the opposite to the parent.
     placed.meter->sum.force -= wrench.force * step;
     placed.meter->sum.torque -= (wrench.torque + lever.Cross(wrench.force)) * step;
   }
+}
+
+/// The frame that an axis stands still in: of several, the first is fixed in the parent and the second in the child.
+Pose frame_of_axis(const World::State& state, const PlacedJoint& placed, int axis) {
+  if (axis == placed.joint->axis_count() - 1) return link_pose(state.link(placed.child)) * placed.in_child;
+  return placed.parent == kNoObject ? placed.in_parent : link_pose(state.link(placed.parent)) * placed.in_parent;
+}
+
+void gather_motor(const World::State& state, const PlacedJoint& placed, MotorMeter& meter, double step) {
+  const Wrench wrench = on_child(meter.joint, *dJointGetFeedback(meter.joint), state.link(placed.child).body.get());
+  const Vector3 effort = meter.slides ? wrench.force : wrench.torque + meter.lever.Cross(wrench.force);
+  meter.sum += effort.Dot(meter.along) * step;
 }
 
 }  // namespace
@@ -69,6 +80,20 @@ void watch_contact(World::State& state, dJointID joint, const Collider& first, c
   report.joint = joint;
   report.contact = contact;
   dJointSetFeedback(joint, &report.feedback);
+}
+
+const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides) {
+  for (const auto& meter : placed.motor_meters) {
+    if (meter->axis == axis) return meter.get();
+  }
+  dJointID joint = placed.joint->motor_joint(axis);
+  if (joint == nullptr) return nullptr;
+  auto& meter = placed.motor_meters.emplace_back(std::make_unique<MotorMeter>());
+  meter->axis = axis;
+  meter->slides = slides;
+  meter->joint = joint;
+  if (dJointGetFeedback(joint) == nullptr) dJointSetFeedback(joint, &meter->feedback);
+  return meter.get();
 }
 
 std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child) {
@@ -85,6 +110,14 @@ std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child) {
   return meter;
 }
 
+void aim_motor_meters(const World::State& state, const PlacedJoint& placed) {
+  for (const auto& meter : placed.motor_meters) {
+    const Pose frame = frame_of_axis(state, placed, meter->axis);
+    meter->along = frame.Rot().RotateVector(placed.joint->axis(meter->axis).direction);
+    meter->lever = to_vector(dBodyGetPosition(state.link(placed.child).body.get())) - frame.Pos();
+  }
+}
+
 void forget_forces(World::State& state) {
   state.touches.clear();
   state.touch_reports.clear();
@@ -92,6 +125,7 @@ void forget_forces(World::State& state) {
   for (const PlacedModel* model : state.moving) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->sum = {};
+      for (const auto& meter : placed.motor_meters) meter->sum = 0;
     }
   }
 }
@@ -106,6 +140,7 @@ void gather_forces(World::State& state, double step) {
   for (const PlacedModel* model : state.moving) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) gather_wrench(state, placed, step);
+      for (const auto& meter : placed.motor_meters) gather_motor(state, placed, *meter, step);
     }
   }
 }

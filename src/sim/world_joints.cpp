@@ -79,6 +79,14 @@ double World::joint_velocity(ObjectId joint, int axis) const {
   return found.joint.velocity(found.index);
 }
 
+double World::motor_force(ObjectId joint, int axis) {
+  const int index = joint_axis(*state_, joint, axis).index;
+  const Object& object = state_->tree.at(joint);
+  PlacedJoint& placed = state_->models.at(state_->tree.outermost_model_of(joint)).joints[object.index];
+  const MotorMeter* meter = motor_meter(placed, index, joint_description(joint).type == "prismatic");
+  return meter == nullptr || state_->last_duration == 0 ? 0 : meter->sum / state_->last_duration;
+}
+
 std::pair<ObjectId, ObjectId> World::joint_links(ObjectId joint) const {
   const PlacedJoint& placed = placed_joint(*state_, joint);
   return {placed.parent, placed.child};

@@ -55,6 +55,17 @@ struct WrenchMeter {
   Wrench sum;  // over the steps of the last advance(), N s and N m s
 };
 
+/// What the motor of an axis does. ODE's joint keeps a pointer to the feedback.
+struct MotorMeter {
+  int axis = 0;
+  bool slides = false;
+  dJointID joint = nullptr;
+  dJointFeedback feedback{};
+  Vector3 along;   // the axis when the step begins, which ODE's forces belong to; world axes
+  Vector3 lever;   // from the joint's origin to the child's centre of mass then
+  double sum = 0;  // over the steps of the last advance(), N s or N m s
+};
+
 struct PlacedJoint {
   std::unique_ptr<Joint> joint;
   ObjectId object = kNoObject;
@@ -62,7 +73,8 @@ struct PlacedJoint {
   ObjectId child = kNoObject;
   Pose in_parent;
   Pose in_child;
-  std::unique_ptr<WrenchMeter> meter;  // null when no sensor wants to know
+  std::unique_ptr<WrenchMeter> meter;                     // null when no sensor wants to know
+  std::vector<std::unique_ptr<MotorMeter>> motor_meters;  // of axes that somebody asked for
 };
 
 /// Two shapes, of which a contact sensor watches the first, that touched during the last advance().
@@ -183,6 +195,10 @@ void watch_contact(World::State& state, dJointID joint, const Collider& first, c
                    const dContactGeom& contact);
 /// Has ODE report on a joint from now on.
 std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child);
+/// The meter of an axis's motor, which measures from now on; null when it has no motor.
+const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides);
+/// Has its motor meters know where they are, before a step.
+void aim_motor_meters(const World::State& state, const PlacedJoint& placed);
 /// Forget, at the begin of an advance(), and take in, after each step of it, what ODE reports.
 void forget_forces(World::State& state);
 void gather_forces(World::State& state, double step);

@@ -66,6 +66,7 @@ void substep(World::State& state, double step) {
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
+        aim_motor_meters(state, placed);
       }
     }
     if (state.steps_to_iterate > 0 || state.islands.most_contacts() > kManyContacts) {

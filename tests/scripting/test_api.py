@@ -168,3 +168,11 @@ def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
     with pytest.raises(ArgumentError, match="unexpected keyword argument 'number'"):
         Sample().next(1.5, number=2)  # type: ignore[call-arg]
     assert Sample().next(value=1.5) == 2.5
+
+
+def test_names_that_there_are_not_are_told_with_those_that_come_near() -> None:
+    with pytest.raises(
+        AttributeError, match=r"sample has no numbr; did you mean sample\.number\?; `bubblesim api` lists"
+    ):
+        Sample().numbr  # type: ignore[attr-defined]  # noqa: B018
+    assert not hasattr(Sample(), "createCollection")

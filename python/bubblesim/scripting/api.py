@@ -7,6 +7,7 @@ takes and its docstring what it does. Lua, the reference pages and `help` all re
 
 from __future__ import annotations
 
+import difflib
 import functools
 import inspect
 import operator
@@ -15,6 +16,7 @@ from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from typing import Any, SupportsIndex, TypeVar
 
+from bubblesim.messages.names import did_you_mean
 from bubblesim.scripting.kinds import PLAIN, Kind, MismatchError, shown
 from bubblesim.scripting.script_thread import by_ident, current
 
@@ -45,6 +47,7 @@ def script_module(name: str) -> Callable[[Module], Module]:
     def register(module: Module) -> Module:
         for function_name, function in _public_methods(module):
             setattr(module, function_name, _checked(f"{name}.{function_name}", function))
+        setattr(module, "__getattr__", _no_such(name, module))  # noqa: B010  # or mypy would take any name of it
         MODULES[name] = module
         return module
 
@@ -88,6 +91,17 @@ def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
     """What the parameters of a function take, by name; None for anything."""
     hints = typing.get_type_hints(getattr(module, function), include_extras=True)
     return {name: _kind(hint) for name, hint in hints.items() if name != "return"}
+
+
+def _no_such(name: str, module: type) -> Callable[[object, str], Any]:
+    """What tells of names that a module does not have."""
+
+    def refuse(self: object, wanted: str) -> Any:
+        near = difflib.get_close_matches(wanted, [known for known in dir(module) if not known.startswith("_")], n=2)
+        hint = did_you_mean([f"{name}.{known}" for known in near])
+        raise AttributeError(f"{name} has no {wanted}{hint}; `bubblesim api` lists all functions that there are")
+
+    return refuse
 
 
 def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:

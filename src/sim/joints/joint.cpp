@@ -104,6 +104,11 @@ void Joint::set_max_force(int axis, double force) {
   apply_motor(set);
 }
 
+dJointID Joint::motor_joint(int axis) const {
+  const Motor* motor = axes_[static_cast<std::size_t>(axis)].motor;
+  return motor == nullptr ? nullptr : motor->joint();
+}
+
 void Joint::mimic(int axis, const Joint& leader) { axes_[static_cast<std::size_t>(axis)].leader = &leader; }
 
 void Joint::drive(double step) {

@@ -46,6 +46,9 @@ class Joint {
   void set_target_velocity(int axis, double velocity);
   void set_max_force(int axis, double force);
 
+  /// ODE's joint with the motor of an axis; null when it has none.
+  dJointID motor_joint(int axis) const;
+
   /// Lets an axis that has a MimicDescription follow another joint, which must live as long as this one.
   void mimic(int axis, const Joint& leader);
 

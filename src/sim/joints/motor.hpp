@@ -27,6 +27,8 @@ class Motor {
   static Motor turning(dWorldID world, const AxisLine& line);
   static Motor sliding(dWorldID world, const AxisLine& line);
 
+  /// ODE's joint that has the row.
+  dJointID joint() const { return joint_; }
   /// Sets one of ODE's parameters dParam..., without the offset of the group.
   void set(int parameter, double value) const { set_(joint_, group_ * dParamGroup + parameter, value); }
 
