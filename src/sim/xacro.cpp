@@ -3,14 +3,13 @@
 
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 
 #include "bubblesim/error.hpp"
-
-extern char** environ;
 
 namespace bubblesim {
 namespace {

@@ -109,6 +109,7 @@ std::vector<Point> points_of(const LidarScan& scan) {
     double sine;
   };
   std::vector<Turn> turns;
+  turns.reserve(static_cast<std::size_t>(scan.horizontal.samples));
   for (int i = 0; i < scan.horizontal.samples; ++i) {
     turns.push_back({std::cos(scan.horizontal.at(i)), std::sin(scan.horizontal.at(i))});
   }

@@ -65,10 +65,10 @@ Place place_on_box(const Box& box, const Vector3& point) {
 }
 
 Place place_on_mesh(const TriangleMesh& mesh, unsigned triangle, float u, float v) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
+  const auto& corners = mesh.triangles[triangle];
   const auto blend = [&](std::size_t i) {
-    return (1 - u - v) * mesh.texture_coordinates[a][i] + u * mesh.texture_coordinates[b][i] +
-           v * mesh.texture_coordinates[c][i];
+    const auto at = [&](std::size_t corner) { return mesh.texture_coordinates[corners[corner]][i]; };
+    return (1 - u - v) * at(0) + u * at(1) + v * at(2);
   };
   return {blend(0), blend(1)};
 }
