@@ -12,6 +12,8 @@ from std_msgs.msg import Float32
 
 from bubblesim.controllers.tricycle_avoid import Command, TricycleAvoid, is_reading
 
+_PERIOD = 0.2  # s, between looks for the sonar's silence
+
 
 class TricycleAvoidNode:
     """Steps the controller once for each sonar message, and watches for the sonar's silence."""
@@ -25,7 +27,7 @@ class TricycleAvoidNode:
         self._steering = rospy.Publisher("/steering", Float32, queue_size=1)
         self._speed = rospy.Publisher("/speed", Float32, queue_size=1)
         rospy.Subscriber("/front_sonar", Float32, self._on_sonar, queue_size=10)
-        rospy.Timer(rospy.Duration.from_sec(0.2), lambda event: self._update(None), reset=True)
+        rospy.Timer(rospy.Duration.from_sec(_PERIOD), lambda event: self._update(None), reset=True)
         rospy.on_shutdown(self._stop)
 
     def _on_sonar(self, message: Float32) -> None:
@@ -37,7 +39,8 @@ class TricycleAvoidNode:
         with self._lock:
             now = rospy.get_time()
             dt, self._last_update = now - self._last_update, now
-            command = self._controller.update(distance, dt)
+            # A clock whose messages come late and then all at once jumps: that is no silence of the sonar.
+            command = self._controller.update(distance, min(dt, _PERIOD))
             if command is None or self._ended:
                 return
             if self._controller.stopped:

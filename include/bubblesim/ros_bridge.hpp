@@ -72,6 +72,7 @@ class RosBridge final : public messages::Bridge {
   std::optional<std::string> search_parameter(const std::string& name) override;
   void drain() override;
   messages::BridgeTime now() const override;
+  bool clock_reaches_others() const override;
 
   /// Sleeps until something has come that drain() would deliver, or for `timeout` seconds.
   void wait_for_arrival(double timeout);

@@ -8,27 +8,32 @@
 >>> simulation.object("/Tricycle").position
 """
 
-from bubblesim._core import (
-    AltimeterReading,
-    CameraImage,
-    CollisionShape,
-    Contact,
-    ContactPoint,
-    ContactReading,
-    Diverged,
-    ForceTorqueReading,
-    ImuReading,
-    LidarScan,
-    MagnetometerReading,
-    NavSatReading,
-    NoSuchObject,
-    Object,
-    ProximityReading,
-    SceneError,
-    Simulation,
-    scene_folders,
-    scene_names,
-)
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bubblesim._core import (
+        AltimeterReading,
+        CameraImage,
+        CollisionShape,
+        Contact,
+        ContactPoint,
+        ContactReading,
+        Diverged,
+        ForceTorqueReading,
+        ImuReading,
+        LidarScan,
+        MagnetometerReading,
+        NavSatReading,
+        NoSuchObject,
+        Object,
+        ProximityReading,
+        SceneError,
+        Simulation,
+        scene_folders,
+        scene_names,
+    )
 
 __all__ = [
     "AltimeterReading",
@@ -51,3 +56,12 @@ __all__ = [
     "scene_folders",
     "scene_names",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load the core when something of it is used: not every command of `bubblesim` does, and it takes 0.1 s."""
+    if name not in __all__:
+        raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
+    from bubblesim import _core
+
+    return getattr(_core, name)

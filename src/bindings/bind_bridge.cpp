@@ -180,6 +180,8 @@ void bind_bridge(py::module_& core) {
       .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,
            "The parameter's full name in the nearest namespace that has it, or None.")
       .def("drain", &Bridge::drain, without_gil, "Delivers what has arrived; from within a service's callback only.")
+      .def("clock_reaches_others", &Bridge::clock_reaches_others,
+           "Whether another node is connected to /clock; true when nodes take the wall clock's time.")
       .def(
           "now",
           [](const Bridge& bridge) {

@@ -31,6 +31,8 @@ class PublisherEndpoint {
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
   bool wants_messages() const { return latch_ || has_subscribers(); }
+  /// How many are connected, one of this node itself included.
+  std::size_t subscribers() const;
   void publish(messages::WireBuffer message);
 
   void register_at_master();

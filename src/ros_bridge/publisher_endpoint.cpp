@@ -59,6 +59,10 @@ bool PublisherEndpoint::has_subscribers() const {
   return registered_.load(std::memory_order_acquire) && publication_->hasSubscribers();
 }
 
+std::size_t PublisherEndpoint::subscribers() const {
+  return registered_.load(std::memory_order_acquire) ? publication_->getNumSubscribers() : 0;
+}
+
 void PublisherEndpoint::publish(WireBuffer message) {
   if (!wants_messages()) return;
   if (type_.has_header) check_header(type_, message);

@@ -230,6 +230,8 @@ void RosBridge::wait_for_arrival(double timeout) { impl_->arrivals->wait(std::ch
 
 BridgeTime RosBridge::now() const { return impl_->clock.now(); }
 
+bool RosBridge::clock_reaches_others() const { return impl_->clock.reaches_others(); }
+
 void RosBridge::publish_clock(double sim_time) {
   impl_->clock.set(sim_time);
   if (impl_->topics.publishers_on(impl_->clock.topic()) == 0) impl_->clock.publish();

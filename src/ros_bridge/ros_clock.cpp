@@ -49,7 +49,7 @@ void RosClock::read_use_sim_time() {
   if (!answer.answered) return;  // gone again: what the last one said stands
   use_sim_time_ =
       answer.succeeded && answer.value.getType() == XmlRpc::XmlRpcValue::TypeBoolean && static_cast<bool>(answer.value);
-  if (!use_sim_time_ || ros::Time::isSimTime() || std::exchange(follows_, true)) return;
+  if (!use_sim_time_ || ros::Time::isSimTime() || follows_.exchange(true)) return;
   ros::Time::setNow(ros::Time());
   ros::SubscribeOptions options;
   options.init<rosgraph_msgs::Clock>(
@@ -78,6 +78,11 @@ void RosClock::publish() {
   message.put(time.sec);
   message.put(time.nanosec);
   publisher_->publish(std::move(message));
+}
+
+bool RosClock::reaches_others() const {
+  const bool to_itself = follows_ || ros::Time::isSimTime();  // roscpp's subscription or ours, to come if not there yet
+  return !use_sim_time_ || publisher_->subscribers() > (to_itself ? 1U : 0U);
 }
 
 BridgeTime RosClock::now() const {

@@ -33,6 +33,8 @@ class RosClock {
   void set(double sim_time);
   void publish();
   messages::BridgeTime now() const;
+  /// See messages::Bridge.
+  bool reaches_others() const;
 
  private:
   ros::CallbackQueue& queue_;
@@ -40,7 +42,7 @@ class RosClock {
   bool said_script_ = false;
   std::int64_t sim_time_ = 0;  // [ns]
   std::atomic<bool> use_sim_time_{false};
-  bool follows_ = false;  // roscpp's own time does, from a subscription of ours; the master thread's
+  std::atomic<bool> follows_{false};  // roscpp's own time does, from a subscription of ours
 };
 
 }  // namespace bubblesim

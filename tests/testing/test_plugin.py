@@ -36,6 +36,29 @@ ANSWERS_TEN = """\
     raise SystemExit("out of petrol")
 """
 
+TAKES_THE_WALL_CLOCK = """\
+    import threading, time
+    import rosgraph, rospy
+    from rosgraph_msgs.msg import Clock
+    from std_msgs.msg import Float32
+    master = rosgraph.Master("/mine")
+    while "/sim_ros_interface/step" not in str(master.getSystemState()):  # which takes simulated time
+        time.sleep(0.01)
+    master.setParam("/use_sim_time", False)
+    rospy.init_node("mine")
+    speed = rospy.Publisher("/speed", Float32, queue_size=1)
+    {answer}
+    rospy.spin()
+"""
+WITHOUT_CLOCK = 'rospy.Subscriber("/front_sonar", Float32, lambda message: speed.publish(1.0))'
+CLOCK_LATER = """heard = threading.Event()
+    def answer(message):
+        if heard.wait(4.0):
+            speed.publish(1.0)
+    rospy.Subscriber("/front_sonar", Float32, answer)
+    time.sleep(1.0)
+    rospy.Subscriber("/clock", Clock, lambda message: heard.set())"""
+
 
 @pytest.fixture
 def ten(tmp_path: Path) -> str:
@@ -95,6 +118,17 @@ def test_the_controller_drives_and_its_messages_are_known(controller: StartContr
     assert len(speeds) == 98  # 100 passes; the first goes before anybody is connected, the last is not answered yet
     assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, and 5 % more with each answer
     assert speeds[1][0] - speeds[0][0] == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize("answer", [WITHOUT_CLOCK, CLOCK_LATER], ids=["never", "later than the rest"])
+def test_a_controller_may_hear_the_clock(
+    tmp_path: Path, controller: StartController, sim: StartSimulator, answer: str
+) -> None:
+    code = write(tmp_path / "mine.py", TAKES_THE_WALL_CLOCK.format(answer=answer))
+    controller(f"/usr/bin/python3 {code}")
+    tricycle = sim("tricycle", lockstep=["/speed"])
+    tricycle.run(0.5)
+    assert tricycle.time == pytest.approx(0.5)
 
 
 def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartController, sim: StartSimulator) -> None:

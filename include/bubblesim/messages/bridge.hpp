@@ -106,6 +106,8 @@ class Bridge {
 
   /// Time that messages should be stamped with: the simulation's when /use_sim_time is set, else the wall clock's.
   virtual BridgeTime now() const = 0;
+  /// Whether another node hears what this one publishes on /clock; true when nodes take the wall clock's time.
+  virtual bool clock_reaches_others() const = 0;
 };
 
 }  // namespace bubblesim::messages

@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
 import sys
 from collections.abc import Sequence
 
-from bubblesim._core import SceneError
-from bubblesim.cli import api, check, doctor, new_scene, run, scenes, test
 from bubblesim.running.processes import RunError
 
-_COMMANDS = (run, scenes, new_scene, check, api, test, doctor)
+_COMMANDS = ("run", "scenes", "new-scene", "check", "api", "test", "doctor")
 _FINE, _FAILED, _BAD_INPUT = 0, 1, 2
 
 _DESCRIPTION = """\
@@ -40,17 +39,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         allow_abbrev=False,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in _COMMANDS:
-        command.add_parser(commands)
-    options, others = parser.parse_known_args(arguments)
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    # The one that is meant is enough: what some of them need takes long to load.
+    for command in given[:1] if given[:1] and given[0] in _COMMANDS else _COMMANDS:
+        importlib.import_module(f"bubblesim.cli.{command.replace('-', '_')}").add_parser(commands)
+    options, others = parser.parse_known_args(given)
     if others and "other_options" not in options:
         options.parser.error(f"unrecognized arguments: {' '.join(others)}")
     options.other_options = others
-    options.all_arguments = list(sys.argv[1:] if arguments is None else arguments)
+    options.all_arguments = given
     try:
         code: int = options.command(options)
         sys.stdout.flush()
-    except (SceneError, ValueError) as error:
+    except ValueError as error:  # those about scenes among them
         print(f"error: {error}", file=sys.stderr)
         return _BAD_INPUT
     except RunError as error:

@@ -14,6 +14,9 @@ _LATE = 5.0  # s
 # For so long nothing may have changed among the connections before the first pass: who makes its publishers first may
 # still be about to subscribe.
 _SETTLED = 0.4
+# A node on simulated time listens to /clock, too, and may take it for silence when the first that it hears is late. One
+# that does not care for the time is waited for longer, in case it does.
+_SETTLED_WITHOUT_CLOCK = 2.0
 _POLL = 0.0002  # s
 
 
@@ -21,7 +24,7 @@ class LockStep:
     """An observer of a bridge. A pass is answered when each of the topics has brought a message since it ended.
 
     In the very first pass scripts make their topics. Before the next one a publisher of each topic must be connected,
-    and a subscriber of something that scripts publish.
+    a subscriber of something that scripts publish, and one of /clock.
     """
 
     def __init__(self, topics: list[str], bridge: Any, simulation: Any) -> None:
@@ -121,11 +124,12 @@ class LockStep:
         listened = [self._wanted(publisher) for publisher in self._publishers]
         if self._topics - heard.keys() or not all(heard.values()) or not any(listened):
             return False
-        connections = heard, listened
+        clock = self._bridge.clock_reaches_others()
+        connections = heard, listened, clock
         now = time.monotonic()
         if connections != self._connections:
             self._connections, self._settled_at = connections, now
-        return now - self._settled_at >= _SETTLED
+        return now - self._settled_at >= (_SETTLED if clock else _SETTLED_WITHOUT_CLOCK)
 
     def _wanted(self, publisher: int) -> bool:
         try:

@@ -46,7 +46,7 @@ def provide_master(programs: Programs, stop: Stop) -> bool:
     if not rosgraph.network.is_local_address(uri.hostname or ""):
         raise RunError(f"no master answers at {uri.geturl()}: start it there, or unset ROS_MASTER_URI")
     print(f"starting a roscore, as none answers at {uri.geturl()}", file=sys.stderr, flush=True)
-    programs.start("roscore", "roscore", "-p", str(uri.port or 11311))
+    programs.start("roscore", "roscore", "-p", str(uri.port or 11311), serves_others=True)
     wait_for(rosgraph.is_master_online, f"the master at {uri.geturl()}", programs, stop)
     return True
 

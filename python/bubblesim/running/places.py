@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 
-from bubblesim import _core
 from bubblesim.running.processes import RunError
 
 
 def node_program() -> Path:
     """The simulator's node, <prefix>/lib/bubblesim/sim, of the build that this Python package belongs to."""
     # The module lies in <prefix>/lib/python3/dist-packages/bubblesim.
-    program = Path(_core.__file__).parents[3] / "bubblesim" / "sim"
+    core = importlib.util.find_spec("bubblesim._core")  # without loading it
+    program = Path((core and core.origin) or "").parents[3] / "bubblesim" / "sim"
     if not program.is_file():
         raise RunError(f"the node is not built: there is no {program}; build the workspace with ROS")
     return program

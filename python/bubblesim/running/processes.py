@@ -11,7 +11,8 @@ from pathlib import Path
 from types import TracebackType
 
 # s that each has to take effect; a roscore itself waits 15 s for its master, which outlives it when it is cut short.
-_PATIENCE = {signal.SIGINT: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
+_POLITE = signal.SIGINT
+_PATIENCE = {_POLITE: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
 
 
 class RunError(Exception):
@@ -21,11 +22,12 @@ class RunError(Exception):
 class Program:
     """A running program in a process group of its own, its output in a file or where ours goes."""
 
-    def __init__(self, name: str, command: list[str], log: Path | None) -> None:
+    def __init__(self, name: str, command: list[str], log: Path | None, *, serves_others: bool = False) -> None:
         """Starts it; `name` is what messages call it. RunError when it is not there."""
         self.name = name
+        self.serves_others = serves_others
         self._log = log
-        self._stopped = False
+        self._asked = self._stopped = False
         with contextlib.ExitStack() as files:
             output = files.enter_context(log.open("w")) if log else None
             try:
@@ -54,12 +56,20 @@ class Program:
             said = "; it said:" + "".join(f"\n  {line}" for line in last_words)
         raise RunError(f"the {self.name} ended with exit code {self.exit_code}{said}")
 
+    def ask_to_end(self) -> None:
+        """What `stop` begins with, without waiting."""
+        self._asked = self._stopped = True
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, _POLITE)
+
     def stop(self) -> None:
         """Ends the whole group, politely first."""
-        self._stopped = True
+        if not self._asked:
+            self.ask_to_end()
         for number, patience in _PATIENCE.items():
             try:
-                os.killpg(self._process.pid, number)
+                if number != _POLITE:
+                    os.killpg(self._process.pid, number)
                 self._process.wait(patience)
                 break
             except (ProcessLookupError, subprocess.TimeoutExpired):
@@ -69,17 +79,21 @@ class Program:
 
 
 class Programs:
-    """All of them; as a context manager it ends them with the block, the last one first."""
+    """All of them; as a context manager it ends them with the block: at once, then those that the others need."""
 
     def __init__(self, log_folder: Path) -> None:
         """Nothing runs yet."""
         self._log_folder = log_folder
         self.running: list[Program] = []
 
-    def start(self, name: str, *command: str, shown: bool = False) -> Program:
-        """Starts a program, which `check` watches from now on; `shown`: its output goes where ours goes."""
+    def start(self, name: str, *command: str, shown: bool = False, serves_others: bool = False) -> Program:
+        """Starts a program, which `check` watches from now on.
+
+        :param shown: its output goes where ours goes.
+        :param serves_others: it ends after the others, as a ROS master should.
+        """
         log = None if shown else self._log_folder / f"{name.replace(' ', '_')}.log"
-        program = Program(name, list(command), log)
+        program = Program(name, list(command), log, serves_others=serves_others)
         self.running.append(program)
         return program
 
@@ -96,5 +110,10 @@ class Programs:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         """Ends all programs."""
-        while self.running:
-            self.running.pop().stop()
+        for serving in (False, True):
+            ending = [program for program in self.running if program.serves_others == serving]
+            for program in ending:
+                program.ask_to_end()
+            for program in ending:
+                program.stop()
+        self.running.clear()

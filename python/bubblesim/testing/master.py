@@ -55,7 +55,7 @@ def start_master(programs: Programs) -> Master:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     master = Master(f"http://localhost:{port}")
-    programs.start("ROS master", "rosmaster", "--core", "-p", str(port))
+    programs.start("ROS master", "rosmaster", "--core", "-p", str(port), serves_others=True)
     deadline = time.monotonic() + _PATIENCE
     while not master.answers():
         programs.check()

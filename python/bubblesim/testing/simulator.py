@@ -6,15 +6,18 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bubblesim.running.places import node_program
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.testing.master import Master
-from bubblesim.testing.service_client import ServiceClient
+
+if TYPE_CHECKING:
+    from bubblesim.testing.service_client import ServiceClient
 
 _NODE = "/sim_ros_interface"
 _PATIENCE = 30.0  # s
+_POLL = 0.03  # s; each look keeps the master from answering the nodes for some milliseconds
 _PASSES_IN_A_CALL = 200
 _TOLERANCE = 1e-6  # of a second
 
@@ -113,10 +116,12 @@ class Simulator:
         return answer
 
     def _client(self, name: str, service_type: str) -> ServiceClient:
+        from bubblesim.testing.service_client import ServiceClient  # takes its time, and so does the node meanwhile
+
         deadline = time.monotonic() + _PATIENCE
         while (address := self._master.find_service(f"{_NODE}/{name}")) is None:
             self._programs.check()
             if time.monotonic() > deadline:
                 raise RunError(f"the simulator does not offer its service {name}")
-            time.sleep(0.01)
+            time.sleep(_POLL)
         return ServiceClient(address, f"{_NODE}/{name}", service_type)
