@@ -150,22 +150,38 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     if getattr(function, "checked_on_failure", False):
         return call_first
 
-    @functools.wraps(function)
-    def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
+    def converted(arguments: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
         if reorder is not None:
             arguments = reorder(arguments)
         if named or not least <= len(arguments) <= most:
             arguments = _bound(full_name, signature, arguments, named)
         try:
-            taken = tuple(map(operator.call, converters, arguments))  # stops where defaults begin
+            return tuple(map(operator.call, converters, arguments))  # stops where defaults begin
         except (TypeError, ValueError, OverflowError):
             raise _argument_error(full_name, signature, kinds, arguments) from None
+
+    plain = _plain_types(kinds, least)
+
+    @functools.wraps(function)
+    def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
+        if named or tuple(map(type, arguments)) not in plain:
+            arguments = converted(arguments, named)
         if by_ident and not at_any_time and (thread := current()):
             with thread.turn():
-                return function(self, *taken)
-        return function(self, *taken)
+                return function(self, *arguments)
+        return function(self, *arguments)
 
     return call
+
+
+def _plain_types(kinds: list[Kind | None], least: int) -> set[tuple[type, ...]]:
+    """The types of arguments, at least so many, that a function takes as they are: most calls are of these."""
+    types: list[type] = []
+    for kind in kinds:
+        if kind is None or kind.plain is None:
+            break
+        types.append(kind.plain)
+    return {tuple(types[:count]) for count in range(least, len(types) + 1)}
 
 
 def _fit(kinds: list[Kind | None], arguments: tuple[Any, ...]) -> bool:

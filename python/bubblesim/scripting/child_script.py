@@ -228,6 +228,7 @@ class ChildScript:
         write_line(sys.stderr, text)
         self.host.failures += 1
         self.failed = True
+        self.host.count_disabled()
         self._end()
 
     def _end(self) -> None:

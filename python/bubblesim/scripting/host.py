@@ -49,6 +49,7 @@ class ScriptHost:
         self.search_paths = search_paths
         self.lua_unsafe = lua_unsafe
         self.failures = 0
+        self.disabled = 0  # of the scripts that are loaded now, how many have failed
         self.calls = 0  # of scripts, so far
         self.running_script: ChildScript | None = None
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
@@ -63,19 +64,22 @@ class ScriptHost:
         script_output.install()
         watchdog.start(self)
 
-    @property
-    def disabled(self) -> int:
-        """How many of the scripts that are loaded now have failed."""
-        return sum(script.failed for script in self.scripts)
-
     def start(self) -> None:
         """Load the scripts, from their files as they are now."""
-        self.scripts = [ChildScript(self, path, handle, file) for path, handle, file in self._placed]
+        self._keep([ChildScript(self, path, handle, file) for path, handle, file in self._placed])
+
+    def _keep(self, scripts: list[ChildScript]) -> None:
+        self.scripts = scripts
+        self.count_disabled()
+
+    def count_disabled(self) -> None:
+        """Bring ``disabled``, which the node reads in each pass, up to date."""
+        self.disabled = sum(script.failed for script in self.scripts)
 
     def stop(self) -> None:
         """End the scripts and forget them, with all that they left: signals, and files and sockets not closed."""
         self.finish()
-        self.scripts = []
+        self._keep([])
         self.signals.clear()
         gc.collect()  # the globals and functions of a script refer to each other
 
@@ -87,13 +91,13 @@ class ScriptHost:
         if self.simulation.state == _core.RunState.STOPPED:
             return
         loaded = [*self.scripts, ChildScript(self, path, handle, Path(file))]
-        self.scripts = sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle))
+        self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
 
     def end_scripts_of(self, model: int) -> None:
         """Call sysCall_cleanup of the scripts of a model that is about to leave the world, and forget them."""
         ending = self._scripts_of(model)
         _finish(ending)
-        self.scripts = [script for script in self.scripts if script not in ending]
+        self._keep([script for script in self.scripts if script not in ending])
         model_of = self.simulation.world.outermost_model_of
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
 
@@ -150,6 +154,7 @@ class ScriptHost:
                 write_line(sys.stderr, f"info: the child script of {script.object_path} was edited: it starts again")
                 _finish([script])
                 self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
+                self.count_disabled()
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts."""

@@ -16,6 +16,7 @@ class Kind:
 
     words: str
     convert: Callable[[Any], Any]  # raises TypeError or ValueError for what it does not take
+    plain: type | None = None  # what convert() returns as it is; None when there is no such type
 
 
 class MismatchError(ValueError):
@@ -90,12 +91,12 @@ def _integer(value: Any) -> int:
     return operator.index(value)
 
 
-NUMBER = Kind("a number", _number)
-INTEGER = Kind("an integer", _integer)
-TEXT = Kind("a text", _text)
-FLAG = Kind("true or false", _flag)
+NUMBER = Kind("a number", _number, float)
+INTEGER = Kind("an integer", _integer, int)
+TEXT = Kind("a text", _text, str)
+FLAG = Kind("true or false", _flag, bool)
 
-Handle = Annotated[int, Kind("the handle of an object, an integer", _integer)]
+Handle = Annotated[int, Kind("the handle of an object, an integer", _integer, int)]
 Vector3 = Annotated[list[float], numbers(3)]
 Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]
