@@ -128,14 +128,15 @@ def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
     return found
 
 
-def processes_with(text: str) -> list[str]:
-    """Command lines of running processes that contain `text`."""
+def processes_with(text: str, *, started_by: Node | None = None) -> list[str]:
+    """Command lines of running processes that contain `text`; only those that a node has started, if it is given."""
     found = []
-    for file in Path("/proc").glob("[0-9]*/cmdline"):
+    for folder in Path("/proc").glob("[0-9]*"):
         try:
-            command = file.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            command = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            session = int((folder / "stat").read_text().rpartition(")")[2].split()[3])
         except OSError:
             continue  # ended meanwhile
-        if text in command:
+        if text in command and (started_by is None or session == started_by.process.pid):
             found.append(command)
     return found

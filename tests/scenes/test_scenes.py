@@ -98,6 +98,7 @@ def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node
     wait_until(lambda: any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client")
     topic = next(name for name in roscore.state()["subscribers"] if name.startswith("/leftMotorSpeed"))
     assert "messages: " in echo(roscore, "/notifications")
+    assert processes_with(f"rosBubbleRob {topic[1:]}", started_by=running)
     human = start(["rostopic", "pub", topic, "std_msgs/Float32", "data: 1.0"], roscore.env)
     try:
         wait_until(lambda: "drives now" in running.output, "the client to yield")
@@ -109,7 +110,7 @@ def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node
     finally:
         stop(human)
     assert running.end() == 0
-    assert processes_with(f"rosBubbleRob {topic[1:]}") == []
+    assert processes_with("rosBubbleRob", started_by=running) == []
     wait_until(lambda: not any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client to leave")
 
 
