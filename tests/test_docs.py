@@ -3,7 +3,8 @@
 
 A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->, which takes a topic when its
 scene has no /tf: <!-- in another terminal: COMMAND, until there is TOPIC -->. Blocks marked console are for
-the reader only. Python blocks that are parts of a child script are run as one where the page says SCRIPTS_RUN.
+the reader only. Python blocks that are parts of a child script are run as one where the page says SCRIPTS_RUN, those of
+ROS nodes beside the simulator.
 """
 
 import re
@@ -22,13 +23,14 @@ BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
 CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
-SCRIPTS_RUN = "<!-- the child scripts of this page run by themselves -->"
+ROS_NODE = "import rospy"
+SCRIPTS_RUN = re.compile(r"<!-- the child scripts of this page run by themselves(?: in (\w+) for (\S+))? -->")
 
 PYTHON_ENDS_ALONE = [
     (page, code)
     for page in PAGES
     for language, code in BLOCK.findall(page.read_text())
-    if language == "python" and CHILD_SCRIPT not in code
+    if language == "python" and CHILD_SCRIPT not in code and ROS_NODE not in code
 ]
 WITH_BASH = [page for page in PAGES if any(language == "bash" for language, _ in BLOCK.findall(page.read_text()))]
 
@@ -67,6 +69,22 @@ def test_bash_blocks_run(simulator: RosCore, page: Path) -> None:
                 assert run.returncode == 0, f"{command}\n{run.stdout}{run.stderr}"
 
 
+def is_node(language: str, code: str) -> bool:
+    return language == "python" and ROS_NODE in code
+
+
+WITH_NODES = [page for page in PAGES if any(is_node(*block) for block in BLOCK.findall(page.read_text()))]
+
+
+@pytest.mark.parametrize(("simulator", "page"), [(page, page) for page in WITH_NODES], indirect=["simulator"], ids=name)
+def test_nodes_run_until_they_are_ended(simulator: RosCore, page: Path, tmp_path: Path) -> None:
+    for language, code in BLOCK.findall(page.read_text()):
+        if is_node(language, code):
+            command = ["timeout", "--signal=INT", "5", "/usr/bin/python3", str(write(tmp_path / "node.py", code))]
+            run = subprocess.run(command, env=simulator.env, capture_output=True, text=True, timeout=60, check=False)
+            assert (run.returncode, "Error" in run.stderr) == (124, False), f"{code}\n{run.stdout}{run.stderr}"
+
+
 @pytest.mark.parametrize(("page", "code"), PYTHON_ENDS_ALONE)
 def test_python_blocks_run(page: Path, code: str) -> None:
     subprocess.run([sys.executable, "-c", code], cwd=REPOSITORY, check=True, timeout=60)
@@ -78,13 +96,17 @@ def test_lua_blocks_run(tmp_path: Path, page: Path, code: str) -> None:
     assert (run.stderr, run.returncode) == ("", 0)
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if SCRIPTS_RUN in page.read_text()], ids=name)
+@pytest.mark.parametrize("page", [page for page in PAGES if SCRIPTS_RUN.search(page.read_text())], ids=name)
 def test_child_scripts_run(roscore: RosCore, tmp_path: Path, page: Path) -> None:
+    told = SCRIPTS_RUN.search(page.read_text())
+    assert told
+    scene, model = told[1] or "ball", told[2] or "/Ball"
     scripts = [code for language, code in BLOCK.findall(page.read_text()) if language == "python"]
+    scripts = [code for code in scripts if CHILD_SCRIPT in code]
     assert scripts
     for code in scripts:
         script = write(tmp_path / "script.py", code)
-        run = run_sim("ball", "--strict", "--until", 0.5, "--child-script", f"/Ball={script}", env=roscore.env)
+        run = run_sim(scene, "--strict", "--until", 0.5, "--child-script", f"{model}={script}", env=roscore.env)
         assert (run.returncode, "warning" in run.stderr) == (0, False), f"{code}\n{run.stderr}"
 
 
