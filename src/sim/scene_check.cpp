@@ -13,6 +13,9 @@
 namespace bubblesim {
 namespace {
 
+/// Determinant of an inertia beside that of a ball of the same trace: a wire of a metre and 0.1 mm has 1e-7.
+constexpr double kFlat = 1e-13;
+
 /// Paths must be able to tell it.
 void check_name(Checker& checker, const std::string& name) {
   if (name.empty()) checker.report("the model has no name");
@@ -23,11 +26,13 @@ void check_inertia(Checker& checker, const LinkDescription& link) {
   const Vector3& d = link.inertia_diagonal;
   const Vector3& p = link.inertia_products;  // xy, xz, yz
   checker.require(within(link.centre_of_mass, kMaxSize), "the centre of mass", text(link.centre_of_mass), "finite");
-  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive.
+  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive. One that is
+  // so by rounding only is taken for flat.
   const double minor2 = d.X() * d.Y() - p.X() * p.X();
   const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
                              p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
-  checker.require(within(d, 1e9) && within(p, 1e9) && d.X() > 0 && minor2 > 0 && determinant > 0, "the inertia",
+  const double least = kFlat * std::pow(d.Sum() / 3, 3);
+  checker.require(within(d, 1e9) && within(p, 1e9) && d.X() > 0 && minor2 > 0 && determinant > least, "the inertia",
                   "ixx iyy izz " + text(d) + ", ixy ixz iyz " + text(p), "a positive definite matrix");
 }
 

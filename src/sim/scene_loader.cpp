@@ -13,6 +13,7 @@
 #include "checks.hpp"
 #include "model_folders.hpp"
 #include "own_elements.hpp"
+#include "parser_messages.hpp"
 #include "scene_check.hpp"
 #include "scene_folders.hpp"
 #include "scene_reading.hpp"
@@ -96,23 +97,33 @@ class SceneLoader {
   sdf::ParserConfig parser_config() const {
     sdf::ParserConfig config;
     config.SetFindCallback([this](const std::string& uri) { return find_model(uri, reading_.folder()).string(); });
-    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
-    config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
+    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);  // so that the reading hears of them
     return config;
   }
 
   template <class Load>
   void parse(const Load& load, sdf::Root& root) {
     try {
-      if (reading_.xml().is_urdf()) {
-        load_urdf(root, parser_config(), reading_);
-      } else {
-        reading_.take(without_urdf_messages([&] { return load(parser_config()); }), "");
-      }
+      const ParserMessages messages;
+      const bool is_urdf = reading_.xml().is_urdf();
+      const sdf::Errors errors = is_urdf ? load_urdf(root, parser_config(), reading_) : load(parser_config());
+      const bool failed = root.Model() == nullptr && root.Light() == nullptr && root.WorldCount() == 0;
+      take_messages(is_urdf ? messages.of_urdf() : std::vector<std::string>{}, failed);
+      if (problems_.empty()) reading_.take(errors, "");
+      take_messages(messages.of_sdformat(), false);
     } catch (const SceneError&) {
       throw;
     } catch (const std::exception& error) {  // its assertions, and numbers that it did not expect
       reading_.report({reading_.xml().file(), 0}, "", std::string("SDFormat cannot read it: ") + error.what());
+    }
+  }
+
+  /// What no error says. Problems when nothing can be had of the file.
+  void take_messages(const std::vector<std::string>& messages, bool failed) {
+    const Source file{reading_.xml().file(), 0};
+    for (const std::string& message : messages) {
+      if (failed) reading_.report(file, "", message);
+      if (!failed && problems_.empty()) SceneReading::warn(file, "", message);
     }
   }
 

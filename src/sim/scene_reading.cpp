@@ -2,6 +2,7 @@
 #include "scene_reading.hpp"
 
 #include <cstdio>
+#include <regex>
 #include <utility>
 
 #include "model_folders.hpp"
@@ -17,12 +18,30 @@ void SceneReading::warn(const Source& source, const std::string& object, std::st
   std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
 }
 
+namespace {
+
+/// SDFormat keeps elements that it does not know; they mean nothing. Rewords what it says of them.
+bool is_unknown_element(Problem& problem) {
+  static const std::regex pattern(R"(XML Element\[([^\]]*)\], child of element\[([^\]]*)\], not defined in SDF.*)");
+  std::smatch match;
+  if (!std::regex_search(problem.message, match, pattern)) return false;
+  const std::string reworded = "<" + match.str(1) + "> is no element of <" + match.str(2) + ">: it is left out";
+  problem.message = reworded;
+  return true;
+}
+
+}  // namespace
+
 void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
   // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is enough.
   if (!object.empty() && frames_broken_) return;
   for (Problem& problem : xml_.located(errors, object)) {
     if (problem.message.rfind("Root object can only contain one model", 0) == 0) {
       warn({problem.file, problem.line}, "", "holds several models: the first one is taken");
+      continue;
+    }
+    if (is_unknown_element(problem)) {
+      warn({problem.file, problem.line}, problem.object, problem.message);
       continue;
     }
     if (object.empty()) frames_broken_ = true;

@@ -182,7 +182,9 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     // Many models have moments of inertia that belong to no body. ODE moves them all the same, as long as they are
     // positive definite, and the scene check tells whether they are.
     // Whoever reads the sensor tells of a type that is not known.
-    if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID ||
+    // Whoever reads the link tells of shapes that share a name.
+    static const std::regex namesake("(collision|visual) with name ?\\[.*\\] already exists.*");
+    if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID || std::regex_match(error.Message(), namesake) ||
         error.Message().rfind("Attempting to load a Sensor, but the provided sensor type", 0) == 0) {
       harmless = true;
       continue;

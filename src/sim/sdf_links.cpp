@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sdf_links.hpp"
 
+#include <map>
 #include <optional>
 #include <sdf/Collision.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Visual.hh>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "meshes/mesh_error.hpp"
 #include "sdf_geometry.hpp"
@@ -19,7 +23,7 @@ namespace bubblesim {
 namespace {
 
 constexpr double kBallRadius = 0.1;  // m
-constexpr double kThin = 1e-3;       // m, of a plane that can move and thus ends somewhere
+constexpr double kThin = 1e-3;       // m, of what has no thickness
 
 Quaternion turn_from_z(const Vector3& direction) {
   Quaternion turn;
@@ -27,13 +31,33 @@ Quaternion turn_from_z(const Vector3& direction) {
   return turn;
 }
 
-std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const std::string& link_path,
-                                                   SceneReading& reading) {
+/// SDFormat drops shapes that are named as another one of their link; Gazebo keeps them. Their names here get numbers.
+template <class Shape>
+std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, const std::string& link_path) {
+  std::vector<Shape> found;
+  std::map<std::string, int> known;
+  if (!link->HasElement(kind)) return found;
+  for (auto element = link->GetElement(kind); element != nullptr; element = element->GetNextElement(kind)) {
+    const auto name = element->Get<std::string>("name");
+    const int number = ++known[name];
+    if (number == 1) continue;
+    Shape shape;
+    shape.Load(element);  // what is wrong with it was told when the file was read
+    shape.SetName(name + "_" + std::to_string(number));
+    SceneReading::warn(source_of(element), link_path + "/" + shape.Name(),
+                       "is named so, as another one has the name '" + name + "'");
+    found.push_back(std::move(shape));
+  }
+  return found;
+}
+
+std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const Pose& pose,
+                                                   const std::string& link_path, SceneReading& reading) {
   CollisionDescription description;
   description.name = collision.Name();
   description.source = source_of(collision.Element());
   const std::string path = link_path + "/" + collision.Name();
-  description.pose = reading.resolved(collision, path);
+  description.pose = pose;
   try {
     const auto geometry = read_geometry(*collision.Geom(), reading.folder());
     if (!geometry) return std::nullopt;
@@ -46,9 +70,24 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
   return description;
 }
 
+/// What is only seen may be flat.
+void thicken(Geometry& geometry) {
+  const auto thick = [](double& length) {
+    if (length == 0) length = kThin;
+  };
+  if (auto* box = std::get_if<Box>(&geometry)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) thick(box->size[axis]);
+  } else if (auto* sphere = std::get_if<Sphere>(&geometry)) {
+    thick(sphere->radius);
+  } else if (auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    thick(cylinder->radius);
+    thick(cylinder->length);
+  }
+}
+
 /// A visual whose shape cannot be had is replaced by the link's collision shapes, in its colour.
-void read_visual(const sdf::Visual& visual, const std::string& link_path, bool is_static, LinkDescription& link,
-                 SceneReading& reading) {
+void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string& link_path, bool is_static,
+                 LinkDescription& link, SceneReading& reading) {
   VisualDescription description;
   description.name = visual.Name();
   description.source = source_of(visual.Element());
@@ -62,8 +101,9 @@ void read_visual(const sdf::Visual& visual, const std::string& link_path, bool i
   try {
     const auto geometry = read_geometry(*visual.Geom(), reading.folder());
     if (!geometry) return;
-    description.pose = reading.resolved(visual, path);
+    description.pose = pose;
     description.geometry = *geometry;
+    thicken(description.geometry);
     if (const auto* plane = visual.Geom()->PlaneShape(); plane != nullptr && !is_static) {
       description.geometry = Box{{plane->Size().X(), plane->Size().Y(), kThin}};
       description.pose.Rot() = description.pose.Rot() * turn_from_z(plane->Normal());
@@ -107,10 +147,20 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   if (!is_static && description.mass > 0 && is_zero) give_inertia(description, path);
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
     const sdf::Collision& collision = *link.CollisionByIndex(i);
-    if (auto read = read_collision(collision, path, reading)) description.collisions.push_back(std::move(*read));
+    const Pose pose = reading.resolved(collision, path + "/" + collision.Name());
+    if (auto read = read_collision(collision, pose, path, reading)) description.collisions.push_back(std::move(*read));
   }
-  for (std::uint64_t i = 0; i < link.VisualCount(); ++i)
-    read_visual(*link.VisualByIndex(i), path, is_static, description, reading);
+  for (const auto& collision : namesakes<sdf::Collision>(link.Element(), "collision", path)) {
+    auto read = read_collision(collision, collision.RawPose(), path, reading);
+    if (read) description.collisions.push_back(std::move(*read));
+  }
+  for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
+    const sdf::Visual& visual = *link.VisualByIndex(i);
+    read_visual(visual, reading.resolved(visual, path + "/" + visual.Name()), path, is_static, description, reading);
+  }
+  for (const auto& visual : namesakes<sdf::Visual>(link.Element(), "visual", path)) {
+    read_visual(visual, visual.RawPose(), path, is_static, description, reading);
+  }
   for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
     const sdf::Light& light = *link.LightByIndex(i);
     description.lights.push_back(read_light(light, reading.resolved(light, path + "/" + light.Name())));

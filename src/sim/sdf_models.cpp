@@ -110,12 +110,22 @@ class ModelReader {
   SceneReading& reading_;
 };
 
+/// Names that hold what separates them in paths could not be told from several.
+std::string name_in_paths(const sdf::Model& model) {
+  std::string name = model.Name();
+  if (name.find('/') == std::string::npos) return name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  SceneReading::warn(source_of(model.Element()), "/" + name, "is named so, as '/' separates names in paths");
+  return name;
+}
+
 }  // namespace
 
 ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading) {
-  const std::string path = "/" + model.Name();
+  const std::string name = name_in_paths(model);
+  const std::string path = "/" + name;
   ModelDescription description;
-  description.name = model.Name();
+  description.name = name;
   description.pose = pose;
   description.is_static = model.Static();
   description.self_collide = model.SelfCollide();

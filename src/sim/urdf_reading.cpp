@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urdf_reading.hpp"
 
-#include <console_bridge/console.h>
-
 #include <algorithm>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -19,9 +16,9 @@ using tinyxml2::XMLElement;
 
 // SDFormat says it of all files without a link, and URDF has links always.
 constexpr std::string_view kNoLink = "A model must have at least one link";
-constexpr const char* kNoMass =
-    "no link that would be left has a mass: links without one are left out, and all that hangs on them by joints that "
-    "move; give the first one an <inertial>";
+constexpr const char* kNoOwnLink = "holds no <link> but the world";
+constexpr const char* kWorld = "world";
+constexpr int kMostLinks = 1000;  // one below the other
 
 void each(const XMLElement& parent, const char* name, const std::function<void(const XMLElement&)>& visit) {
   for (const auto* element = parent.FirstChildElement(name); element != nullptr;
@@ -72,45 +69,59 @@ void lump_massless(XMLElement& robot) {
   }
 }
 
+/// Whether it has mass once what fixed joints hold to it is one with it.
+bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
+  if (depth > kMostLinks) return false;  // links that carry each other, which SDFormat tells of
+  bool found = false;
+  each(robot, "link",
+       [&](const XMLElement& link) { found = found || (attribute(&link, "name") == name && !is_massless(link)); });
+  each(robot, "joint", [&](const XMLElement& joint) {
+    if (found || attribute(&joint, "type") != "fixed" || child_attribute(joint, "parent", "link") != name) return;
+    found = has_mass(robot, child_attribute(joint, "child", "link"), depth + 1);
+  });
+  return found;
+}
+
+/// A first link without mass would go, and the whole robot with it: nothing could move it, so the world holds it.
+void hold_massless_root(XMLElement& robot, const SceneReading& reading) {
+  std::set<std::string> children;
+  each(robot, "joint", [&](const XMLElement& joint) { children.insert(child_attribute(joint, "child", "link")); });
+  auto* root = robot.FirstChildElement("link");
+  while (root != nullptr && children.count(attribute(root, "name")) > 0) root = root->NextSiblingElement("link");
+  const std::string name = attribute(root, "name");
+  if (root == nullptr || name == kWorld || has_mass(robot, name)) return;
+  SceneReading::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
+                     "has no mass, so that nothing can move it: it is fixed to the world; give it an <inertial> if it "
+                     "is to move");
+  if (auto* inertial = root->FirstChildElement("inertial")) root->DeleteChild(inertial);
+  auto* inertial = root->InsertNewChildElement("inertial");
+  inertial->InsertNewChildElement("mass")->SetAttribute("value", 1);
+  auto* inertia = inertial->InsertNewChildElement("inertia");
+  for (const char* moment : {"ixx", "iyy", "izz"}) inertia->SetAttribute(moment, 1);
+  for (const char* product : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(product, 0);
+  robot.InsertNewChildElement("link")->SetAttribute("name", kWorld);
+  auto* joint = robot.InsertNewChildElement("joint");
+  joint->SetAttribute("name", (std::string(kWorld) + "_holds_" + name).c_str());
+  joint->SetAttribute("type", "fixed");
+  joint->InsertNewChildElement("parent")->SetAttribute("link", kWorld);
+  joint->InsertNewChildElement("child")->SetAttribute("link", name.c_str());
+}
+
 /// The text that SDFormat is to read in place of the file's.
-std::string prepared(const tinyxml2::XMLDocument& file) {
+std::string prepared(const SceneReading& reading) {
   tinyxml2::XMLDocument document;
-  file.DeepCopy(&document);
+  reading.xml().document().DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
     // SDFormat knows no such joints and loses the pose of the link; finish_urdf() takes the joint away.
     if (lets_go(*joint)) joint->SetAttribute("type", "continuous");
   }
   lump_massless(robot);
+  hold_massless_root(robot, reading);
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
   return printer.CStr();
 }
-
-/// What the parser of URDF would write to stderr, as long as this lives.
-class ParserMessages final : public console_bridge::OutputHandler {
- public:
-  ParserMessages() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
-  ~ParserMessages() override { console_bridge::restorePreviousOutputHandler(); }
-  ParserMessages(const ParserMessages&) = delete;
-  ParserMessages& operator=(const ParserMessages&) = delete;
-
-  const std::vector<std::string>& messages() const { return messages_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level < console_bridge::CONSOLE_BRIDGE_LOG_WARN) return;
-    if (std::find(messages_.begin(), messages_.end(), text) == messages_.end()) messages_.push_back(text);
-  }
-
-  std::scoped_lock<std::mutex> lock_;
-  std::vector<std::string> messages_;
-};
 
 std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
   const auto* mimic = joint.FirstChildElement("mimic");
@@ -121,26 +132,12 @@ std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
 
 }  // namespace
 
-void load_urdf(sdf::Root& root, const sdf::ParserConfig& config, SceneReading& reading) {
-  const ParserMessages parser;
-  const sdf::Errors errors = root.LoadSdfString(prepared(reading.xml().document()), config);
-  const Source file{reading.xml().file(), 0};
-  if (!errors.empty() && root.Model() == nullptr && !parser.messages().empty()) {
-    for (const std::string& message : parser.messages()) reading.report(file, "", message);
-    return;
+sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const SceneReading& reading) {
+  sdf::Errors errors = root.LoadSdfString(prepared(reading), config);
+  for (sdf::Error& error : errors) {
+    if (error.Message().find(kNoLink) != std::string::npos) error = sdf::Error(error.Code(), kNoOwnLink);
   }
-  for (const std::string& message : parser.messages()) SceneReading::warn(file, "", message);
-  const std::size_t before = reading.problems().size();
-  reading.take(errors, "");
-  for (std::size_t i = before; i < reading.problems().size(); ++i) {
-    std::string& message = reading.problems()[i].message;
-    if (message.find(kNoLink) != std::string::npos) message = kNoMass;
-  }
-}
-
-sdf::Errors without_urdf_messages(const std::function<sdf::Errors()>& load) {
-  const ParserMessages unheard;
-  return load();
+  return errors;
 }
 
 void finish_urdf(ModelDescription& model, SceneReading& reading) {

@@ -4,7 +4,6 @@
 
 #include <tinyxml2.h>
 
-#include <functional>
 #include <sdf/Error.hh>
 #include <sdf/ParserConfig.hh>
 #include <sdf/Root.hh>
@@ -15,11 +14,8 @@
 
 namespace bubblesim {
 
-/// Reads a <robot>, with what its parser says against it among the problems of the reading.
-void load_urdf(sdf::Root& root, const sdf::ParserConfig& config, SceneReading& reading);
-
-/// What `load` returns; the parser of URDF, which SDFormat tries on what it cannot read, does not write to stderr.
-sdf::Errors without_urdf_messages(const std::function<sdf::Errors()>& load);
+/// Reads the <robot> of a reading.
+sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const SceneReading& reading);
 
 /// Lets go what <joint type="floating"> and "planar" hold, takes mimics over, and tells of all joints that SDFormat
 /// left out. For a model of which load_urdf() made the root.

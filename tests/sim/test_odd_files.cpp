@@ -110,6 +110,48 @@ TEST(Inertia, OfZeroIsReplaced) {
   EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal, Vector3::One * 0.008);
 }
 
+TEST(Inertia, ThatIsPositiveByRoundingOnlyIsRefused) {
+  EXPECT_TRUE(holds(complaint(in_world(
+                        "<model name='m'><link name='l'><inertial><mass>1</mass><inertia><ixx>0.2125</ixx><iyy>0.205"
+                        "</iyy><izz>0.0125</izz><ixy>-0.005</ixy><ixz>0.0225</ixz><iyz>0.045</iyz></inertia></inertial>"
+                        "</link></model>")),
+                    "it must be a positive definite matrix"));
+}
+
+TEST(Shapes, OfOneNameAreAllKept) {
+  const auto part = [&](const std::string& kind, const std::string& height) {
+    return "<" + kind + " name='s'><pose>0 0 " + height +
+           " 0 0 0</pose><geometry><sphere><radius>1</radius></sphere></geometry></" + kind + ">";
+  };
+  const SceneDescription scene =
+      loaded(in_world("<model name='m'><link name='l'>" + part("collision", "1") + part("collision", "2") +
+                      part("visual", "3") + part("visual", "4") + "</link></model>"));
+  const LinkDescription& link = the_robot(scene).links[0];
+  ASSERT_EQ(link.collisions.size(), 2U);
+  EXPECT_EQ(link.collisions[1].name, "s_2");
+  EXPECT_EQ(link.collisions[1].pose.Pos(), Vector3(0, 0, 2));
+  ASSERT_EQ(link.visuals.size(), 2U);
+  EXPECT_EQ(link.visuals[1].pose.Pos(), Vector3(0, 0, 4));
+}
+
+TEST(Visual, MayBeFlat) {
+  const SceneDescription scene = loaded(
+      in_world("<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 0</size></box></geometry>"
+               "</visual></link></model>"));
+  EXPECT_EQ(std::get<Box>(the_robot(scene).links[0].visuals[0].geometry).size, Vector3(1, 1, 0.001));
+}
+
+TEST(Model, NamedWithASlashGetsANameForPaths) {
+  EXPECT_EQ(the_robot(loaded(in_world("<model name='a/b'><link name='l'/></model>"))).name, "a_b");
+}
+
+TEST(Elements, ThatSdformatDoesNotKnowAreTold) {
+  testing::internal::CaptureStderr();
+  loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>");
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(holds(told, "odd.sdf:3: <contact> is no element of <link>: it is left out\n")) << told;
+}
+
 TEST(SeveralModels, InAFileWithoutAWorldAreOne) {
   const SceneDescription scene = loaded(
       "<sdf version='1.4'><model name='m'><link name='l'/></model><model name='n'><link name='l'/></model></sdf>");
@@ -139,8 +181,17 @@ TEST(Urdf, LumpsLinksWithoutMassWhateverItIsAsked) {
   }
 }
 
-TEST(Urdf, OfMasslessLinksTellsSo) {
-  EXPECT_TRUE(holds(complaint(robot("<link name='a'/>"), "odd.urdf"), "no link that would be left has a mass"));
+TEST(Urdf, StandsWhenItsFirstLinkHasNoMass) {
+  const SceneDescription scene =
+      loaded(robot("<link name='a'/>" + heavy("b") + urdf_joint("continuous", "a", "b")), "odd.urdf");
+  World world(scene, 0);
+  world.advance(1, 0.005);
+  EXPECT_NEAR(world.pose(world.tree().find("/r/a")).Pos().Z(), 0, 1e-6);
+  EXPECT_NEAR(world.pose(world.tree().find("/r/b")).Pos().Z(), 2, 1e-3);
+}
+
+TEST(Urdf, WithoutALinkOfItsOwnTellsSo) {
+  EXPECT_TRUE(holds(complaint(robot("<link name='world'/>"), "odd.urdf"), "holds no <link> but the world"));
 }
 
 TEST(Urdf, RunsWithoutWhatHangsOnALinkWithoutMass) {

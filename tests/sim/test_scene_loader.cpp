@@ -301,7 +301,7 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
       {sphere_model("heavy"), "<data-string>:3: <mass> is 'heavy'"},
       {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
-      {"<robot name='r'><link name='l'/></robot>", "no link that would be left has a mass"},
+      {"<robot name='r'><link name='world'/></robot>", "holds no <link> but the world"},
       {"<robot/>", "<data-string>: No name given for the robot."},
   };
   for (const auto& [text, expected] : cases) {
