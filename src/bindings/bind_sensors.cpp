@@ -301,6 +301,16 @@ void bind_sensors(py::module_& module) {
       [](Simulation& s, ObjectId sensor) { return hold<NavSatReading>(s, sensor, s.read(sensor), "GPS receiver"); },
       "The receiver's last reading.");
   module.def(
+      "read_altimeter",
+      [](Simulation& s, ObjectId sensor) { return hold<AltimeterReading>(s, sensor, s.read(sensor), "altimeter"); },
+      "The altimeter's last reading.");
+  module.def(
+      "read_magnetometer",
+      [](Simulation& s, ObjectId sensor) {
+        return hold<MagnetometerReading>(s, sensor, s.read(sensor), "magnetometer");
+      },
+      "The magnetometer's last reading.");
+  module.def(
       "read_contacts",
       [](Simulation& s, ObjectId sensor) { return hold<ContactReading>(s, sensor, s.read(sensor), "contact sensor"); },
       "What the sensor's link last touched.");

@@ -36,7 +36,8 @@ void check_scan(Checker& checker, const char* what, const ScanAngles& scan, doub
   const std::string name = what;
   checker.require(scan.samples >= 1 && scan.samples <= kMaxSamples, "the number of " + name + " samples",
                   std::to_string(scan.samples), "1 to " + std::to_string(kMaxSamples));
-  checker.require(within(scan.min, reach) && within(scan.max, reach) && scan.min <= scan.max,
+  constexpr double kRounded = 1e-3;  // rad: files write 6.28319 for a turn and 1.5708 for a quarter
+  checker.require(within(scan.min, reach + kRounded) && within(scan.max, reach + kRounded) && scan.min <= scan.max,
                   "the range of " + name + " angles", text(scan.min) + " to " + text(scan.max) + " rad",
                   "from low to high, at most +-" + text(reach));
 }

@@ -2,7 +2,9 @@
 #include "model_folders.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
+#include <regex>
 #include <utility>
 
 #include "bubblesim/scene_loader.hpp"
@@ -41,6 +43,27 @@ fs::path find_in_package(const fs::path& name_and_rest, const fs::path& near) {
   return package.empty() ? fs::path() : find_in({package}, without_first(name_and_rest));
 }
 
+/// NAME or NAME/PATH of https://HOST/1.0/OWNER/models/NAME[/VERSION[/files/PATH]], as gz-sim's worlds name models of a
+/// server. Nothing for other URIs.
+std::optional<fs::path> of_server(const std::string& uri) {
+  if (!after("https://", uri) && !after("http://", uri)) return std::nullopt;
+  static const std::regex pattern("https?://.*/models/([^/]+)(/[^/]+/files/(.+)|/[^/]*)?/?");
+  std::smatch match;
+  if (!std::regex_match(uri, match, pattern)) return std::nullopt;
+  const std::string name = std::regex_replace(match.str(1), std::regex("%20"), " ");
+  return match.str(3).empty() ? fs::path(name) : fs::path(name) / match.str(3);
+}
+
+/// `Ground Plane` as most folders have it: ground_plane.
+fs::path as_folder(const fs::path& path) {
+  std::string name = path.begin()->string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char character) {
+    return character == ' ' ? '_' : static_cast<char>(std::tolower(character));
+  });
+  const fs::path rest = without_first(path);
+  return rest.empty() ? fs::path(name) : name / rest;
+}
+
 /// $(find NAME) as roslaunch and xacro have it: the package's folder. What is not found stays.
 std::string with_packages(std::string uri, const fs::path& near) {
   const std::string start = "$(find ";
@@ -56,7 +79,8 @@ std::string with_packages(std::string uri, const fs::path& near) {
 
 std::vector<fs::path> model_folders(const fs::path& scene_folder) {
   std::vector<fs::path> folders = {scene_folder, scene_folder / "models"};
-  for (const char* variable : {"BUBBLESIM_MODEL_PATH", "GAZEBO_MODEL_PATH"}) {
+  for (const char* variable : {"BUBBLESIM_MODEL_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH",
+                               "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"}) {
     for (fs::path& folder : folders_of(variable)) folders.push_back(std::move(folder));
   }
   folders.push_back(scene_folder.parent_path());
@@ -66,6 +90,10 @@ std::vector<fs::path> model_folders(const fs::path& scene_folder) {
 
 fs::path find_model(const std::string& given, const fs::path& scene_folder) {
   const std::string uri = with_packages(given, scene_folder);
+  if (const auto path = of_server(uri)) {
+    const fs::path found = find_in(model_folders(scene_folder), *path);
+    return found.empty() ? find_in(model_folders(scene_folder), as_folder(*path)) : found;
+  }
   if (const auto path = after("file://", uri)) return find_in(model_folders(scene_folder), *path);
   if (const auto in_package = after("package://", uri)) return find_in_package(*in_package, scene_folder);
   const auto of_model = after("model://", uri);

@@ -40,6 +40,10 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
       warn({problem.file, problem.line}, "", "holds several models: the first one is taken");
       continue;
     }
+    if (problem.message.rfind("light with name[", 0) == 0) {
+      warn({problem.file, problem.line}, "", problem.message + " The second one is left out.");
+      continue;
+    }
     if (is_unknown_element(problem)) {
       warn({problem.file, problem.line}, problem.object, problem.message);
       continue;

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <sdf/Material.hh>
+#include <sdf/Pbr.hh>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "material_scripts.hpp"
+#include "meshes/mesh_error.hpp"
+#include "meshes/picture.hpp"
 #include "model_folders.hpp"
 #include "named_materials.hpp"
 #include "own_elements.hpp"
@@ -39,6 +43,25 @@ std::optional<Material> scripted(const sdf::Material& material, SceneReading& re
   return named_material(material.ScriptName());
 }
 
+/// The picture that <pbr> gives for colours, as models for gz-sim have it.
+std::shared_ptr<const Texture> albedo(const sdf::Material& material, SceneReading& reading) {
+  const sdf::Pbr* pbr = material.PbrMaterial();
+  if (pbr == nullptr) return nullptr;
+  for (const auto type : {sdf::PbrWorkflowType::METAL, sdf::PbrWorkflowType::SPECULAR}) {
+    const sdf::PbrWorkflow* workflow = pbr->Workflow(type);
+    if (workflow == nullptr || workflow->AlbedoMap().empty()) continue;
+    const std::filesystem::path file =
+        find_resource(workflow->AlbedoMap(), material.Element()->FilePath(), reading.folder());
+    if (file.empty()) return nullptr;
+    try {
+      return read_texture(file);
+    } catch (const MeshError&) {
+      return nullptr;  // its other colours remain
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& reading) {
@@ -52,6 +75,11 @@ std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& r
     material.diffuse = to_color(described->Diffuse());
     material.texture = nullptr;
   }
+  const std::shared_ptr<const Texture> picture = albedo(*described, reading);
+  if (picture != nullptr) {
+    material.texture = picture;
+    material.diffuse = mean_color(*picture);
+  }
   if (element->HasElement("emissive")) material.emissive = to_color(described->Emissive());
   const auto checker_size = own_number(element, "bubblesim:checker_size", reading.problems());
   material.checker_size = checker_size.value_or(0);
@@ -59,7 +87,8 @@ std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& r
     material.checker_color = {static_cast<float>(color->X()), static_cast<float>(color->Y()),
                               static_cast<float>(color->Z())};
   }
-  return given || has_color || checker_size ? std::make_optional(std::move(material)) : std::nullopt;
+  return given || has_color || checker_size || picture != nullptr ? std::make_optional(std::move(material))
+                                                                  : std::nullopt;
 }
 
 void read_surroundings(const sdf::Scene& scene, Environment& environment) {

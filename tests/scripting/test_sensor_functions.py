@@ -47,6 +47,18 @@ def test_a_reading_has_the_time_of_its_measurement(tmp_path: Path) -> None:
     assert "[0.0, 0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3" in run.stdout
 
 
+def test_altimeters_and_magnetometers_are_read(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            height, velocity = sim.readAltimeter(sim.getObject('/Altimeter'))
+            assert (height, velocity) == (0.0, 0.0)
+            field = sim.readMagnetometer(sim.getObject('/Magnetometer'))
+            assert [round(part * 1e7) for part in field] == [56, 229, -424]  # the default; it looks along x
+        """
+    run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.1)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
 def test_random_numbers_follow_from_the_seed(tmp_path: Path) -> None:
     code = """\
         def sysCall_init():

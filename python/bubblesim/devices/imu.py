@@ -63,7 +63,7 @@ class LinkImu(Device):
         self._link = self.link("bodyName", self.default_body())
         self._frame = p.text(self.frame_parameter, self.world.name(self._link))
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
-        p.ignore("xyzOffset")
+        p.ignore("xyzOffset", "imu")
         noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
         self.noises = noise, noise  # of the angular velocity and of the acceleration
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)

@@ -28,7 +28,7 @@ class Parameters:
         """:param plugin: a ``bubblesim._core.PluginDescription``."""
         self.plugin = plugin
         self._found = {_key(parameter.name): parameter for parameter in reversed(plugin.parameters)}
-        self._asked: set[str] = {"ros_debug_level", "always_on"}
+        self._asked: set[str] = {"ros_debug_level", "always_on", "ignition::corrected_offsets"}
         self._problems: list[str] = []
         self.hints: list[str] = []
 

@@ -7,9 +7,11 @@ from typing import Any
 
 from bubblesim._core import (
     measure_proximity,
+    read_altimeter,
     read_contacts,
     read_force_torque,
     read_imu,
+    read_magnetometer,
     read_navsat,
     read_proximity,
     reading_time,
@@ -62,6 +64,16 @@ class SensorFunctions(ApiContext):
         """Latitude and longitude (degrees) with altitude (m above WGS84), and the velocity (m/s) east, north and up."""
         reading = read_navsat(self._simulation, self._resolve(sensor))
         return [reading.latitude, reading.longitude, reading.altitude], reading.velocity.tolist()
+
+    def readAltimeter(self, sensor: Handle) -> tuple[float, float]:
+        """Height (m) above where it came into the world, and velocity (m/s) upwards."""
+        reading = read_altimeter(self._simulation, self._resolve(sensor))
+        return reading.height, reading.velocity
+
+    def readMagnetometer(self, sensor: Handle) -> list[float]:
+        """The magnetic field (T) in the sensor's frame."""
+        field: list[float] = read_magnetometer(self._simulation, self._resolve(sensor)).field.tolist()
+        return field
 
     def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
         """What the sensor's link touched during the last pass, one for each pair of shapes; empty for nothing.

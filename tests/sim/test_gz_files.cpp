@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What worlds made for gz-sim, and robots as they are sold, hold.
+#include <gtest/gtest.h>
+
+#include "bubblesim/scene_loader.hpp"
+#include "scene_files.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test {
+namespace {
+
+SceneDescription loaded(const std::string& text) {
+  const TemporaryFile file("gz.sdf", text);
+  return load_scene(file.path());
+}
+
+TEST(ModelOfAServer, IsLookedForByItsName) {
+  const SceneDescription scene = loaded(
+      in_world("<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri></include>"
+               "<include><name>g2</name><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground%20Plane/2</uri>"
+               "</include>"));
+  ASSERT_EQ(scene.models.size(), 2U);
+  EXPECT_TRUE(scene.models[0].is_static);
+}
+
+TEST(PbrMaterial, GivesItsAlbedoMap) {
+  const TemporaryFile picture("albedo.ppm", std::string("P6 2 1 255\n\xff\0\0\0\xff\0", 17));
+  const TemporaryFile file("pbr.sdf",
+                           in_world("<model name='m'><static>1</static><link name='l'><visual name='v'>"
+                                    "<geometry><box><size>1 1 1</size></box></geometry><material><pbr><metal>"
+                                    "<albedo_map>albedo.ppm</albedo_map></metal></pbr></material></visual>"
+                                    "</link></model>"));
+  const Material material = load_scene(file.path()).models.at(0).links.at(0).visuals.at(0).material;
+  ASSERT_NE(material.texture, nullptr);
+  EXPECT_NEAR(material.diffuse.r, 0.5, 0.01);
+}
+
+TEST(Lidar, MayGoRoundByARoundedTurn) {
+  const SceneDescription scene = loaded(
+      in_world("<model name='m'><link name='l'><sensor name='s' type='ray'><ray><scan><horizontal><samples>9</samples>"
+               "<min_angle>0</min_angle><max_angle>6.28319</max_angle></horizontal><vertical><samples>3</samples>"
+               "<min_angle>-1.5708</min_angle><max_angle>1.5708</max_angle></vertical></scan><range><min>0.1</min>"
+               "<max>9</max></range></ray></sensor></link></model>"));
+  EXPECT_EQ(scene.models.at(0).links[0].sensors.size(), 1U);
+}
+
+TEST(Lights, OfOneNameAreOne) {
+  const std::string lamp = "<light name='sun' type='directional'/>";
+  EXPECT_EQ(loaded(in_world(lamp + lamp)).environment.lights.size(), 1U);
+}
+
+}  // namespace
+}  // namespace bubblesim::test
