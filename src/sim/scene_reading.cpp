@@ -30,6 +30,12 @@ bool is_unknown_element(Problem& problem) {
   return true;
 }
 
+/// Elements that SDFormat 1.10 and 1.11 brought, which the readers here know all the same.
+bool is_of_later_version(const std::string& message) {
+  return message.find("XML Element[mimic], child of element[axis") != std::string::npos ||
+         message.find("XML Element[screw_thread_pitch], child of element[joint]") != std::string::npos;
+}
+
 }  // namespace
 
 void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
@@ -44,6 +50,7 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
       warn({problem.file, problem.line}, "", problem.message + " The second one is left out.");
       continue;
     }
+    if (is_of_later_version(problem.message)) continue;
     if (is_unknown_element(problem)) {
       warn({problem.file, problem.line}, problem.object, problem.message);
       continue;

@@ -44,6 +44,21 @@ TEST(Lidar, MayGoRoundByARoundedTurn) {
   EXPECT_EQ(scene.models.at(0).links[0].sensors.size(), 1U);
 }
 
+TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
+  const auto joint = [](const std::string& name, const std::string& child, const std::string& more) {
+    return "<joint name='" + name + "' type='revolute'><parent>a</parent><child>" + child + "</child><axis><xyz>0 0 1" +
+           "</xyz>" + more + "</axis></joint>";
+  };
+  ::testing::internal::CaptureStderr();
+  const SceneDescription scene =
+      loaded("<sdf version='1.9'><world name='w'><model name='m'><link name='a'/><link name='b'/><link name='c'/>" +
+             joint("one", "b", "") + joint("two", "c", "<mimic joint='one'><multiplier>2</multiplier></mimic>") +
+             "</model></world></sdf>");
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(scene.models.at(0).joints.at(1).axes.at(0).mimic->multiplier, 2);
+  EXPECT_EQ(told.find("left out"), std::string::npos) << told;
+}
+
 TEST(Lights, OfOneNameAreOne) {
   const std::string lamp = "<light name='sun' type='directional'/>";
   EXPECT_EQ(loaded(in_world(lamp + lamp)).environment.lights.size(), 1U);
