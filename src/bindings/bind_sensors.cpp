@@ -1,41 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors measured, as numpy arrays that look into the measurement itself.
-#include <pybind11/numpy.h>
+// The functions that read sensors.
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <memory>
 #include <variant>
 
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
-#include "numpy_values.hpp"
+#include "held_readings.hpp"
 #include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {
 
 namespace py = pybind11;
-
-/// A measurement of one kind, kept as it is as long as Python holds it or an array of it.
-template <class Kind>
-struct Held {
-  std::shared_ptr<const Reading> reading;
-
-  const Kind& operator*() const { return std::get<Kind>(reading->measurement); }
-  const Kind* operator->() const { return &**this; }
-};
-
-using HeldScan = Held<LidarScan>;
-using HeldImage = Held<CameraImage>;
-using HeldImu = Held<ImuReading>;
-using HeldNavSat = Held<NavSatReading>;
-using HeldAltimeter = Held<AltimeterReading>;
-using HeldMagnetometer = Held<MagnetometerReading>;
-using HeldContacts = Held<ContactReading>;
-using HeldForceTorque = Held<ForceTorqueReading>;
 
 /// Throws NoSuchObject when the sensor measures something else.
 template <class Kind>
@@ -44,31 +24,6 @@ Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<c
   if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
   throw NoSuchObject(simulation.world().tree().short_path(sensor) + " is a " +
                      std::string(kind_name(reading->measurement)) + ", not a " + wanted);
-}
-
-/// An array that cannot be written, on memory that `owner` keeps.
-template <class Value>
-py::array view(const std::vector<Value>& values, std::vector<py::ssize_t> shape, const py::object& owner) {
-  py::array array(py::dtype::of<Value>(), std::move(shape), values.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-py::array in_rings(const std::vector<float>& values, const py::object& scan) {
-  const auto& held = scan.cast<const HeldScan&>();
-  return view(values, {held->vertical.samples, held->horizontal.samples}, scan);
-}
-
-py::array_t<double> angles(const ScanAngles& scan) {
-  py::array_t<double> array(scan.samples);
-  for (int i = 0; i < scan.samples; ++i) array.mutable_at(i) = scan.at(i);
-  return array;
-}
-
-template <class Value>
-py::array in_pixels(const std::vector<Value>& values, const py::object& image) {
-  const auto& held = image.cast<const HeldImage&>();
-  return view(values, {held->height, held->width}, image);
 }
 
 struct ToPython {
@@ -91,167 +46,6 @@ py::tuple proximity_tuple(const ProximityReading& r) {
   return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
 }
 
-void bind_proximity(py::module_& module) {
-  py::class_<ProximityReading>(module, "ProximityReading",
-                               "What a proximity sensor saw, in its own frame: it looks along x.")
-      .def_readonly("detected", &ProximityReading::detected)
-      .def_readonly("distance", &ProximityReading::distance, "Metres; 0 when nothing was detected.")
-      .def_property_readonly("point", [](const ProximityReading& r) { return to_numpy(r.point); })
-      .def_property_readonly("normal", [](const ProximityReading& r) { return to_numpy(r.normal); })
-      .def_readonly("handle", &ProximityReading::object, "Handle of the link seen, or -1.");
-}
-
-void bind_scan(py::module_& module) {
-  py::class_<HeldScan>(module, "LidarScan",
-                       "One turn of a lidar, ring by ring from the lowest up. Its arrays cannot be written.")
-      .def_property_readonly(
-          "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "ranges", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->ranges, s); },
-          "Metres, rings x samples of float32: inf for nothing in range, -inf for nearer than min_range.")
-      .def_property_readonly(
-          "intensities", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->intensities, s); },
-          "The laser_retro of what was hit, 0 for nothing; rings x samples of float32.")
-      .def_property_readonly(
-          "points",
-          [](const HeldScan& s) {
-            const std::vector<Point> points = points_of(*s);
-            py::array_t<float> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
-            std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
-            return array;
-          },
-          "What was met: x, y, z in metres in the sensor's frame; count x 3 of float32, ring by ring. A new array.")
-      .def_property_readonly(
-          "angles", [](const HeldScan& s) { return angles(s->horizontal); }, "Of the samples, radians to the left.")
-      .def_property_readonly(
-          "angle_min", [](const HeldScan& s) { return s->horizontal.min; }, "Of the first sample, radians to the left.")
-      .def_property_readonly(
-          "angle_max", [](const HeldScan& s) { return s->horizontal.max; }, "Of the last sample.")
-      .def_property_readonly(
-          "angle_increment",
-          [](const HeldScan& s) {
-            const ScanAngles& angles = s->horizontal;
-            return angles.samples > 1 ? (angles.max - angles.min) / (angles.samples - 1) : 0.0;
-          },
-          "Between samples, radians.")
-      .def_property_readonly(
-          "elevations", [](const HeldScan& s) { return angles(s->vertical); }, "Of the rings, radians upwards.")
-      .def_property_readonly(
-          "min_range", [](const HeldScan& s) { return s->min_range; }, "Metres.")
-      .def_property_readonly(
-          "max_range", [](const HeldScan& s) { return s->max_range; }, "Metres.");
-}
-
-void bind_image(py::module_& module) {
-  py::class_<HeldImage>(module, "CameraImage",
-                        "What a camera saw, the uppermost row first. Its arrays cannot be written.")
-      .def_property_readonly(
-          "time", [](const HeldImage& i) { return i.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "rgb",
-          [](const py::object& image) -> py::object {
-            const auto& held = image.cast<const HeldImage&>();
-            if (held->rgb.empty()) return py::none();
-            return view(held->rgb, {held->height, held->width, 3}, image);
-          },
-          "height x width x 3 of uint8; None from a depth camera.")
-      .def_property_readonly(
-          "depth", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->depth, i); },
-          "Metres along the axis, height x width of float32: inf beyond the far plane, -inf before the near one.")
-      .def_property_readonly(
-          "objects", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->objects, i); },
-          "Handles of the links seen, -1 for none; height x width of int32.")
-      .def_property_readonly(
-          "horizontal_fov", [](const HeldImage& i) { return i->horizontal_fov; }, "Radians.")
-      .def_property_readonly(
-          "near", [](const HeldImage& i) { return i->near; }, "Metres along the axis.")
-      .def_property_readonly(
-          "far", [](const HeldImage& i) { return i->far; }, "Metres along the axis.");
-}
-
-void bind_imu(py::module_& module) {
-  py::class_<HeldImu>(module, "ImuReading", "What an inertial measurement unit felt, in its own frame (REP 145).")
-      .def_property_readonly(
-          "time", [](const HeldImu& i) { return i.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "orientation", [](const HeldImu& i) { return to_numpy(i->orientation); },
-          "Of the sensor in the world, exact; quaternion x, y, z, w.")
-      .def_property_readonly(
-          "angular_velocity", [](const HeldImu& i) { return to_numpy(i->angular_velocity); }, "rad/s.")
-      .def_property_readonly(
-          "linear_acceleration", [](const HeldImu& i) { return to_numpy(i->linear_acceleration); },
-          "m/s^2, the mean over the last pass; at rest what holds it against gravity, upwards.");
-}
-
-void bind_navsat(py::module_& module) {
-  py::class_<HeldNavSat>(module, "NavSatReading", "What a receiver of satellite navigation told.")
-      .def_property_readonly(
-          "time", [](const HeldNavSat& n) { return n.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "latitude", [](const HeldNavSat& n) { return n->latitude; }, "Degrees.")
-      .def_property_readonly(
-          "longitude", [](const HeldNavSat& n) { return n->longitude; }, "Degrees.")
-      .def_property_readonly(
-          "altitude", [](const HeldNavSat& n) { return n->altitude; }, "Metres above the ellipsoid WGS84.")
-      .def_property_readonly(
-          "velocity", [](const HeldNavSat& n) { return to_numpy(n->velocity); },
-          "m/s to the east, to the north and up.");
-}
-
-void bind_altimeter(py::module_& module) {
-  py::class_<HeldAltimeter>(module, "AltimeterReading", "How high an altimeter is.")
-      .def_property_readonly(
-          "time", [](const HeldAltimeter& a) { return a.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "height", [](const HeldAltimeter& a) { return a->height; },
-          "Metres above where it was when it came into the world.")
-      .def_property_readonly(
-          "velocity", [](const HeldAltimeter& a) { return a->velocity; }, "m/s upwards.");
-}
-
-void bind_magnetometer(py::module_& module) {
-  py::class_<HeldMagnetometer>(module, "MagnetometerReading", "What a magnetometer felt, in its own frame.")
-      .def_property_readonly(
-          "time", [](const HeldMagnetometer& m) { return m.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "field", [](const HeldMagnetometer& m) { return to_numpy(m->field); }, "T.");
-}
-
-void bind_contacts(py::module_& module) {
-  py::class_<ContactPoint>(module, "ContactPoint", "Where two shapes touch; world axes.")
-      .def_property_readonly(
-          "position", [](const ContactPoint& p) { return to_numpy(p.position); }, "Metres.")
-      .def_property_readonly(
-          "normal", [](const ContactPoint& p) { return to_numpy(p.normal); }, "In which the other shape pushes.")
-      .def_property_readonly(
-          "force", [](const ContactPoint& p) { return to_numpy(p.force); },
-          "N, in the physics step in which they last touched.")
-      .def_readonly("depth", &ContactPoint::depth, "Metres.");
-  py::class_<Contact>(module, "Contact",
-                      "A shape of the sensor's link that touched another one while the last pass went by.")
-      .def_readonly("collision", &Contact::collision, "Name of the link's shape.")
-      .def_readonly("other", &Contact::other_link, "Handle of the link that was touched.")
-      .def_readonly("other_collision", &Contact::other_collision, "Name of that link's shape.")
-      .def_property_readonly(
-          "force", [](const Contact& c) { return to_numpy(c.force); },
-          "N on the sensor's link in world axes, the mean over the pass.")
-      .def_readonly("points", &Contact::points, "Of the physics step in which they last touched.");
-  py::class_<HeldContacts>(module, "ContactReading", "What a link touched.")
-      .def_property_readonly(
-          "time", [](const HeldContacts& c) { return c.reading->time; }, "Simulated seconds.")
-      .def_property_readonly("contacts", [](const HeldContacts& c) { return c->contacts; });
-}
-
-void bind_force_torque(py::module_& module) {
-  py::class_<HeldForceTorque>(module, "ForceTorqueReading", "What a joint transmits, the mean over the last pass.")
-      .def_property_readonly(
-          "time", [](const HeldForceTorque& f) { return f.reading->time; }, "Simulated seconds.")
-      .def_property_readonly(
-          "force", [](const HeldForceTorque& f) { return to_numpy(f->force); }, "N.")
-      .def_property_readonly(
-          "torque", [](const HeldForceTorque& f) { return to_numpy(f->torque); }, "N m, about the sensor's origin.");
-}
-
 }  // namespace
 
 py::object last_reading(Simulation& simulation, ObjectId sensor) {
@@ -260,16 +54,6 @@ py::object last_reading(Simulation& simulation, ObjectId sensor) {
 }
 
 void bind_sensors(py::module_& module) {
-  bind_proximity(module);
-  bind_scan(module);
-  bind_image(module);
-  bind_imu(module);
-  bind_navsat(module);
-  bind_altimeter(module);
-  bind_magnetometer(module);
-  bind_contacts(module);
-  bind_force_torque(module);
-
   module.def(
       "read_sensor",
       [](Simulation& s, ObjectId sensor) {
