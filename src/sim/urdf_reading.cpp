@@ -146,6 +146,13 @@ void finish_urdf(ModelDescription& model, SceneReading& reading) {
                         [&name](const JointDescription& joint) { return joint.name == name; });
   };
   const XMLElement& robot = *reading.xml().document().RootElement();
+  each(robot, "link", [&](const XMLElement& link) {
+    const auto* inertial = link.FirstChildElement("inertial");
+    const std::string mass = inertial != nullptr ? child_attribute(*inertial, "mass", "value") : "";
+    if (mass.empty() || mass.front() != '-') return;  // none at all is left out, or part of what carries it
+    reading.report({reading.xml().file(), link.GetLineNum()}, "/" + model.name + "/" + attribute(&link, "name"),
+                   "the mass is " + mass + " kg, it must be above 0 and at most 1e6 kg");
+  });
   each(robot, "joint", [&](const XMLElement& joint) {
     const std::string name = attribute(&joint, "name");
     const std::string path = "/" + model.name + "/" + name;

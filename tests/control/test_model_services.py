@@ -105,7 +105,7 @@ BAD_REQUESTS: list[tuple[dict[str, Any], str]] = [
     ({"sdf": ""}, "is empty"),
     ({"sdf": "no XML"}, "is not well-formed XML"),
     ({"sdf": BALL.replace("</link>", "")}, "<data-string>:3: is not well-formed XML"),
-    ({"sdf": "<robot name='r'/>"}, "SDFormat can make no model of it"),
+    ({"sdf": "<robot name='r'/>"}, "No link elements found in urdf file"),
     ({"sdf": BALL.replace("<mass>1", "<mass>0")}, "/Ball/link: the mass is 0 kg"),
     ({"sdf": BALL.replace("<mass>1", "<mass>1e300")}, "/Ball/link: the mass is 1e+300 kg"),
     ({"sdf": BALL.replace("<ixx>0.1", "<ixx>-0.1")}, "inertia"),

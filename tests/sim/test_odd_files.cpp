@@ -201,6 +201,13 @@ TEST(Urdf, RunsWithoutWhatHangsOnALinkWithoutMass) {
   EXPECT_EQ(the_robot(scene).links.size(), 1U);
 }
 
+TEST(Urdf, WithANegativeMassIsRefused) {
+  const std::string text = robot(
+      "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+      "</inertial></link>");
+  EXPECT_TRUE(holds(complaint(text, "odd.urdf"), "/r/a: the mass is -1 kg, it must be above 0"));
+}
+
 TEST(Urdf, ThatCannotBeParsedSaysWhy) {
   EXPECT_TRUE(
       holds(complaint(robot(heavy("a") + urdf_joint("fixed", "a", "b")), "odd.urdf"), "child link [b] of joint"));
