@@ -115,6 +115,15 @@ def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.fl
     }
 
 
+def pinhole(focal: float, x: float, y: float, baseline: float = 0.0) -> Message:
+    """The matrices of a sensor_msgs/CameraInfo: focal length and centre in pixels, m to the left camera of a pair."""
+    return {
+        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
+        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        "P": [focal, 0.0, x, -focal * baseline, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
+    }
+
+
 def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fov: float) -> Message:
     """sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
 
@@ -129,9 +138,7 @@ def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fo
         "height": height,
         "distortion_model": "plumb_bob",
         "D": [0.0] * 5,
-        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
-        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        "P": [focal, 0.0, x, 0.0, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
+        **pinhole(focal, x, y),
     }
 
 

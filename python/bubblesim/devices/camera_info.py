@@ -7,6 +7,7 @@ import math
 
 from bubblesim.devices.device import Message
 from bubblesim.devices.parameters import Parameters
+from bubblesim.ros_messages import pinhole
 
 
 class CameraInfo:
@@ -31,7 +32,5 @@ class CameraInfo:
             "width": width,
             "distortion_model": "plumb_bob",
             "D": self._distortion,
-            "K": [f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0],
-            "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-            "P": [f, 0.0, cx, -f * self.baseline, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+            **pinhole(f, cx, cy, self.baseline),
         }
