@@ -6,50 +6,46 @@ from __future__ import annotations
 import math
 
 from bubblesim.control.frames import vector_message
-from bubblesim.devices.device import Device, Place
+from bubblesim.devices.device import Place
+from bubblesim.devices.hector import HectorSensor
 from bubblesim.devices.noise import Noise
-from bubblesim.devices.rate import Rate
 
 # WGS 84
 _EQUATORIAL_RADIUS = 6378137.0  # m
 _ECCENTRICITY_SQUARED = 6.69437999014e-3
 
 
-class Gps(Device):
+class Gps(HectorSensor):
     """Parameters and defaults are hector's: with a <referenceHeading> of 0, x is north and y west."""
+
+    default_rate = 4.0
 
     def __init__(self, place: Place) -> None:
         """Read the parameters; angles in degrees."""
         super().__init__(place)
         p = self.parameters
-        self.enter_namespace()
-        self._link = self.link("bodyName", self.world.name(self.first_link()))
-        self._frame = p.text("frameId", self.world.name(self._link))
         self._latitude = p.number("referenceLatitude", 49.9)
         self._longitude = p.number("referenceLongitude", 8.9)
         self._altitude = p.number("referenceAltitude", 0.0)
         self._heading = math.radians(p.number("referenceHeading", 0.0))
         self._status = {"status": int(p.number("status", 0)), "service": int(p.number("service", 1))}
-        self._position_noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
         self._velocity_noise = Noise(self, p.number("velocityGaussianNoise", 0.0, least=0.0))
-        p.ignore("offset", "drift", "driftFrequency", "velocityOffset", "velocityDrift", "velocityDriftFrequency")
-        self._rate = Rate(p.number("updateRate", 4.0, least=0.0), self.simulation.time_step)
+        p.ignore("velocityOffset", "velocityDrift", "velocityDriftFrequency")
         p.check()
         self._fix = self.advertise(p.text("topicName", "fix"), "sensor_msgs/NavSatFix", 10)
         self._velocity = self.advertise(p.text("velocityTopicName", "fix_velocity"), "geometry_msgs/Vector3Stamped", 10)
 
     def reset(self) -> None:
         """Start over."""
-        self._rate.reset()
-        self._position_noise.reset()
+        super().reset()
         self._velocity_noise.reset()
 
     def publish(self) -> None:
         """Tell place and velocity."""
-        if not ((self.wanted(self._fix) or self.wanted(self._velocity)) and self._rate.due(self.simulation.time)):
+        if not self.is_due(self._fix, self._velocity):
             return
         header = self.header(self._frame)
-        x, y, z = self._position_noise.on(self.world.pose(self._link)[:3])
+        x, y, z = self._noise.on(self.world.pose(self._link)[:3])
         north, west = self._turned(x, y)
         # Radii of curvature at the reference: along a meridian, and of its parallel.
         squeezed = 1 - _ECCENTRICITY_SQUARED * math.sin(math.radians(self._latitude)) ** 2
@@ -64,7 +60,7 @@ class Gps(Device):
                 "latitude": self._latitude + math.degrees(north / meridian),
                 "longitude": self._longitude - math.degrees(west / parallel),
                 "altitude": self._altitude + z,
-                "position_covariance": self._position_noise.covariance(3),
+                "position_covariance": self._noise.covariance(3),
                 "position_covariance_type": 2,  # its diagonal is known
             },
         )
