@@ -2,6 +2,7 @@
 #include "scene_reading.hpp"
 
 #include <cstdio>
+#include <optional>
 #include <regex>
 #include <utility>
 
@@ -20,14 +21,12 @@ void SceneReading::warn(const Source& source, const std::string& object, std::st
 
 namespace {
 
-/// SDFormat keeps elements that it does not know; they mean nothing. Rewords what it says of them.
-bool is_unknown_element(Problem& problem) {
+/// SDFormat keeps elements that it does not know; they mean nothing. What to say of one, if the message is about one.
+std::optional<std::string> about_unknown_element(const std::string& message) {
   static const std::regex pattern(R"(XML Element\[([^\]]*)\], child of element\[([^\]]*)\], not defined in SDF.*)");
   std::smatch match;
-  if (!std::regex_search(problem.message, match, pattern)) return false;
-  const std::string reworded = "<" + match.str(1) + "> is no element of <" + match.str(2) + ">: it is left out";
-  problem.message = reworded;
-  return true;
+  if (!std::regex_search(message, match, pattern)) return std::nullopt;
+  return "<" + match.str(1) + "> is no element of <" + match.str(2) + ">: it is left out";
 }
 
 /// Elements that SDFormat 1.10 and 1.11 brought, which the readers here know all the same.
@@ -51,8 +50,8 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
       continue;
     }
     if (is_of_later_version(problem.message)) continue;
-    if (is_unknown_element(problem)) {
-      warn({problem.file, problem.line}, problem.object, problem.message);
+    if (const auto unknown = about_unknown_element(problem.message)) {
+      warn({problem.file, problem.line}, problem.object, *unknown);
       continue;
     }
     if (object.empty()) frames_broken_ = true;
