@@ -9,7 +9,7 @@ from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.controllers.speed_ramp import approached
 from bubblesim.devices.device import FASTEST, Device, Place
-from bubblesim.devices.odometry import Odometry, covariance
+from bubblesim.devices.gz_odometry import drive_odometry
 from bubblesim.devices.rate import Rate
 from bubblesim.devices.two_sided_drive import TwoSidedDrive
 
@@ -31,14 +31,7 @@ class GzDiffDrive(Device):
         p.check()
         self._drive = TwoSidedDrive(self, geometry, self._left, self._right)
         self._velocity = Velocity(0.0, 0.0)
-        self._odometry = Odometry(
-            self,
-            topic=p.text("odom_topic", f"/model/{model}/odometry"),
-            frame=p.text("frame_id", f"{model}/odom"),
-            base_frame=p.text("child_frame_id", f"{model}/base_link"),
-            transform=True,
-            pose_covariance=covariance(1e-5, 1e-5, 1e-3),
-        )
+        self._odometry = drive_odometry(self)
         self._drive.hear(p.text("topic", f"/model/{model}/cmd_vel"))
 
     def _wheels(self, parameter: str) -> list[int]:
