@@ -10,8 +10,8 @@ import subprocess
 from pathlib import Path
 from types import TracebackType
 
-# s that each has to take effect; a roscore itself waits 15 s for its master, which outlives it when it is cut short.
 _POLITE = signal.SIGINT
+# s that each has to take effect; a roscore itself waits 15 s for its master, which outlives it when it is cut short.
 _PATIENCE = {_POLITE: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
 
 
