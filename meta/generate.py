@@ -3,7 +3,7 @@
 
 One C++ file for each message package, one that lists the packages, and tables.cmake, which names these files and all
 that was read. Files that would not change are left alone. Problems of the lists are printed all at once; the exit
-code is then 1 and nothing is written.
+code is then 1 and nothing is written. A type that is listed twice is a warning.
 """
 
 from __future__ import annotations
@@ -153,13 +153,15 @@ def main(arguments: list[str]) -> int:
         options.ros_package_path,
     )
     problems: list[str] = []
+    warnings: list[str] = []
     specs = Specs(index)
-    messages = read_list(options.messages, shown_path(options.messages), problems)
-    services = read_list(options.services, shown_path(options.services), problems)
+    messages = read_list(options.messages, shown_path(options.messages), problems, warnings)
+    services = read_list(options.services, shown_path(options.services), problems, warnings)
     specs.load_list(messages, "msg", problems)
     specs.load_list(services, "srv", problems)
+    for text in (*problems, *(f"warning: {warning}" for warning in warnings)):
+        print(text, file=sys.stderr)
     if problems:
-        print("\n".join(problems), file=sys.stderr)
         return 1
     own = [options.messages, options.services, *HERE.glob("*.py"), *HERE.glob("templates/*.em")]
     own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]

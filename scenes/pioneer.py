@@ -1,8 +1,7 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
 # A Pioneer P3DX over topics: Twist on /cmd_vel in; /odom and its transform from the wheels' encoders, /joint_states and
-# the lidar's points on /lidarPC out; /ground_truth tells where it really is. The lidar's points are also in the string
-# signal Pioneer_p3dx_lidar_data, as float32 x, y, z in the lidar's frame.
+# the lidar's points on /lidarPC out; /ground_truth tells where it really is.
 # Parameter odometry_noise: standard deviation of each step that an encoder measures, as a part of that step.
 import random
 
@@ -63,17 +62,13 @@ def sysCall_actuation():
 
 def sysCall_sensing():
     self.odometry.update(encoders(), sim.getSimulationTimeStep())
-    scan_is_new = sim.getReadingTime(self.lidar) != self.last_scan
-    if scan_is_new:
-        self.last_scan = sim.getReadingTime(self.lidar)
-        points = sim.readLidarPoints(self.lidar)
-        sim.setStringSignal(f'{LIDAR}_data', points.tobytes())
     if not simROS:
         return
     now = simROS.getTime()
     publish_motion(now)
-    if scan_is_new and simROS.wantsMessages(self.cloud_topic):
-        simROS.publish(self.cloud_topic, ros_messages.point_cloud(now, LIDAR, points))
+    if simROS.wantsMessages(self.cloud_topic) and sim.getReadingTime(self.lidar) != self.last_scan:
+        self.last_scan = sim.getReadingTime(self.lidar)
+        simROS.publish(self.cloud_topic, ros_messages.point_cloud(now, LIDAR, sim.readLidarPoints(self.lidar)))
 
 
 def publish_motion(now):

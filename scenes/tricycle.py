@@ -85,13 +85,15 @@ def publish_motion(now):
 
 
 def publish_picture(now):
-    if not simROS.wantsMessages(self.image_topic) and not simROS.wantsMessages(self.camera_topic):
+    picture_is_wanted = simROS.wantsMessages(self.image_topic)
+    if not picture_is_wanted and not simROS.wantsMessages(self.camera_topic):
         return
     if not is_new(self.camera):
         return
-    picture = sim.getVisionSensorArray(self.camera)
-    height, width, _ = picture.shape
-    simROS.imageTransportPublish(self.image_topic, picture[::-1], width, height, CAMERA_FRAME)
+    width, height = sim.getVisionSensorRes(self.camera)
+    if picture_is_wanted:  # to render it is what takes time
+        picture = sim.getVisionSensorArray(self.camera)
+        simROS.imageTransportPublish(self.image_topic, picture[::-1], width, height, CAMERA_FRAME)
     field_of_view = sim.getVisionSensorFieldOfView(self.camera)
     info = ros_messages.camera_info(now, CAMERA_FRAME, width, height, field_of_view)
     simROS.publish(self.camera_topic, info)

@@ -6,6 +6,10 @@ Parameters: ~wheelbase, ~wheel_radius (m), ~max_steering (rad), ~max_speed (rad/
 without a command, after which it stops), ~odom_frame, ~base_frame, ~publish_tf.
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import dataclasses
 import sys
 import threading
@@ -18,7 +22,7 @@ from std_msgs.msg import Float32
 
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved, quaternion_of_heading
 from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
-from bubblesim.nodes.run_node import run_node
+from bubblesim.nodes.run_node import run_node, run_ros_program
 
 RATE = 20.0  # Hz, of the odometry
 
@@ -106,4 +110,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

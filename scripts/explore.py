@@ -6,6 +6,10 @@ Topics: map and go_to/arrived in; move_base_simple/goal out, ~done (Bool, latche
 Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~shortest (m, of a frontier that is worth going to).
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import sys
 import threading
 
@@ -19,7 +23,7 @@ from bubblesim.navigation.exploration import Explorer
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, pose_of
-from bubblesim.nodes.run_node import run_node
+from bubblesim.nodes.run_node import run_node, run_ros_program
 
 SPARE = 0.1  # m: viewpoints are where go_to.py surely finds a way to
 PATIENCE = 5  # maps in a row without a goal, after which all is known
@@ -89,4 +93,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

@@ -8,6 +8,10 @@ Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, tha
 turns on the spot), ~tolerance (m), ~patience (s before something in the way, after which it gives up).
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import dataclasses
 import sys
 import threading
@@ -26,7 +30,7 @@ from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_following import STANDING, Driver
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
-from bubblesim.nodes.run_node import run_node
+from bubblesim.nodes.run_node import run_node, run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
 RATE = 10.0  # Hz, of commands
@@ -145,4 +149,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

@@ -6,6 +6,10 @@ Parameters: ~dev (/dev/input/js0), ~speed (m/s) and ~turn (rad/s) at the stick's
 (0), ~enable_button (which has to be held; -1: none), ~dead_zone, ~rate (Hz), ~stamped, ~frame_id.
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import os
 import select
 import sys
@@ -17,7 +21,7 @@ import rospy
 from bubblesim.controllers.joystick import Joystick
 from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
 from bubblesim.controllers.stick_teleop import StickTeleop
-from bubblesim.nodes.run_node import run_node
+from bubblesim.nodes.run_node import run_node, run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
 
@@ -85,4 +89,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

@@ -6,6 +6,10 @@ Parameters: ~speed (m/s) and ~turn (rad/s) at the window's edges, ~dead_zone (sh
 ~frame_id.
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import argparse
 import sys
 import tkinter
@@ -14,6 +18,7 @@ import rospy
 
 from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
 from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.nodes.run_node import run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
 HALF = 150  # pixels from the window's middle to its edge
@@ -98,4 +103,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

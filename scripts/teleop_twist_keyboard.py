@@ -6,6 +6,10 @@ Parameters: ~speed (m/s), ~turn (rad/s), ~speed_limit, ~turn_limit, ~rate (Hz of
 ~key_timeout (s without a key after which it stops), ~stamped (TwistStamped instead), ~frame_id.
 """
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import argparse
 import contextlib
 import os
@@ -19,6 +23,7 @@ from collections.abc import Iterator
 import rospy
 
 from bubblesim.controllers.keyboard_teleop import HELP, KeyboardTeleop
+from bubblesim.nodes.run_node import run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
 
@@ -84,4 +89,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives the tricycle around obstacles: /front_sonar in, /steering and /speed out."""
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import argparse
 import sys
 import threading
@@ -11,6 +15,7 @@ import rospy
 from std_msgs.msg import Float32
 
 from bubblesim.controllers.tricycle_avoid import Command, TricycleAvoid, is_reading
+from bubblesim.nodes.run_node import run_ros_program
 
 _PERIOD = 0.2  # s, between looks for the sonar's silence
 
@@ -68,4 +73,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_ros_program(main))

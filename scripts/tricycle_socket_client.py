@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives the tricycle around obstacles over TCP: "steering;speed" out, "time;distance" in. Needs no ROS."""
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import argparse
 import math
 import socket
@@ -10,6 +14,7 @@ import time
 from typing import TextIO
 
 from bubblesim.controllers.tricycle_avoid import TricycleAvoid
+from bubblesim.program import run_program
 
 PATIENCE = 5.0  # s without a listener or an answer, after which there is no simulation
 
@@ -51,6 +56,8 @@ def main() -> int:
     parser.add_argument("--port", type=int, default=5000, help="where it listens (default %(default)s)")
     options = parser.parse_args()
     address = f"{options.host}:{options.port}"
+    print(f"waiting for the simulation at {address}, {PATIENCE:g} s at most; Ctrl-C ends", flush=True)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # the tricycle shall not drive on
     try:
         with connect(options.host, options.port) as connection:
             print(f"driving the tricycle at {address}; Ctrl-C ends", flush=True)
@@ -74,4 +81,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_program(main))

@@ -7,6 +7,7 @@ import pytest
 
 # Background jobs of a shell start with SIGINT ignored, and their children would inherit that: Ctrl-C would go unheard.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise of nohup
 
 pytest_plugins = ["ros_support"]
 

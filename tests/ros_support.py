@@ -4,6 +4,7 @@
 Use as a pytest fixture: ``from ros_support import roscore`` in a conftest.py or test module.
 """
 
+import itertools
 import os
 import signal
 import socket
@@ -37,10 +38,30 @@ def built(name: str) -> Path:
     return found[0]
 
 
+def _worker_ports() -> Iterator[int]:
+    """Ports for the tests of this process: below those that the kernel gives to others, and apart from those of the
+    other processes that run tests (the workers of pytest-xdist)."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    first = 10000 + 2000 * (worker % 10)
+    return itertools.cycle(range(first + os.getpid() % 1000, first + 2000))
+
+
+_PORTS = _worker_ports()
+
+
 def free_port() -> int:
+    """A port of 127.0.0.1 on which nobody listens, and which no other test is given."""
+    return next(port for port in _PORTS if _is_free(port))
+
+
+def _is_free(port: int) -> bool:
     with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
 
 
 def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:

@@ -20,6 +20,7 @@ FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
     "src/messages": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
+    "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],
     "src/nodes": [PYTHON, re.compile(r"^bubblesim/")],
     "src/ros_bridge": [PYTHON, re.compile(r"^bubblesim/child_scripts")],
     "src/bindings": [ROS, re.compile(r"^bubblesim/(ros_bridge|child_scripts)")],

@@ -44,7 +44,9 @@ int main(int argc, char** argv) {
   Simulation simulation(load_scene("tricycle"));
   RosParticipant ros(bridge, simulation);
   simulation.add(ros);
-  ChildScripts scripts(simulation, &bridge, {{{"/Tricycle", argv[1]}}, {}});
+  ScriptOptions script;
+  script.replacements = {{"/Tricycle", argv[1]}};
+  ChildScripts scripts(simulation, &bridge, script);
   simulation.add(scripts);
 
   std::vector<double> took;

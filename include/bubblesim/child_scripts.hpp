@@ -21,6 +21,8 @@ struct ScriptOptions {
   std::vector<std::filesystem::path> search_paths;
   /// Lets scripts in Lua use os, io, debug and package.
   bool lua_unsafe = false;
+  /// Programs by name or path, and folders of programs, that scripts in Lua may start beside those of ROS packages.
+  std::vector<std::string> allowed_programs;
   /// Offers Gazebo's services and topics beside the node's own.
   bool gazebo_compat = false;
   /// Loads a script again as soon as its file changes.
@@ -36,7 +38,7 @@ struct ScriptOptions {
 class ChildScripts : public Participant {
  public:
   /// Starts the interpreter, of which there can be one in a process, and loads the scripts; `bridge` may be null,
-  /// then simROS is None in scripts. Throws InvalidInput for files and objects that do not exist.
+  /// then simROS is false in scripts. Throws InvalidInput for files and objects that do not exist.
   ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
   ~ChildScripts() override;
 
@@ -59,6 +61,8 @@ class ChildScripts : public Participant {
   int failures() const { return failures_; }
   /// How many of those that are loaded now have failed. Any thread may call it.
   int disabled() const { return disabled_; }
+  /// Whether something that a script printed could not be written; known after finish().
+  bool output_lost() const { return output_lost_; }
 
  private:
   friend class Devices;  // which use the same interpreter and bridge
@@ -67,9 +71,11 @@ class ChildScripts : public Participant {
   template <class Action>
   void with_host(Action action);
 
+  Simulation& simulation_;
   std::unique_ptr<Python> python_;
   std::atomic<int> failures_{0};
   std::atomic<int> disabled_{0};
+  bool output_lost_ = false;
 };
 
 /// Makes the code of a script that is running raise KeyboardInterrupt, and all scripts be called no more but for

@@ -26,6 +26,7 @@ class Devices final : public Participant {
 
  private:
   struct Python;
+  Simulation& simulation_;
   std::unique_ptr<Python> python_;
 };
 

@@ -17,6 +17,11 @@ struct RosBridgeOptions {
   /// Called from drain() with true when the service ~pause is called, with false for ~unpause (both std_srvs/Empty).
   /// Without it the services are not offered.
   std::function<void(bool paused)> on_pause;
+  /// Takes the name from a node that has it on the master, which ends that node; otherwise such a name is refused.
+  bool replace = false;
+  /// Called on a thread of roscpp when somebody wants the node to end: `rosnode kill`, or the master when another node
+  /// takes its name. The text says who and why. Without it roscpp stops and the process goes on.
+  std::function<void(const std::string& why)> on_shutdown;
   /// Asked while a service call waits; when it says true (the process was told to end), the call is given up.
   std::function<bool()> is_ending;
   /// Called on another thread once a second, for what is published on /diagnostics; without it nothing is.
@@ -32,7 +37,9 @@ class RosBridge final : public messages::Bridge {
   /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. When a
   /// master answers within a second it returns connected; else after a line on stderr that names the URI tried and the
   /// cure, and connects as soon as a master appears. Without ROS_MASTER_URI, http://localhost:11311 is used.
-  /// Throws std::invalid_argument for an unusable master URI or node name, std::logic_error for a second bridge.
+  /// Throws std::invalid_argument for an unusable master URI or node name, and for a name that another node has on that
+  /// master; std::logic_error for a second bridge. When a master appears later on which another node has the name, the
+  /// bridge says so once and connects when that node has ended.
   RosBridge(int& argc, char** argv, RosBridgeOptions options = {});
 
   /// Takes everything off the master; ends within 2 s even if the master is gone or hangs.

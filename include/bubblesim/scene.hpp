@@ -172,7 +172,7 @@ enum class ProximityVolume {
 
 /// A volume in which the nearest thing is reported.
 struct SonarDescription {
-  double min_range = 0;   ///< m; anything nearer is not seen
+  double min_range = 0;   ///< m, where the rays begin: anything nearer is not seen
   double max_range = 1;   ///< m
   double half_angle = 0;  ///< rad, between the axis and the volume's side
   ProximityVolume volume = ProximityVolume::kCone;
@@ -190,10 +190,11 @@ struct ScanAngles {
 struct LidarDescription {
   ScanAngles horizontal;  ///< about z, to the left
   ScanAngles vertical;    ///< upwards
-  double min_range = 0;   ///< m
+  double min_range = 0;   ///< m, where the rays begin: anything nearer is not seen
   double max_range = 1;   ///< m
   double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
   NoiseDescription noise;
+  std::string signal;  ///< string signal in which child scripts find the points; empty: none
 };
 
 /// A pinhole camera that looks along x, with y to the left and z up.
@@ -269,8 +270,16 @@ struct ForceTorqueDescription {
   std::array<NoiseDescription, 3> torque_noise;  ///< N m
 };
 
+/// How gz-sim publishes a sensor.
+struct GzTopic {
+  std::string topic;       ///< its <topic>; empty: named after the sensor's place in the world
+  std::string info_topic;  ///< of a camera's <camera_info_topic>; empty: beside the topic
+  std::string frame;       ///< its <gz_frame_id>, or a camera's <optical_frame_id>; empty: MODEL/LINK/SENSOR
+};
+
 struct SensorDescription {
   std::string name;
+  std::string type;        ///< SDFormat's name, such as gpu_lidar
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0 means every pass
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
@@ -279,13 +288,15 @@ struct SensorDescription {
   std::vector<PluginDescription> plugins;
   std::string topic;  ///< on which it is published; empty: its plugins may publish it
   std::string frame;  ///< of what is published, its link unless given
+  GzTopic gz;
   Source source;
 };
 
 struct LinkDescription {
   std::string name;
-  bool has_weight = true;  ///< gravity pulls it
-  Pose pose;               ///< in the model's frame
+  bool has_weight = true;       ///< gravity pulls it
+  Pose pose;                    ///< in the model's frame
+  std::optional<Pose> start{};  ///< the same when the simulation begins, where joints are not at their zero then
   double mass = 1;
   Vector3 centre_of_mass;  ///< in the link's frame
   /// About the centre of mass, along the link's axes: xx, yy, zz, then xy, xz, yz. kg m^2
@@ -374,6 +385,7 @@ enum class OnDivergence {
 
 struct SceneDescription {
   std::string name;
+  std::string world_name;  ///< of the <world>; that of the scene when the file has none
   std::filesystem::path file;
   Vector3 gravity{0, 0, -9.81};  ///< m/s^2
   double time_step = 0.05;       ///< s, of one simulation pass

@@ -16,9 +16,13 @@ std::vector<std::filesystem::path> scene_folders();
 /// Names of the scenes in these folders, sorted.
 std::vector<std::string> scene_names();
 
+/// What a .xacro file is expanded with: NAME:=VALUE each.
+using XacroArguments = std::vector<std::string>;
+
 /// Loads a scene by name ("tricycle") or path ("my/robot.sdf"). A file that holds a model and no world is put
-/// on a ground plane. Throws SceneError with every problem of the file at once.
-SceneDescription load_scene(const std::string& name_or_path);
+/// on a ground plane. Other files than .xacro leave the arguments alone. Throws SceneError with every problem of the
+/// file at once.
+SceneDescription load_scene(const std::string& name_or_path, const XacroArguments& arguments = {});
 
 /// Reads a model from the text of an SDFormat or URDF file; child scripts lie in `folder`. Throws SceneError with every
 /// problem of the text at once, as in a file named <data-string>.

@@ -35,14 +35,14 @@ struct LidarScan {
   ScanAngles vertical;
   double min_range = 0;
   double max_range = 0;
-  std::vector<float> ranges;       ///< m; +Inf for nothing within max_range, -Inf for nearer than min_range (REP 117)
+  std::vector<float> ranges;       ///< m, from min_range on; +Inf for nothing within max_range (REP 117)
   std::vector<float> intensities;  ///< laser_retro of what was hit, 0 for nothing
 };
 
 /// Metres, in the sensor's frame.
 using Point = std::array<float, 3>;
 
-/// Where a lidar's rays met something, ring by ring; rays that met nothing, or something too near, are left out.
+/// Where a lidar's rays met something, ring by ring; rays that met nothing are left out.
 std::vector<Point> points_of(const LidarScan& scan);
 
 /// What a camera saw, row by row, the uppermost first, each from left to right.
@@ -53,7 +53,7 @@ struct CameraImage {
   double near = 0;                ///< m along the axis
   double far = 0;                 ///< m along the axis
   std::vector<std::uint8_t> rgb;  ///< three bytes a pixel; empty for a depth camera
-  std::vector<float> depth;       ///< m along the axis; +Inf beyond the far plane, -Inf before the near one (REP 117)
+  std::vector<float> depth;       ///< m along the axis, from the near plane on; +Inf beyond the far one (REP 117)
   std::vector<ObjectId> objects;  ///< the link seen, or kNoObject
 };
 

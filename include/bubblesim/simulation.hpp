@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "bubblesim/error.hpp"
@@ -43,6 +42,8 @@ class Participant {
 
 enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last pass of all
 
+/// Who uses a simulation that another thread steps holds world().access() meanwhile. step() has it but for drain(), and
+/// the functions that change what is simulated take it by themselves; others do not.
 class Simulation {
  public:
   explicit Simulation(SceneDescription scene, std::uint64_t seed = 0);
@@ -52,15 +53,15 @@ class Simulation {
   void add(Participant& participant);
 
   /// One pass of time_step() seconds. When the physics diverge, the last states are written to a file, and the scene's
-  /// on_divergence says what comes of it; to pause throws Diverged. Models that fell off the world are removed. Throws
-  /// std::logic_error when another thread is in here already.
+  /// on_divergence says what comes of it; to pause throws Diverged. Models that fell off the world are removed. Threads
+  /// that step take turns. Throws std::logic_error in a participant.
   void step();
   /// The part of a pass that goes on while paused.
   void drain();
 
   /// These change what is simulated: between passes, or in a participant's drain(), where they take effect at once.
-  /// They throw std::logic_error in the other phases of a pass and while another thread is stepping. The state and the
-  /// requests stay as they are.
+  /// They wait for a pass that another thread runs. They throw std::logic_error in the other phases of a pass, and in
+  /// another thread while participants in Python have the pass. The state and the requests stay as they are.
 
   /// Puts the models that are there now, and what the sensors remember, back to the start; time goes on.
   void reset_world();
@@ -115,6 +116,9 @@ class Simulation {
   /// What the sensor measured in its last due pass. A sensor that nobody read for a while measures when it is asked.
   /// Throws NoSuchObject when the object is no sensor.
   std::shared_ptr<const Reading> read(ObjectId sensor);
+  /// Seconds of simulation time at which the sensor was last due, or measured for measure(): another one means another
+  /// reading. It measures nothing. Throws NoSuchObject when the object is no sensor.
+  double reading_time(ObjectId sensor);
   /// Measures now, whatever the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
   /// Makes a camera show a picture: three bytes a pixel, the uppermost row first. It measures no more then, until the
@@ -161,9 +165,9 @@ class Simulation {
   double first_time_step_;  // s, of the scene
   // Before the time step was last changed:
   std::uint64_t passes_before_ = 0;
-  double time_before_ = 0;                          // s
-  std::atomic<std::thread::id> stepping_thread_{};  // none: no pass is being run
-  bool draining_ = false;                           // the phase of the pass that is being run
+  double time_before_ = 0;  // s
+  AccessLock stepping_;     // held by step()
+  bool in_pass_ = false;    // after its drain(); guarded by world_.access()
   std::atomic<RunState> state_{RunState::kRunning};
   std::atomic<bool> ending_{false};
   bool ends_at_stop_ = false;

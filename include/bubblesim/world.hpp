@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bubblesim/access_lock.hpp"
 #include "bubblesim/math.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
@@ -63,6 +64,9 @@ class World {
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
+
+  /// For those who use the world beside a thread that simulates; the functions here do not take it.
+  AccessLock& access() const { return access_; }
 
   /// Refers to the world as it is now: a reset ends the reference, handles stay.
   const SceneTree& tree() const;
@@ -169,6 +173,7 @@ class World {
   };
 
   std::unique_ptr<State, Discard> state_;
+  mutable AccessLock access_;
 };
 
 }  // namespace bubblesim

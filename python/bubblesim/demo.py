@@ -3,6 +3,10 @@
 
 from __future__ import annotations
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+
 import argparse
 import os
 import sys
@@ -10,6 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from bubblesim.program import run_program
 from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.recording import Recording
@@ -81,4 +86,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_program(main))

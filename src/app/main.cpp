@@ -2,7 +2,9 @@
 // The node: a scene, its child scripts and the ROS bridge, run at the wanted pace until the time is up or someone ends
 // it.
 #include <malloc.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <csignal>
@@ -19,6 +21,7 @@
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "options.hpp"
+#include "output.hpp"
 #include "pacer.hpp"
 #include "run_meter.hpp"
 #include "stop_signal.hpp"
@@ -46,8 +49,13 @@ void wait(RosBridge* bridge) {
   std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
 }
 
-int run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts,
-        RunMeter& meter) {
+/// For whoever watches the run; not for programs, which have /diagnostics.
+void summarize(RunMeter& meter) {
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s\n", meter.summary().c_str());
+}
+
+void run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts,
+         RunMeter& meter) {
   Pacer pacer(options.speed);
   while (!stop_requested() && !time_is_up(options, simulation)) {
     simulation.carry_out_requests();
@@ -68,13 +76,22 @@ int run(const Options& options, Simulation& simulation, RosBridge* bridge, const
     } else {
       simulation.drain();  // a slow simulation hears what it is asked
     }
-    if (options.strict && scripts.failures() > 0) return kScriptFailed;
+    if (options.strict && scripts.failures() > 0) return;
   }
-  return kFine;
+}
+
+bool has_plugins(const SceneDescription& scene) {
+  const auto plugged = [](const auto& owner) { return !owner.plugins.empty(); };
+  const auto any = [&](const auto& owners) { return std::any_of(owners.begin(), owners.end(), plugged); };
+  return plugged(scene) || any(scene.models) ||
+         std::any_of(scene.models.begin(), scene.models.end(), [&](const ModelDescription& model) {
+           return any(model.nested) || std::any_of(model.links.begin(), model.links.end(),
+                                                   [&](const LinkDescription& link) { return any(link.sensors); });
+         });
 }
 
 int run_scene(const Options& options, int& argc, char** argv) {
-  Simulation simulation(load_scene(options.scene), options.seed);
+  Simulation simulation(load_scene(options.scene, options.arguments), options.seed);
   watch_stop_signals();  // before, there was nothing to take down
   if (options.paused) simulation.pause();
   if (!options.ros || options.until) simulation.end_at_stop();  // there is nobody to start it again, or no wish to
@@ -86,6 +103,11 @@ int run_scene(const Options& options, int& argc, char** argv) {
     RosBridgeOptions ros_options;
     ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.start(); };
     ros_options.is_ending = stop_requested;
+    ros_options.replace = options.replace;
+    ros_options.on_shutdown = [](const std::string& why) {
+      std::fprintf(stderr, "info: the node was told to shut down: %s\n", why.c_str());
+      request_stop();
+    };
     ros_options.take_report = [meter] { return meter->take(); };
     bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
     ros = std::make_unique<RosParticipant>(*bridge, simulation);
@@ -96,28 +118,30 @@ int run_scene(const Options& options, int& argc, char** argv) {
     if (bridge) bridge->leave();
   });
   ChildScripts scripts(simulation, bridge.get(),
-                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.gazebo_compat,
-                        options.watch, options.record, options.lockstep});
+                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.allowed_programs,
+                        options.gazebo_compat, options.watch, options.record, options.lockstep});
   std::unique_ptr<Devices> devices;
-  if (bridge) {
+  if (bridge || has_plugins(simulation.scene())) {  // without ROS, those that are left out are reported
     devices = std::make_unique<Devices>(simulation, scripts);
     simulation.add(*devices);
   }
   simulation.add(scripts);
 
-  int exit_code = kFine;
   try {
-    exit_code = run(options, simulation, bridge.get(), scripts, *meter);
+    run(options, simulation, bridge.get(), scripts, *meter);
   } catch (const Diverged& error) {
     meter->fail(error.what());
     if (bridge) bridge->publish_diagnostics();
+    summarize(*meter);
     throw;
   }
   scripts.finish();
   guard.reset();
-  if (options.strict && scripts.failures() > 0) exit_code = kScriptFailed;
+  summarize(*meter);
   if (options.state_hash) std::printf("%016" PRIx64 "\n", simulation.state_hash());
-  return exit_code;
+  // With --watch, a script that was mended has not failed.
+  if ((options.watch ? scripts.disabled() : scripts.failures()) > 0) return kScriptFailed;
+  return scripts.output_lost() ? kOutputLost : kFine;
 }
 
 }  // namespace
@@ -126,11 +150,14 @@ int run_scene(const Options& options, int& argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace bubblesim::app;
   keep_freed_memory();
+  occupy_closed_descriptors();
   std::signal(SIGPIPE, SIG_IGN);  // who reads our output or a script's socket may go when he likes
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of whoever writes it
   try {
     const ParsedOptions parsed = parse_options(argc, argv);
-    if (!parsed.options) return parsed.exit_code;
-    return run_scene(*parsed.options, argc, argv);
+    if (parsed.options) remove_xacro_arguments(*parsed.options, argc, argv);
+    const int exit_code = parsed.options ? run_scene(*parsed.options, argc, argv) : parsed.exit_code;
+    return flush_output() || exit_code != kFine ? exit_code : kOutputLost;
   } catch (const bubblesim::Diverged& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kDiverged;

@@ -2,10 +2,13 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <limits>
+#include <regex>
 
+#include "bubblesim/nearest_names.hpp"
 #include "bubblesim/scene_loader.hpp"
 
 namespace bubblesim::app {
@@ -39,7 +42,54 @@ std::vector<std::string> own_arguments(int argc, char** argv) {
   return own;
 }
 
+/// What to say of arguments that fit nowhere.
+std::string unexpected(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  std::string text;
+  bool after_option = false;
+  for (const std::string& argument : app.remaining()) {
+    const bool is_option = argument.size() > 1 && argument.front() == '-';
+    const std::string name = argument.substr(0, argument.find('='));
+    if (is_option) {
+      text += "error: unknown option " + name + did_you_mean(name, known) + "\n";
+    } else if (!after_option) {
+      text += "error: unexpected argument '" + argument + "': there is one SCENE\n";
+    }
+    after_option = is_option;  // what follows may be its value
+  }
+  return text + "Run with --help for more information.\n";
+}
+
+/// Those that may be meant for xacro: ROS has the names that begin with an underscore for itself.
+std::vector<std::string> xacro_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t sign = argument.find(":=");
+    if (sign != std::string::npos && sign > 0 && argument.front() != '_') arguments.push_back(argument);
+  }
+  return arguments;
+}
+
+bool is_remapping(const std::string& argument) {
+  static const std::regex pattern("_.*|[~/]?[A-Za-z][A-Za-z0-9_/]*:=[~/]?[A-Za-z][A-Za-z0-9_/]*");
+  return std::regex_match(argument, pattern);
+}
+
 }  // namespace
+
+void remove_xacro_arguments(const Options& options, int& argc, char** argv) {
+  if (std::filesystem::path(options.scene).extension() != ".xacro") return;
+  const auto is_other = [](const char* argument) {
+    return std::string(argument).find(":=") != std::string::npos && !is_remapping(argument);
+  };
+  char** end = std::remove_if(argv + 1, argv + argc, is_other);
+  argc = static_cast<int>(end - argv);
+  argv[argc] = nullptr;
+}
 
 ParsedOptions parse_options(int argc, char** argv) {
   Options options;
@@ -50,10 +100,11 @@ ParsedOptions parse_options(int argc, char** argv) {
   bool no_ros = false;
   double until = 0;
 
+  options.arguments = xacro_arguments(argc, argv);
   CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
   app.footer(
-      "Exit codes: 0 fine, 1 a check failed, 2 bad input, 3 a script failed (with --strict), 4 the physics diverged.\n"
-      "ROS remappings (name:=value) are taken as usual.");
+      "Exit codes: 0 fine, 1 stdout is full or closed, 2 bad input, 3 a script failed, 4 the physics diverged.\n"
+      "ROS remappings (name:=value) are taken as usual; a scene in xacro is expanded with them as its arguments.");
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
   app.add_option("SCENE", options.scene, "name of a scene, or path of an .sdf file");
   app.add_option("--seed", options.seed, "of everything random (default 0)");
@@ -65,19 +116,24 @@ ParsedOptions parse_options(int argc, char** argv) {
   });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
-  app.add_flag("--no-ros", no_ros, "run without ROS; simROS is None in scripts");
+  app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts");
   app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
       ->allow_extra_args(false);
   app.add_option("--script-path", script_paths, "DIR in which scripts find what they include (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--gazebo-compat", options.gazebo_compat, "offer Gazebo's services and topics below /gazebo, too");
   app.add_flag("--lua-unsafe", options.lua_unsafe, "let scripts in Lua use os, io, debug and package");
+  app.add_option("--allow-programs", options.allowed_programs,
+                 "PROGRAM or folder that scripts in Lua may start programs from, beside those of ROS packages "
+                 "(repeatable)")
+      ->allow_extra_args(false);
   app.add_flag("--watch", options.watch, "load a script again as soon as its file changes");
   app.add_option("--record", options.record, "FILE: write what scripts publish and hear into a bag");
   app.add_option("--lockstep", options.lockstep,
                  "TOPIC: let each pass wait for a message on it that answers the last one (repeatable)")
       ->allow_extra_args(false);
-  app.add_flag("--strict", options.strict, "exit with 3 as soon as a script has failed");
+  app.add_flag("--replace", options.replace, "end the node of the same name that is on the ROS master");
+  app.add_flag("--strict", options.strict, "end as soon as a script has failed, with exit code 3");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
   app.add_flag("--list-scenes", list_scenes, "print the names of the scenes and exit");
   try {
@@ -94,6 +150,9 @@ ParsedOptions parse_options(int argc, char** argv) {
     if (no_ros && !options.lockstep.empty()) throw CLI::ValidationError("--lockstep", "needs ROS");
     for (const std::string& text : child_scripts) options.child_scripts.push_back(parse_child_script(text));
     options.script_paths.assign(script_paths.begin(), script_paths.end());
+  } catch (const CLI::ExtrasError&) {
+    std::cerr << unexpected(app);
+    return {std::nullopt, kBadInput};
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? kFine : kBadInput};
   }

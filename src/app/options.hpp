@@ -14,9 +14,9 @@ namespace bubblesim::app {
 /// What the process returns to its caller.
 enum ExitCode {
   kFine = 0,
-  kCheckFailed = 1,
+  kOutputLost = 1,  ///< stdout is full or closed
   kBadInput = 2,
-  kScriptFailed = 3,  ///< with --strict
+  kScriptFailed = 3,
   kDiverged = 4,
 };
 
@@ -27,15 +27,18 @@ struct Options {
   double speed = 1;             ///< simulated seconds per second; infinity: as fast as it can
   bool paused = false;
   bool ros = true;
+  bool replace = false;  ///< a node of the same name
   bool strict = false;
   bool state_hash = false;
   std::vector<std::pair<std::string, std::filesystem::path>> child_scripts;
   std::vector<std::filesystem::path> script_paths;
   bool gazebo_compat = false;
   bool lua_unsafe = false;
+  std::vector<std::string> allowed_programs;
   bool watch = false;
   std::filesystem::path record;
-  std::vector<std::string> lockstep;  ///< topics
+  std::vector<std::string> lockstep;   ///< topics
+  std::vector<std::string> arguments;  ///< NAME:=VALUE, for a scene in xacro
 };
 
 /// Reads the command line. When it asks for nothing but a text (--help, --list-scenes) or cannot be used, the text is
@@ -45,5 +48,8 @@ struct ParsedOptions {
   int exit_code = kFine;
 };
 ParsedOptions parse_options(int argc, char** argv);
+
+/// Takes the arguments of a scene in xacro that are no remappings of ROS out of the command line: roscpp refuses those.
+void remove_xacro_arguments(const Options& options, int& argc, char** argv);
 
 }  // namespace bubblesim::app

@@ -2,6 +2,8 @@
 #include "run_meter.hpp"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace bubblesim::app {
@@ -40,6 +42,9 @@ void RunMeter::run_pass(Simulation& simulation) {
   report_.wall_time += seconds(end - last_end_.value_or(begin));
   report_.step_time += seconds(end - begin);
   report_.longest_step = std::max(report_.longest_step, seconds(end - begin));
+  ++steps_;
+  simulated_time_ += simulation.time_step();
+  wall_time_ += seconds(end - last_end_.value_or(begin));
   last_end_ = end;
 }
 
@@ -75,6 +80,15 @@ RunReport RunMeter::take() {
   report_.passes = 0;
   report_.simulated_time = report_.wall_time = report_.step_time = report_.longest_step = 0;
   return report;
+}
+
+std::string RunMeter::summary() {
+  const std::lock_guard lock(mutex_);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "simulated " << simulated_time_ << " s in " << wall_time_
+       << " s: real-time factor " << (wall_time_ > 0 ? simulated_time_ / wall_time_ : 0.0) << ", " << steps_
+       << " steps";
+  return text.str();
 }
 
 }  // namespace bubblesim::app

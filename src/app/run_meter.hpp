@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -26,12 +27,17 @@ class RunMeter {
 
   /// What has happened since the last call. Any thread may call it.
   RunReport take();
+  /// What was simulated so far, in one line: seconds, real-time factor, steps.
+  std::string summary();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::mutex mutex_;
   RunReport report_;
+  double simulated_time_ = 0;  // s, of all steps
+  double wall_time_ = 0;       // s, that they took
+  std::uint64_t steps_ = 0;
   std::optional<Clock::time_point> last_end_;  // of a pass; none: the time until the next one does not count
 };
 

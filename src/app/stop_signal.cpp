@@ -44,7 +44,12 @@ void watch_stop_signals() {
   action.sa_handler = request;
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  struct sigaction at_hang_up {};
+  sigaction(SIGHUP, nullptr, &at_hang_up);
+  if (at_hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored: the user wants nohup
 }
+
+void request_stop() { kill(getpid(), SIGTERM); }
 
 bool stop_requested() { return requested != 0; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIGINT and SIGTERM as a flag that the main loop reads, and what happens when a script keeps the loop from reading it.
+// SIGINT, SIGTERM and SIGHUP as a flag that the main loop reads, and what happens when a script keeps the loop from
+// reading it.
 #pragma once
 
 #include <pthread.h>
@@ -12,9 +13,11 @@
 
 namespace bubblesim::app {
 
-/// From now on SIGINT and SIGTERM set stop_requested().
+/// From now on SIGINT, SIGTERM and SIGHUP set stop_requested(); SIGHUP unless it is ignored, as nohup has it.
 void watch_stop_signals();
 bool stop_requested();
+/// What SIGTERM does. Any thread may call it.
+void request_stop();
 
 /// Sees to it that the thread that made it comes to the guard's end about a second after a signal. While it does not,
 /// `interrupt` is called four times a second, by a signal handler on that thread, which also ends a sleep; at last

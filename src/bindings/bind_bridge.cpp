@@ -23,18 +23,21 @@ namespace py = pybind11;
 using messages::Bridge;
 using messages::EndpointId;
 
-void publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
-  if (!bridge.wants_messages(publisher)) return;
+py::object publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
+  if (!bridge.wants_messages(publisher)) return py::none();
   messages::WireBuffer bytes;
-  encode(bridge.message_type(publisher), message.ptr(), bytes);
-  const py::gil_scoped_release release;
-  bridge.publish(publisher, std::move(bytes));
+  const std::vector<Truncation> truncations = encode(bridge.message_type(publisher), message.ptr(), bytes);
+  {
+    const py::gil_scoped_release release;
+    bridge.publish(publisher, std::move(bytes));
+  }
+  return to_python(truncations);
 }
 
 /// Throws what publish() would throw while somebody listens.
-void check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
+py::object check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
   messages::WireBuffer bytes;
-  encode(bridge.message_type(publisher), message.ptr(), bytes);
+  return to_python(encode(bridge.message_type(publisher), message.ptr(), bytes));
 }
 
 EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, std::uint32_t queue_size,
@@ -147,8 +150,11 @@ void bind_bridge(py::module_& core) {
            py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
            "`callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
-           "Converts and sends a dict; does nothing when nobody listens.")
-      .def("check", &check, py::arg("publisher"), py::arg("message"), "Converts a dict without sending it.")
+           "Converts and sends a dict; does nothing when nobody listens. Returns None, or [(field, value)] of the "
+           "floats "
+           "that lost more than a thousandth in integer fields.")
+      .def("check", &check, py::arg("publisher"), py::arg("message"),
+           "Converts a dict without sending it; returns what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
            "Whether publish() would send anything: somebody listens, or the topic is latched.")
       .def("give_way", &Bridge::give_way, py::arg("endpoint"), without_gil,

@@ -24,6 +24,11 @@ py::bytes encode_to_bytes(const std::string& name, const py::object& message) {
   return {reinterpret_cast<const char*>(out.data()), out.size()};
 }
 
+py::object truncations(const std::string& name, const py::object& message) {
+  messages::WireBuffer out;
+  return to_python(encode(listed_message(name), message.ptr(), out));
+}
+
 py::object decode_buffer(const std::string& name, const py::buffer& data, TimeForm time) {
   const MessageType& type = listed_message(name);
   const py::buffer_info info = data.request();
@@ -92,6 +97,9 @@ void bind_messages(py::module_& core) {
 
   m.def("encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
         "Wire bytes of a dict. Missing fields get their default; anything that does not fit raises MessageError.");
+  m.def("truncations", &truncations, py::arg("type_name"), py::arg("message"),
+        "As encode(), and returns None, or [(field, value)] of the floats that lost more than a thousandth in integer "
+        "fields.");
   m.def("decode", &decode_buffer, py::arg("type_name"), py::arg("data"), py::arg("time_form") = TimeForm::kSecsNsecs,
         "The dict of wire bytes. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
   m.def(

@@ -7,6 +7,7 @@
 
 #include "bindings.hpp"
 #include "bubblesim/urdf.hpp"
+#include "guarded.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
 
@@ -42,8 +43,10 @@ void set_angular_velocity(const ObjectView& view, const NumpyArray& velocity) {
 
 void bind_objects(py::module_& module) {
   using View = ObjectView;
-  py::class_<View>(module, "Object",
-                   "A model, link, joint or sensor of a simulation. SI units, world frame, quaternions x, y, z, w.")
+  py::class_<View> object(
+      module, "Object",
+      "A model, link, joint or sensor of a simulation. SI units, world frame, quaternions x, y, z, w.");
+  Guarded(object)
       .def_property_readonly("handle", &View::id)
       .def_property_readonly("name", [](const View& v) { return v.object().name; })
       .def_property_readonly(

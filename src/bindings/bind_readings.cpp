@@ -59,7 +59,7 @@ void bind_scan(py::module_& module) {
           "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
           "ranges", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->ranges, s); },
-          "Metres, rings x samples of float32: inf for nothing in range, -inf for nearer than min_range.")
+          "Metres, rings x samples of float32: from min_range on; inf for nothing in range.")
       .def_property_readonly(
           "intensities", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->intensities, s); },
           "The laser_retro of what was hit, 0 for nothing; rings x samples of float32.")
@@ -108,7 +108,7 @@ void bind_image(py::module_& module) {
           "height x width x 3 of uint8; None from a depth camera.")
       .def_property_readonly(
           "depth", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->depth, i); },
-          "Metres along the axis, height x width of float32: inf beyond the far plane, -inf before the near one.")
+          "Metres along the axis, height x width of float32: from the near plane on; inf beyond the far one.")
       .def_property_readonly(
           "objects", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->objects, i); },
           "Handles of the links seen, -1 for none; height x width of int32.")

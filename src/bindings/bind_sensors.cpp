@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
+#include "guarded.hpp"
 #include "held_readings.hpp"
 #include "object_view.hpp"
 
@@ -46,6 +47,14 @@ py::tuple proximity_tuple(const ProximityReading& r) {
   return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
 }
 
+py::tuple camera_optics(Simulation& simulation, ObjectId sensor) {
+  const World& world = simulation.world();
+  const std::string_view kind = simulation.sensor_kind(sensor);
+  const auto* camera = std::get_if<CameraDescription>(&world.sensor_description(sensor).kind);
+  if (camera != nullptr) return py::make_tuple(camera->width, camera->height, camera->horizontal_fov);
+  throw NoSuchObject(world.tree().short_path(sensor) + " is a " + std::string(kind) + ", not a camera");
+}
+
 }  // namespace
 
 py::object last_reading(Simulation& simulation, ObjectId sensor) {
@@ -53,7 +62,8 @@ py::object last_reading(Simulation& simulation, ObjectId sensor) {
   return std::visit(ToPython{reading}, reading->measurement);
 }
 
-void bind_sensors(py::module_& module) {
+void bind_sensors(py::module_& core) {
+  Guarded module(core);
   module.def(
       "read_sensor",
       [](Simulation& s, ObjectId sensor) {
@@ -68,8 +78,8 @@ void bind_sensors(py::module_& module) {
       "measure_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.measure_proximity(sensor)); },
       "The same, measured now.");
   module.def(
-      "reading_time", [](Simulation& s, ObjectId sensor) { return s.read(sensor)->time; },
-      "Simulated seconds at which the sensor last measured.");
+      "reading_time", [](Simulation& s, ObjectId sensor) { return s.reading_time(sensor); },
+      "Simulated seconds at which the sensor was last due; it measures nothing.");
   module.def(
       "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor), "lidar"); },
       "The lidar's last scan.");
@@ -119,6 +129,8 @@ void bind_sensors(py::module_& module) {
       "read_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },
       "The camera's last image.");
+  module.def("camera_optics", &camera_optics,
+             "A camera's width and height in pixels, and its horizontal field of view, rad; it measures nothing.");
   module.def(
       "measure_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.measure(sensor), "camera"); },

@@ -13,6 +13,7 @@
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/triangle_mesh.hpp"
+#include "guarded.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
 
@@ -177,17 +178,23 @@ void bind_simulation(py::module_& module) {
       .value("RUNNING", RunState::kRunning)
       .value("STOPPING", RunState::kStopping, "The last pass.");
 
-  py::class_<Simulation>(module, "Simulation", R"(A scene that runs.
+  py::class_<Simulation> simulation(module, "Simulation", R"(A scene that runs.
 
 Equal seeds and equal commands give equal states, bit by bit, in every process.
 
 :param scene: name of a scene ("tricycle") or path of an .sdf file.
 :param seed: of everything random in the simulation.
-:raises SceneError: with all problems of the file, each with file:line and object.)")
-      .def(py::init([](const std::string& scene, std::uint64_t seed) {
-             return std::make_unique<Simulation>(load_scene(scene), seed);
+:param arguments: what a .xacro file is expanded with, by name.
+:raises SceneError: with all problems of the file, each with file:line and object.)");
+  // These take the simulation by themselves, or are made for any thread.
+  simulation
+      .def(py::init([](const std::string& scene, std::uint64_t seed, const std::map<std::string, std::string>& named) {
+             XacroArguments arguments;
+             for (const auto& [name, value] : named) arguments.push_back(name + ":=" + value);
+             return std::make_unique<Simulation>(load_scene(scene, arguments), seed);
            }),
-           py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
+           py::arg("scene"), py::kw_only(), py::arg("seed") = 0,
+           py::arg("arguments") = std::map<std::string, std::string>())
       .def("step", &step, py::arg("passes") = 1, py::call_guard<py::gil_scoped_release>(),
            "Simulates `passes` passes of `time_step` seconds, without holding the GIL.\n\n"
            ":raises Diverged: when a body leaves the finite world; reset it or load the scene again then.")
@@ -195,7 +202,8 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            "Puts the models that are there now back to where they came into the world; time goes on, handles stay.\n\n"
            "Call it between passes, or in a callback that brings messages or service calls: there it takes effect at\n"
            "once. A diverged simulation is of use again.\n\n"
-           ":raises RuntimeError: in sysCall_actuation and sysCall_sensing, and while another thread steps.")
+           ":raises RuntimeError: in sysCall_actuation and sysCall_sensing. It waits for a pass that another thread "
+           "runs.")
       .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
            "As `reset_world`, and time starts at 0 again: what follows equals a new simulation of these models, bit\n"
            "by bit.")
@@ -213,18 +221,12 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
            "Removes a model with all that belongs to it, when `reset_world` may be called.\n\n"
            "Handles of its objects name nothing from now on, and are not used again.")
-      .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
-      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
-      .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
-           "Lets passes take so long from now on, 1e-4 to 10 s, until `reset`.")
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
+      .def_property_readonly("world_name", [](const Simulation& s) { return s.scene().world_name; })
       .def_property_readonly(
           "is_model_file", [](const Simulation& s) { return s.scene().is_model_file; },
           "Whether the scene is a single model, put on a ground plane.")
-      .def_property_readonly(
-          "plugins", [](const Simulation& s) { return s.scene().plugins; },
-          "The PluginDescriptions that stand directly in the world.")
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
       .def("start", &Simulation::start, "Asks whoever runs the passes to start, or to go on after a pause.")
       .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")
@@ -236,14 +238,22 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def_property_readonly("state", &Simulation::state)
       .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
       .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "A stop was asked for and is not done yet.")
+      .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
+                             "The same objects by handle, as child scripts use them.");
+  Guarded(simulation)
+      .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
+      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
+      .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
+           "Lets passes take so long from now on, 1e-4 to 10 s, until `reset`.")
+      .def_property_readonly(
+          "plugins", [](const Simulation& s) { return s.scene().plugins; },
+          "The PluginDescriptions that stand directly in the world.")
       .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
       .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
       .def("object", &find_object, py::arg("path"),
            "The object at a path such as /Tricycle/FrontMotor, or /FrontMotor when that is the only one.\n\n"
            ":raises NoSuchObject: naming similar objects.")
-      .def_property_readonly("objects", &all_objects, "All objects of the scene.")
-      .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
-                             "The same objects by handle, as child scripts use them.");
+      .def_property_readonly("objects", &all_objects, "All objects of the scene.");
 
   module.def("scene_names", &scene_names, "Names of all scenes that are found.");
   module.def("scene_folders", &scene_folders, "Folders that are searched for scenes.");

@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/world.hpp"
+#include "guarded.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -55,7 +56,8 @@ void bind_world(py::module_& module) {
       .value("NONE", MotorMode::kNone, "Nothing: the axis is free, but for friction and damping.")
       .value("VELOCITY", MotorMode::kVelocity)
       .value("POSITION", MotorMode::kPosition);
-  py::class_<World>(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.")
+  py::class_<World> world(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.");
+  Guarded(world)
       .def(
           "find",
           [](const World& w, const std::string& path, ObjectId from, std::size_t index) {
@@ -78,6 +80,26 @@ void bind_world(py::module_& module) {
             return py::make_tuple(sensor.topic, sensor.frame, sensor.update_rate);
           },
           py::arg("sensor"), "Its <bubblesim:topic>, its <bubblesim:frame>, both may be empty, and its rate in Hz.")
+      .def(
+          "gz_topic",
+          [](const World& w, ObjectId id) {
+            const SensorDescription& sensor = w.sensor_description(id);
+            return py::make_tuple(sensor.type, sensor.gz.topic, sensor.gz.info_topic, sensor.gz.frame);
+          },
+          py::arg("sensor"),
+          "SDFormat's name of the sensor's type; its <topic>, its <camera_info_topic> and its frame, which may be "
+          "empty.")
+      .def(
+          "find_signal",
+          [](const World& w, const std::string& signal) {
+            for (const auto& [id, object] : w.tree().objects()) {
+              if (object.kind != ObjectKind::kSensor) continue;
+              const auto* lidar = std::get_if<LidarDescription>(&w.sensor_description(id).kind);
+              if (lidar != nullptr && lidar->signal == signal) return id;
+            }
+            return kNoObject;
+          },
+          py::arg("signal"), "Handle of the lidar whose <bubblesim:signal> this is, or -1; `signal` is not empty.")
       .def(
           "sonar_limits",
           [](const World& w, ObjectId id) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conversion_failure.hpp"
 
+#include <algorithm>
+
 #include "message_walk.hpp"
 #include "python_ref.hpp"
 
@@ -64,6 +66,27 @@ bool ConversionFailure::inside(std::size_t index) {
   const bool joins = !path_.empty() && path_.front() != '[';
   path_ = "[" + std::to_string(index) + "]" + (joins ? "." : "") + path_;
   return false;
+}
+
+void ConversionFailure::truncated(double value) {
+  if (truncations_.empty() || !truncations_.back().field.empty()) truncations_.push_back({{}, value});
+}
+
+void ConversionFailure::truncated_inside(std::size_t first, std::string_view field) {
+  for (std::size_t i = first; i < truncations_.size(); ++i) {
+    std::string& path = truncations_[i].field;
+    path = std::string(field) + (path.empty() ? "" : ".") + path;
+  }
+}
+
+void ConversionFailure::unite_truncations(std::size_t first) {
+  std::vector<Truncation> kept(truncations_.begin(), truncations_.begin() + static_cast<std::ptrdiff_t>(first));
+  for (std::size_t i = first; i < truncations_.size(); ++i) {
+    const auto same = [&](const Truncation& earlier) { return earlier.field == truncations_[i].field; };
+    const auto begin = kept.begin() + static_cast<std::ptrdiff_t>(first);
+    if (std::none_of(begin, kept.end(), same)) kept.push_back(truncations_[i]);
+  }
+  truncations_ = std::move(kept);
 }
 
 void ConversionFailure::raise(std::string_view type_name) const {

@@ -17,15 +17,27 @@ inline void init_message_codec() {
 
 /// Appends the bytes of a message to `out`. `message` is a dict of field name -> value; missing fields get their
 /// default.
-///   bool: bool, 0, 1            integers: int, NumPy integers, floats without fraction; range-checked
+///   bool: bool, 0, 1            integers: int, NumPy integers, finite floats truncated toward zero; range-checked
 ///   floats: any real number     string: str (UTF-8, surrogateescape) or bytes
 ///   time, duration: seconds as a number, {secs, nsecs} or {sec, nanosec}
 ///   arrays of numbers: buffers (numpy, array, memoryview) and sequences; uint8[] and int8[] also bytes, bytearray and
 ///   str (Latin-1)               other arrays: sequences
 /// Throws pybind11::error_already_set (MessageError) with type, field path, expected and found; `out` then holds a
-/// part.
-inline void encode(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out) {
-  if (!encode_message(type, message, out)) throw pybind11::error_already_set();
+/// part. Returns where a float lost more than kUnnoticedTruncation.
+inline std::vector<Truncation> encode(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out) {
+  std::vector<Truncation> truncations;
+  if (!encode_message(type, message, out, &truncations)) throw pybind11::error_already_set();
+  return truncations;
+}
+
+/// For scripts: None, or a list of (field, value before it was truncated).
+inline pybind11::object to_python(const std::vector<Truncation>& truncations) {
+  if (truncations.empty()) return pybind11::none();
+  pybind11::list list;
+  for (const Truncation& truncation : truncations) {
+    list.append(pybind11::make_tuple(truncation.field, truncation.value));
+  }
+  return list;
 }
 
 /// The dict of a message's bytes: arrays of numbers become numpy arrays that own their data, uint8[] becomes bytes.

@@ -45,7 +45,9 @@ class Encoder {
       }
       if (item != nullptr) {
         ++used;
+        const std::size_t truncated = failure.truncation_count();
         if (!this->field(field, item)) return failure.inside(field.name);
+        if (failure.truncation_count() != truncated) failure.truncated_inside(truncated, field.name);
       } else {
         if (PyErr_Occurred() != nullptr) return false;
         put_default(field);
@@ -64,11 +66,17 @@ class Encoder {
     if (!items) return false;
     const Py_ssize_t count = PySequence_Fast_GET_SIZE(items.get());
     if (!begin_array(field, static_cast<std::size_t>(count), out_, failure)) return false;
+    const std::size_t before = failure.truncation_count();
+    std::size_t truncated = before;
     for (Py_ssize_t i = 0; i < count; ++i) {
       // Reading an item may run code that changes the list.
       if (i >= PySequence_Fast_GET_SIZE(items.get())) return failure.set("the list became shorter while it was read");
       if (!element(field, PySequence_Fast_GET_ITEM(items.get(), i))) {
         return failure.inside(static_cast<std::size_t>(i));
+      }
+      if (failure.truncation_count() != truncated) {
+        failure.unite_truncations(before);
+        truncated = failure.truncation_count();
       }
     }
     return true;
@@ -171,9 +179,13 @@ class Encoder {
 
 }  // namespace
 
-bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out) {
+bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
+                    std::vector<Truncation>* truncations) {
   Encoder encoder(out);
-  if (encoder.message(type, message)) return true;
+  if (encoder.message(type, message)) {
+    if (truncations != nullptr) *truncations = encoder.failure.take_truncations();
+    return true;
+  }
   encoder.failure.raise(type.name);
   return false;
 }

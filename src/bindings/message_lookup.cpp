@@ -30,9 +30,8 @@ void add_from_definition(const char* function, const std::string& name) {
   std::string hint;
   for (const std::string& candidate : similar) hint += (hint.empty() ? "" : " or ") + candidate;
   if (!hint.empty()) hint = "; did you mean " + hint + "?";
-  const std::string text = name + " is not among the " + what + " types of this build" + hint +
-                           (hint.empty() ? ";" : "") + " to add it, write its line into " + list +
-                           " and run 'catkin build'";
+  if (hint.empty()) hint = "; to add it, write its line into " + list + " and run 'catkin build'";
+  const std::string text = name + " is not among the " + what + " types of this build" + hint;
   PyErr_SetString(message_error(), text.c_str());
   throw py::error_already_set();
 }

@@ -6,9 +6,11 @@
 #include <Python.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "bubblesim/messages/message_type.hpp"
 #include "bubblesim/messages/wire.hpp"
+#include "conversion_failure.hpp"
 
 namespace bubblesim::bindings {
 
@@ -29,8 +31,10 @@ PyObject* message_error();
 /// Once in the process, before all else here. False: an exception is set.
 bool prepare_codec();
 
-/// Appends to `out`. False: an exception is set, and `out` holds a part of the message.
-bool encode_message(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out);
+/// Appends to `out`. False: an exception is set, and `out` holds a part of the message. `truncations`, if given, gets
+/// the integer fields that took a float whose fraction was noticeable.
+bool encode_message(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out,
+                    std::vector<Truncation>* truncations = nullptr);
 
 /// A new reference. nullptr: an exception is set.
 PyObject* decode_message(const messages::MessageType& type, messages::WireView bytes, CodecOptions options);

@@ -5,11 +5,13 @@
 #include <numpy/arrayobject.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "python_values.hpp"
@@ -138,6 +140,9 @@ bool encode_converted(const Field& field, PyArrayObject* array, int wide_type, W
     if (!narrow(values[i], number)) {
       failure.set("expected " + expectation<To>() + ", found " + std::to_string(values[i]));
       return failure.inside(i);
+    }
+    if constexpr (std::is_floating_point_v<From> && std::is_integral_v<To>) {
+      if (std::abs(values[i] - static_cast<From>(number)) > kUnnoticedTruncation) failure.truncated(values[i]);
     }
     std::memcpy(place, &number, sizeof(To));
   }

@@ -9,17 +9,24 @@ namespace {
 /// The one number of NumPy that will no longer be an index.
 bool is_numpy_bool(PyObject* value) { return std::strcmp(Py_TYPE(value)->tp_name, "numpy.bool_") == 0; }
 
-/// The value as a Python int: ints, NumPy integers, bools, and floats without a fraction, which is what Lua and
-/// divisions give.
+/// float, and those of NumPy, of which only float64 is one.
+bool is_float(PyObject* value) {
+  constexpr std::string_view kNumpyFloat = "numpy.float";
+  const std::string_view type = Py_TYPE(value)->tp_name;
+  return PyFloat_Check(value) || type.substr(0, kNumpyFloat.size()) == kNumpyFloat || type == "numpy.longdouble";
+}
+
+/// The value as a Python int: ints, NumPy integers, bools, and finite floats without their fraction.
 Ref as_int(PyObject* value, std::string_view expected, ConversionFailure& failure) {
   PyObject* number = nullptr;
   if (is_numpy_bool(value)) {
     number = PyLong_FromLong(PyObject_IsTrue(value));
   } else if (PyIndex_Check(value)) {
     number = PyNumber_Index(value);
-  } else if (PyFloat_Check(value) && std::isfinite(PyFloat_AS_DOUBLE(value)) &&
-             PyFloat_AS_DOUBLE(value) == std::floor(PyFloat_AS_DOUBLE(value))) {
-    number = PyLong_FromDouble(PyFloat_AS_DOUBLE(value));
+  } else if (is_float(value)) {
+    const double real = PyFloat_AsDouble(value);
+    number = PyLong_FromDouble(real);  // toward zero; an exception for infinity and what is no number
+    if (number != nullptr && std::abs(real - std::trunc(real)) > kUnnoticedTruncation) failure.truncated(real);
   } else {
     failure.expected(expected, value);
     return {};
@@ -58,7 +65,9 @@ bool read_time_dict(PyObject* dict, TimeParts<T>& time, ConversionFailure& failu
     if (!secs && !is("nsecs") && !is("nanosec")) {
       return failure.expected("keys 'secs' and 'nsecs' or 'sec' and 'nanosec'", key);
     }
+    const std::size_t truncated = failure.truncation_count();
     if (!read_number(item, secs ? time.secs : time.nsecs, failure)) return failure.inside(secs ? "secs" : "nsecs");
+    failure.truncated_inside(truncated, secs ? "secs" : "nsecs");
   }
   return true;
 }

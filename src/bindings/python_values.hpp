@@ -31,7 +31,8 @@ std::string expectation() {
   }
 }
 
-/// Takes over `from` if `to` can hold it: integers exactly, floats rounded but never to infinity.
+/// Takes over `from` if `to` can hold it: integers exactly, floats as floats rounded but never to infinity, as integers
+/// truncated toward zero.
 template <class To, class From>
 bool narrow(From from, To& to) {
   if constexpr (std::is_same_v<To, bool>) {
@@ -45,8 +46,9 @@ bool narrow(From from, To& to) {
     constexpr To kHalf = std::numeric_limits<To>::max() / 2 + 1;
     constexpr From kEnd = static_cast<From>(kHalf) * 2;
     constexpr From kFirst = static_cast<From>(std::numeric_limits<To>::min());
-    if (!(from >= kFirst && from < kEnd) || from != std::floor(from)) return false;
-    to = static_cast<To>(from);
+    const From whole = std::trunc(from);
+    if (!(whole >= kFirst && whole < kEnd)) return false;
+    to = static_cast<To>(whole);
   } else if constexpr (std::is_signed_v<From> == std::is_signed_v<To>) {
     if (from < std::numeric_limits<To>::min() || from > std::numeric_limits<To>::max()) return false;
     to = static_cast<To>(from);
@@ -73,6 +75,10 @@ bool read_number_slowly(PyObject* value, T& number, ConversionFailure& failure) 
     double wide = 0;
     if (!read_double(value, expectation<T>(), wide, failure)) return false;
     return narrow(wide, number) || failure.expected(expectation<T>() + " (finite or inf)", value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    double wide = 0;  // 0.5 is no bool, where it would be an integer
+    if (!read_double(value, expectation<T>(), wide, failure)) return false;
+    return narrow(wide, number) || failure.expected(expectation<T>(), value);
   } else {
     using Wide = std::conditional_t<std::is_unsigned_v<T> && sizeof(T) == 8, std::uint64_t, std::int64_t>;
     Wide wide = 0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "map_files.hpp"
+#include "run_node.hpp"
 
 namespace {
 
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
     std::fputs(kUsage, stderr);
     return 2;
   }
-  ros::NodeHandle node;
+  ros::NodeHandle node = bubblesim::start_node();
   int code = 1;
   const auto save = [&](const nav_msgs::OccupancyGrid::ConstPtr& map) {
     try {

@@ -7,14 +7,26 @@
 
 #include <stdexcept>
 
+#include "advertised_address.hpp"
+#include "peer_limits.hpp"
+#include "peer_lines.hpp"
+
 namespace bubblesim {
+
+/// Starts roscpp after ros::init(): with ports on the advertised address alone, and within the limits for peers.
+inline ros::NodeHandle start_node() {
+  check_peer_limits();
+  limit_peer_lines();
+  const AdvertisedAddress alone;
+  return {};
+}
 
 /// Runs a node of the class `Node` under `name` until it is told to stop, and returns the process's exit code: 2 when a
 /// parameter cannot be used, which the log tells.
 template <typename Node>
 int run_node(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
-  const ros::NodeHandle alive;  // with the last handle the log ends, too
+  const ros::NodeHandle alive = start_node();  // with the last handle the log ends, too
   try {
     Node node;
     ros::spin();

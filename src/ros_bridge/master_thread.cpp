@@ -15,8 +15,10 @@
 #include <thread>
 #include <utility>
 
+#include "advertised_address.hpp"
 #include "interrupt.hpp"
 #include "quiet_thread.hpp"
+#include "say.hpp"
 
 namespace bubblesim {
 namespace {
@@ -57,6 +59,8 @@ struct MasterThread::Shared {
   std::uint64_t answers = 0;                  // of the master, as far as check() knows
   std::optional<std::uint64_t> silent_after;  // that many, run() lost its patience
   bool said_absent = false;
+  bool first_answer_taken = false;  // wait_for_first_answer() has returned
+  std::string refusal;
   bool stopping = false;
   bool finished = false;
   std::mutex stop_mutex;
@@ -64,6 +68,7 @@ struct MasterThread::Shared {
 
   void set_state(State next);
   void set_absent(std::unique_lock<std::mutex>& lock);
+  void set_refused(std::unique_lock<std::mutex>& lock, std::string why);
   bool find_master();
   void work();
   void run();
@@ -83,6 +88,17 @@ void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
   lock.lock();
 }
 
+/// Whoever waits for the first answer reports the refusal; a later one is reported here, once.
+void MasterThread::Shared::set_refused(std::unique_lock<std::mutex>& lock, std::string why) {
+  const bool is_news = refusal.empty() && first_answer_taken;
+  refusal = std::move(why);
+  set_state(State::kAbsent);
+  if (!is_news) return;
+  lock.unlock();
+  say("not registered: " + refusal);
+  lock.lock();
+}
+
 /// False when it is time to stop. NodeHandle and ros::start() would wait for ever, so they come after this.
 bool MasterThread::Shared::find_master() {
   for (;;) {
@@ -90,10 +106,21 @@ bool MasterThread::Shared::find_master() {
     std::unique_lock lock(mutex);
     if (stopping) return false;
     if (found) {
-      set_state(State::kStarting);
-      return true;
+      if (refusal.empty()) set_state(State::kStarting);
+      lock.unlock();
+      std::string why;
+      run_safely([&] { return why = hooks.refusal(), true; });
+      lock.lock();
+      if (stopping) return false;
+      if (why.empty()) {
+        refusal.clear();
+        set_state(State::kStarting);
+        return true;
+      }
+      set_refused(lock, std::move(why));
+    } else {
+      set_absent(lock);
     }
-    set_absent(lock);
     if (changed.wait_for(lock, kCheckInterval, [this] { return stopping; })) return false;
   }
 }
@@ -127,7 +154,10 @@ void MasterThread::Shared::work() {
 
 void MasterThread::Shared::run() {
   if (find_master()) {
-    ros::start();
+    {
+      const AdvertisedAddress alone;
+      ros::start();
+    }
     bool go_on = false;
     {
       const std::lock_guard lock(mutex);
@@ -136,6 +166,7 @@ void MasterThread::Shared::run() {
     if (go_on) {
       hooks.on_connected();
       work();
+      if (state == State::kConnected) run_safely([this] { return hooks.on_leaving(), true; });
     }
     ros::shutdown();  // or wait for the one that stop() began
   }
@@ -168,9 +199,15 @@ void MasterThread::wait_for_first_answer(std::chrono::milliseconds answer_timeou
   } else if (!is_ending()) {
     shared_->set_absent(lock);
   }
+  shared_->first_answer_taken = true;
 }
 
 MasterThread::State MasterThread::state() const { return shared_->state; }
+
+std::string MasterThread::refusal() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->refusal;
+}
 
 void MasterThread::post(Job job) {
   {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace bubblesim {
 
@@ -24,9 +25,12 @@ class MasterThread {
   struct Hooks {
     /// Whether a master answers. Asked until it does; then four times a second and before every job.
     std::function<bool()> check;
+    /// Asked once a master answers, before roscpp starts: why this node must not register there, or nothing.
+    std::function<std::string()> refusal;
     Job on_absent;     ///< once, if the first try fails or takes too long
     Job on_connected;  ///< once roscpp is started, before any job
     Job in_passing;    ///< while connected, whenever check found the master
+    Job on_leaving;    ///< before roscpp is shut down, when it was connected and the master was there when last asked
   };
 
   /// Hooks run on the new thread. Nothing happens before start().
@@ -45,6 +49,9 @@ class MasterThread {
                              const std::function<bool()>& is_ending);
 
   State state() const;
+  /// Why the node must not register at the master that answers; empty when it may, or nobody knows. The state is
+  /// kAbsent then, and the question is asked again four times a second.
+  std::string refusal() const;
 
   /// Runs `job` after those posted before, while connected. Jobs not begun when stop() is called are dropped.
   void post(Job job);

@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "peer_limits.hpp"
+#include "peer_lines.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -43,6 +46,8 @@ void init_node(int& argc, char** argv, const std::string& default_name) {
   } catch (const ros::Exception& error) {
     throw std::invalid_argument(std::string("unusable name for the ROS node: ") + error.what());
   }
+  check_peer_limits();
+  limit_peer_lines();
 }
 
 }  // namespace bubblesim

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -19,15 +20,18 @@
 #include "endpoints.hpp"
 #include "master_thread.hpp"
 #include "master_watch.hpp"
+#include "node_name.hpp"
 #include "node_setup.hpp"
 #include "own_types.hpp"
 #include "parameters.hpp"
 #include "publisher_check.hpp"
 #include "refused_peers.hpp"
+#include "remote_shutdown.hpp"
 #include "ros_clock.hpp"
 #include "say.hpp"
 #include "services.hpp"
 #include "topics.hpp"
+#include "use_sim_time.hpp"
 
 namespace bubblesim {
 namespace {
@@ -49,6 +53,7 @@ struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
   void offer_pause_service(const std::string& name, bool paused);
+  std::string refusal();
   void on_connected();
 
   const RosBridgeOptions options;
@@ -60,6 +65,7 @@ struct RosBridge::Impl {
   EndpointId next_id = 1;
 
   RosClock clock{queue};
+  UseSimTime use_sim_time;
 
   MasterWatch watch{[this] {
     clock.read_use_sim_time();
@@ -80,7 +86,7 @@ struct RosBridge::Impl {
 
 RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     : options(std::move(bridge_options)),
-      master({[this] { return watch.check(); },
+      master({[this] { return watch.check(); }, [this] { return refusal(); },
               [] {
                 say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
                     "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
@@ -91,12 +97,20 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                 publisher_check.look();
                 topics.look_for_publishers();
                 if (options.take_report) diagnostics.publish_when_due();
-              }}) {
+              },
+              [this] { use_sim_time.restore(); }}) {
+  if (options.on_shutdown) take_over_shutdown(options.on_shutdown);
   if (options.on_pause) {
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
   }
   master.start();
+}
+
+std::string RosBridge::Impl::refusal() {
+  use_sim_time.take();  // also of a launch file whose node is refused
+  if (options.replace) end_other_node_of_this_name();
+  return options.replace ? std::string() : other_node_of_this_name();
 }
 
 void RosBridge::Impl::on_connected() {
@@ -117,6 +131,7 @@ RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
   impl_ = std::make_unique<Impl>(std::move(options));
   const auto is_ending = [this] { return impl_->options.is_ending && impl_->options.is_ending(); };
   impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout, is_ending);
+  if (const std::string refusal = impl_->master.refusal(); !refusal.empty()) throw std::invalid_argument(refusal);
 }
 
 RosBridge::~RosBridge() {

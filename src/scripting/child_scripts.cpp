@@ -51,8 +51,8 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
 }
 
 template <class Action>
-void with_python(Action action) {
-  scripting::with_python("the script host", action);
+void with_python(Simulation& simulation, Action action) {
+  scripting::with_python(simulation, "the script host", action);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ void with_python(Action action) {
 /// As with_python(), and remembers how many scripts have failed.
 template <class Action>
 void ChildScripts::with_host(Action action) {
-  with_python([&] {
+  with_python(simulation_, [&] {
     action();
     failures_ = python_->host.attr("failures").cast<int>();
     disabled_ = python_->host.attr("disabled").cast<int>();
@@ -68,8 +68,8 @@ void ChildScripts::with_host(Action action) {
 }
 
 ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options)
-    : python_(std::make_unique<Python>()) {
-  with_python([&] {
+    : simulation_(simulation), python_(std::make_unique<Python>()) {
+  with_python(simulation, [&] {
     const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
     const py::object py_simulation = py::cast(&simulation, py::return_value_policy::reference);
     py::object py_bridge = py::none();
@@ -80,8 +80,10 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                         .attr("observed")(py_bridge, py_simulation, options.record.string(), options.lockstep);
       }
     }
-    python_->host = host_class(py_simulation, py_bridge, scripts_to_run(simulation, options), options.search_paths,
-                               py::arg("lua_unsafe") = options.lua_unsafe, py::arg("watch") = options.watch);
+    python_->host =
+        host_class(py_simulation, py_bridge, scripts_to_run(simulation, options), options.search_paths,
+                   py::arg("lua_unsafe") = options.lua_unsafe, py::arg("allowed_programs") = options.allowed_programs,
+                   py::arg("watch") = options.watch);
     if (bridge != nullptr) {
       const py::object control = py::module_::import("bubblesim.control.offered")
                                      .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
@@ -116,7 +118,7 @@ void ChildScripts::drain() {
 }
 
 void ChildScripts::publish(const World&, double) {
-  if (python_->publish) with_python([&] { python_->publish(); });
+  if (python_->publish) with_python(simulation_, [&] { python_->publish(); });
 }
 
 void ChildScripts::actuate(World&, double) {
@@ -150,6 +152,7 @@ void ChildScripts::finish() {
   with_host([&] {
     python_->finish();
     if (python_->close) python_->close();
+    output_lost_ = py::module_::import("bubblesim.scripting.script_output").attr("lost").cast<bool>();
   });
 }
 

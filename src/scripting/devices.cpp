@@ -11,8 +11,8 @@ namespace {
 namespace py = pybind11;
 
 template <class Action>
-void with_devices(Action action) {
-  scripting::with_python("the devices", action);
+void with_devices(Simulation& simulation, Action action) {
+  scripting::with_python(simulation, "the devices", action);
 }
 
 }  // namespace
@@ -23,8 +23,9 @@ struct Devices::Python {
   py::object publish;
 };
 
-Devices::Devices(Simulation& simulation, const ChildScripts& scripts) : python_(std::make_unique<Python>()) {
-  with_devices([&] {
+Devices::Devices(Simulation& simulation, const ChildScripts& scripts)
+    : simulation_(simulation), python_(std::make_unique<Python>()) {
+  with_devices(simulation, [&] {
     python_->devices = py::module_::import("bubblesim.devices.robots")
                            .attr("Devices")(py::cast(&simulation, py::return_value_policy::reference),
                                             scripts.python_->host.attr("bridge"));
@@ -39,23 +40,23 @@ Devices::~Devices() {
 }
 
 void Devices::actuate(World&, double) {
-  with_devices([&] { python_->actuate(); });
+  with_devices(simulation_, [&] { python_->actuate(); });
 }
 
 void Devices::publish(const World&, double) {
-  with_devices([&] { python_->publish(); });
+  with_devices(simulation_, [&] { python_->publish(); });
 }
 
 void Devices::reset() {
-  with_devices([&] { python_->devices.attr("reset")(); });
+  with_devices(simulation_, [&] { python_->devices.attr("reset")(); });
 }
 
 void Devices::model_added(World&, ObjectId model) {
-  with_devices([&] { python_->devices.attr("add_model")(model); });
+  with_devices(simulation_, [&] { python_->devices.attr("add_model")(model); });
 }
 
 void Devices::model_removing(World&, ObjectId model) {
-  with_devices([&] { python_->devices.attr("remove_model")(model); });
+  with_devices(simulation_, [&] { python_->devices.attr("remove_model")(model); });
 }
 
 }  // namespace bubblesim

@@ -7,11 +7,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "bubblesim/simulation.hpp"
+
 namespace bubblesim::scripting {
 
-/// Takes the GIL and calls. A Python exception, which must not outlive the interpreter, becomes a plain one.
+/// Takes the GIL and calls. Meanwhile other Python threads may use the simulation, between this one's calls. A Python
+/// exception, which must not outlive the interpreter, becomes a plain one.
 template <class Action>
-auto with_python(const char* whose, Action action) {
+auto with_python(Simulation& simulation, const char* whose, Action action) {
+  const AccessLock::Pause others_may_use_it(simulation.world().access());
   const pybind11::gil_scoped_acquire gil;
   try {
     return action();

@@ -55,9 +55,9 @@ void check_sensor(Checker& checker, const CameraDescription& camera) {
   checker.require(camera.width >= 1 && camera.width <= kMaxPixels && camera.height >= 1 && camera.height <= kMaxPixels,
                   "the picture's size", std::to_string(camera.width) + " x " + std::to_string(camera.height),
                   "1 to " + std::to_string(kMaxPixels) + " pixels each way");
-  checker.require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.1, "the horizontal field of view",
+  checker.require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.14, "the horizontal field of view",
                   text(camera.horizontal_fov) + " rad",
-                  "above 0 and below 3.1: a pinhole camera cannot see beside itself");
+                  "above 0 and below 3.14: a pinhole camera cannot see beside itself");
   checker.require(camera.far > 0 && camera.far <= kMaxSize, "the far plane", text(camera.far) + " m", "above 0");
   checker.require(camera.near > 0 && camera.near < camera.far, "the near plane", text(camera.near) + " m",
                   "above 0 and before the far plane");

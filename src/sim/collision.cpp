@@ -32,6 +32,14 @@ void direct(const Vector3& wanted, dContact& contact) {
   for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
 }
 
+/// Has rigid shapes sink to where they rest, the slower the nearer it is.
+void sink(double depth, const SurfacePair& pair, double step, dContact& contact) {
+  const double left = pair.sink - kSurfaceLayer - depth;
+  if (pair.sink_speed == 0 || left <= 0) return;
+  contact.surface.mode |= dContactMotionN;
+  contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
+}
+
 /// Whether a body stays where it is until something else wakes it. Null is what cannot move.
 bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
 
@@ -59,14 +67,21 @@ void touch(void* data, dGeomID first, dGeomID second) {
   for (int i = 0; i < count; ++i) {
     contact.surface = pair.ode;
     contact.geom = found[static_cast<std::size_t>(i)];
+    sink(contact.geom.depth, pair, step, contact);
     contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
     if (pair.directed != nullptr) {
       direct(turned(pair.directed == &a.surface ? first : second, pair.directed->fdir1), contact);
     }
-    dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &contact);
-    dJointAttach(joint, body_a, body_b);
-    if (a.watched || b.watched) watch_contact(state, joint, a, b, contact.geom);
+    state.found.push_back({&a, &b, contact});
   }
+}
+
+void join(World::State& state, const FoundContact& found) {
+  const Collider& a = *found.first;
+  const Collider& b = *found.second;
+  dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &found.contact);
+  dJointAttach(joint, a.link->body.get(), b.link->body.get());
+  if (a.watched || b.watched) watch_contact(state, joint, a, b, found.contact.geom);
 }
 
 void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
@@ -77,6 +92,7 @@ dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
 void find_contacts(World::State& state, double step) {
   dJointGroupEmpty(state.contacts.get());
+  state.found.clear();
   state.islands.clear(state.moving.size());
   Search search{state, step};
   // Models against each other; the shapes of one model do not meet, unless it says so.
@@ -88,6 +104,8 @@ void find_contacts(World::State& state, double step) {
     dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &search, touch);
     dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &search, touch);
   }
+  if (state.islands.most_contacts() > Islands::kFew) thin_out(state.found, state.islands);
+  for (const FoundContact& found : state.found) join(state, found);
 }
 
 }  // namespace bubblesim

@@ -21,24 +21,21 @@ double squared_distance(const dContactGeom& a, const dContactGeom& b) {
   return x * x + y * y + z * z;
 }
 
-/// The deepest, then each time the one farthest from those taken.
-int spread(std::vector<dContactGeom>& found, int count, ContactPoints& points) {
-  const auto end = found.begin() + count;
-  const auto deepest = std::max_element(found.begin(), end,
-                                        [](const dContactGeom& a, const dContactGeom& b) { return a.depth < b.depth; });
-  points[0] = *deepest;
-  std::vector<double> distance(static_cast<std::size_t>(count), dInfinity);
-  for (std::size_t taken = 1; taken < points.size(); ++taken) {
-    for (std::size_t i = 0; i < distance.size(); ++i) {
-      distance[i] = std::min(distance[i], squared_distance(found[i], points[taken - 1]));
-    }
-    points[taken] =
-        found[static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin())];
-  }
-  return kMaxContactsPerPair;
-}
-
 }  // namespace
+
+std::vector<std::size_t> spread(const std::vector<dContactGeom>& points, std::size_t most) {
+  const auto place = [](const auto& values, auto at) { return static_cast<std::size_t>(at - values.begin()); };
+  const auto shallower = [](const dContactGeom& a, const dContactGeom& b) { return a.depth < b.depth; };
+  std::vector<std::size_t> taken = {place(points, std::max_element(points.begin(), points.end(), shallower))};
+  std::vector<double> distance(points.size(), dInfinity);
+  while (taken.size() < most) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      distance[i] = std::min(distance[i], squared_distance(points[i], points[taken.back()]));
+    }
+    taken.push_back(place(distance, std::max_element(distance.begin(), distance.end())));
+  }
+  return taken;
+}
 
 int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
   if (!is_mesh(first) && !is_mesh(second)) {
@@ -46,12 +43,18 @@ int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
   }
   // Debian's ODE keeps what it needs for meshes once for the process.
   static std::mutex mutex;
-  static std::vector<dContactGeom> found(kMaxMeshContacts);
+  static std::vector<dContactGeom> found;
   const std::scoped_lock lock(mutex);
+  found.resize(kMaxMeshContacts);
   const int count = dCollide(first, second, kMaxMeshContacts, found.data(), sizeof(dContactGeom));
-  if (count > kMaxContactsPerPair) return spread(found, count, points);
-  std::copy_n(found.begin(), count, points.begin());
-  return count;
+  if (count <= kMaxContactsPerPair) {
+    std::copy_n(found.begin(), count, points.begin());
+    return count;
+  }
+  found.resize(static_cast<std::size_t>(count));
+  const std::vector<std::size_t> apart = spread(found, points.size());
+  std::transform(apart.begin(), apart.end(), points.begin(), [](std::size_t i) { return found[i]; });
+  return kMaxContactsPerPair;
 }
 
 }  // namespace bubblesim

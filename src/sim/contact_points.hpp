@@ -5,6 +5,8 @@
 #include <ode/ode.h>
 
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace bubblesim {
 
@@ -13,5 +15,8 @@ using ContactPoints = std::array<dContactGeom, kMaxContactsPerPair>;
 
 /// Returns how many there are.
 int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points);
+
+/// Which `most` of more points lie apart: the deepest, then each time the one farthest from those taken.
+std::vector<std::size_t> spread(const std::vector<dContactGeom>& points, std::size_t most);
 
 }  // namespace bubblesim

@@ -14,11 +14,16 @@ namespace bubblesim {
 class Islands {
  public:
   static constexpr int kNone = -1;  ///< the number of what cannot move
+  /// An island with more contacts than these is too big for the exact solver, whose cost grows with their cube; a model
+  /// that touches none that moves may have more: a robot's wheels creep under the iterative solver.
+  static constexpr int kFew = 20;
+  static constexpr int kFewOfOne = 40;
 
   void clear(std::size_t models) {
     parents_.resize(models);
     std::iota(parents_.begin(), parents_.end(), 0);
     contacts_.assign(models, 0);
+    models_.assign(models, 1);
     most_ = 0;
   }
 
@@ -29,6 +34,7 @@ class Islands {
     if (b != kNone && (b = root(b)) != a) {
       parents_[index(b)] = a;
       contacts_[index(a)] += contacts_[index(b)];
+      models_[index(a)] += models_[index(b)];
     }
     contacts_[index(a)] += contacts;
     most_ = std::max(most_, contacts_[index(a)]);
@@ -36,6 +42,21 @@ class Islands {
 
   /// Contacts in the island that has the most.
   int most_contacts() const { return most_; }
+  /// The island of two models that touch, one of which may be kNone.
+  int of(int a, int b) { return root(a == kNone ? b : a); }
+  /// How many contacts the exact solver takes in an island.
+  int limit(int island) const { return models_[index(island)] == 1 ? kFewOfOne : kFew; }
+  int contacts(int island) const { return contacts_[index(island)]; }
+  void set_contacts(int island, int contacts) { contacts_[index(island)] = contacts; }
+
+  /// Whether there is an island that the exact solver does not take.
+  bool any_beyond_limit() const {
+    if (most_ <= kFew) return false;
+    for (int island = 0; island < static_cast<int>(parents_.size()); ++island) {
+      if (parents_[index(island)] == island && contacts(island) > limit(island)) return true;
+    }
+    return false;
+  }
 
  private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
@@ -48,6 +69,7 @@ class Islands {
 
   std::vector<int> parents_;
   std::vector<int> contacts_;
+  std::vector<int> models_;
   int most_ = 0;
 };
 

@@ -69,7 +69,7 @@ std::vector<fs::path> scripts_in(const fs::path& place) {
   std::vector<fs::path> scripts;
   std::error_code unreadable;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, unreadable)) {
-    if (entry.path().extension() == ".material") scripts.push_back(entry.path());
+    if (entry.path().extension() == ".material" && entry.is_regular_file(unreadable)) scripts.push_back(entry.path());
   }
   std::sort(scripts.begin(), scripts.end());
   return scripts;

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 /// What follows `scheme` in a URI that starts with it.
 std::optional<fs::path> after(const std::string& scheme, const std::string& uri) {
   if (uri.rfind(scheme, 0) != 0) return std::nullopt;
-  return uri.substr(scheme.size());
+  // Some write model:///NAME; file:///path is absolute.
+  const std::size_t start = scheme == "model://" ? uri.find_first_not_of('/', scheme.size()) : scheme.size();
+  return uri.substr(std::min(start, uri.size()));
 }
 
 fs::path without_first(const fs::path& path) {
@@ -84,6 +86,7 @@ std::vector<fs::path> model_folders(const fs::path& scene_folder) {
     for (fs::path& folder : folders_of(variable)) folders.push_back(std::move(folder));
   }
   folders.push_back(scene_folder.parent_path());
+  for (fs::path& folder : exported_folders(scene_folder)) folders.push_back(std::move(folder));
   for (const fs::path& folder : scene_folders()) folders.push_back(folder / "models");
   return folders;
 }

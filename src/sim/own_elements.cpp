@@ -28,6 +28,7 @@ const std::vector<OwnElement>& own_elements() {
       {"bubblesim:antialias", {"camera"}},               // true or false
       {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic
       {"bubblesim:frame", {"sensor"}},                   // frame_id of what is published there
+      {"bubblesim:signal", {"lidar", "ray"}},            // name of a string signal with the points
       {"bubblesim:checker_size", {"material"}},          // metres
       {"bubblesim:checker_color", {"material"}},         // red, green and blue
   };

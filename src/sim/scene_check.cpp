@@ -26,13 +26,7 @@ void check_inertia(Checker& checker, const LinkDescription& link) {
   const Vector3& d = link.inertia_diagonal;
   const Vector3& p = link.inertia_products;  // xy, xz, yz
   checker.require(within(link.centre_of_mass, kMaxSize), "the centre of mass", text(link.centre_of_mass), "finite");
-  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive. One that is
-  // so by rounding only is taken for flat.
-  const double minor2 = d.X() * d.Y() - p.X() * p.X();
-  const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
-                             p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
-  const double least = kFlat * std::pow(d.Sum() / 3, 3);
-  checker.require(within(d, 1e9) && within(p, 1e9) && d.X() > 0 && minor2 > 0 && determinant > least, "the inertia",
+  checker.require(within(d, 1e9) && within(p, 1e9) && is_positive_definite(d, p), "the inertia",
                   "ixx iyy izz " + text(d) + ", ixy ixz iyz " + text(p), "a positive definite matrix");
 }
 
@@ -51,6 +45,7 @@ void check_light(Checker& checker, const Light& light) {
 void check_link(Checker& checker, const ModelDescription& model, const LinkDescription& link) {
   const std::string path = "/" + model.name + "/" + link.name;
   checker.check_pose(link.pose);
+  if (link.start) checker.check_pose(*link.start);
   if (!model.is_static) {
     checker.require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg",
                     "above 0 and at most 1e6 kg");
@@ -123,6 +118,15 @@ std::vector<Problem> check_scene(const SceneDescription& scene) {
   Checker checker;
   check_scene(checker, scene);
   return checker.found();
+}
+
+bool is_positive_definite(const Vector3& d, const Vector3& p) {
+  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive. One that is
+  // so by rounding only is taken for flat.
+  const double minor2 = d.X() * d.Y() - p.X() * p.X();
+  const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
+                             p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
+  return d.X() > 0 && minor2 > 0 && determinant > kFlat * std::pow(d.Sum() / 3, 3);
 }
 
 std::vector<Problem> check_model(const ModelDescription& model) {

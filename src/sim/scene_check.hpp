@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/math.hpp"
 #include "bubblesim/scene.hpp"
 
 namespace bubblesim {
@@ -17,5 +18,8 @@ std::vector<Problem> check_model(const ModelDescription& model);
 
 /// The hinge between two links of a model, either of which may be "world"; null when there is none.
 const JointDescription* hinge_between(const ModelDescription& model, const std::string& one, const std::string& other);
+
+/// Whether an inertia (xx, yy, zz and xy, xz, yz) is positive definite, and not by rounding only.
+bool is_positive_definite(const Vector3& diagonal, const Vector3& products);
 
 }  // namespace bubblesim

@@ -2,8 +2,6 @@
 // Where scenes are looked for.
 #include "scene_folders.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <set>
@@ -12,20 +10,44 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/nearest_names.hpp"
 #include "bubblesim/scene_loader.hpp"
+#include "library_folder.hpp"
 
 namespace bubblesim {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder that this library was loaded from.
-fs::path library_folder() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<void*>(&scene_folders), &info) == 0 || info.dli_fname == nullptr) return {};
-  return fs::absolute(info.dli_fname).parent_path();
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// What a file is that is taken for a scene, and what to give instead; empty when it may be one.
+std::string no_scene(const fs::path& path) {
+  const std::string name = path.filename().string();
+  for (const char* script : {".py", ".lua"}) {
+    if (!ends_with(name, script)) continue;
+    return "is a script, not a scene: name the .sdf file whose model runs it, or give it to a model of a scene by "
+           "--child-script OBJECT=" +
+           path.string();
+  }
+  for (const char* scene : {".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"}) {
+    if (!ends_with(name, scene)) continue;
+    return "is a file of CoppeliaSim, whose formats cannot be read: export its robots from there as URDF, or describe "
+           "the scene in SDFormat; see docs/worlds/README.md";
+  }
+  return {};
 }
 
 }  // namespace
+
+fs::path shared_folder(const std::string& name, const fs::path& source) {
+  for (fs::path up = library_folder(); up.has_relative_path(); up = up.parent_path()) {
+    fs::path installed = up / "share" / "bubblesim" / name;
+    if (fs::is_directory(installed)) return installed;
+  }
+  return source;
+}
 
 std::vector<fs::path> folders_of(const char* variable) {
   std::vector<fs::path> folders;
@@ -39,15 +61,7 @@ std::vector<fs::path> folders_of(const char* variable) {
 
 std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders = folders_of("BUBBLESIM_SCENE_PATH");
-  // In an install space the scenes lie in share/; in a development space they are still in the source tree.
-  for (fs::path up = library_folder(); up.has_relative_path(); up = up.parent_path()) {
-    const fs::path installed = up / "share" / "bubblesim" / "scenes";
-    if (fs::is_directory(installed)) {
-      folders.push_back(installed);
-      return folders;
-    }
-  }
-  folders.emplace_back(BUBBLESIM_SOURCE_SCENES);
+  folders.push_back(shared_folder("scenes", BUBBLESIM_SOURCE_SCENES));
   return folders;
 }
 
@@ -64,6 +78,7 @@ std::vector<std::string> scene_names() {
 
 fs::path find_scene(const std::string& name_or_path) {
   const fs::path path(name_or_path);
+  if (const std::string problem = no_scene(path); !problem.empty()) throw SceneError({{name_or_path, 0, "", problem}});
   const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro"};
   if (path.has_parent_path() || extensions.count(path.extension()) > 0) {
     if (fs::is_regular_file(path)) return fs::absolute(path);

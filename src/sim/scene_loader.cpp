@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <regex>
+#include <sdf/Exception.hh>
 #include <sdf/sdf.hh>
 #include <utility>
 
@@ -16,11 +18,15 @@
 #include "parser_messages.hpp"
 #include "scene_check.hpp"
 #include "scene_folders.hpp"
+#include "scene_limits.hpp"
 #include "scene_reading.hpp"
 #include "scene_text.hpp"
+#include "sdf_left_out.hpp"
 #include "sdf_models.hpp"
 #include "sdf_plugins.hpp"
+#include "sdf_repairs.hpp"
 #include "sdf_source.hpp"
+#include "sdf_state.hpp"
 #include "sdf_visuals.hpp"
 #include "urdf_reading.hpp"
 
@@ -34,6 +40,15 @@ constexpr const char* kText = "<data-string>";
 constexpr const char* kGroundPlane = "ground_plane";
 constexpr const char* kOnDivergence = "bubblesim:on_divergence";
 
+/// What failed: an assertion has it in one of several lines, after those of its place in SDFormat.
+std::string reason_of(const sdf::Exception& error) {
+  const std::string text = error.GetErrorStr();
+  static const std::regex assertion("Error *: *([^\n]*)");
+  std::smatch match;
+  if (std::regex_search(text, match, assertion)) return match.str(1);
+  return text.substr(0, text.find('\n'));
+}
+
 class SceneLoader {
  public:
   explicit SceneLoader(const fs::path& file) : reading_(file) {}
@@ -45,12 +60,13 @@ class SceneLoader {
   SceneDescription load_scene(const fs::path& file, const std::optional<SceneText>& text) {
     sdf::Root root;
     parse(
-        [&](const sdf::ParserConfig& config) {
+        [&](const sdf::ParserConfig& config, const std::optional<std::string>& repaired) {
+          if (repaired) return root.LoadSdfString(*repaired, config);
           return text ? root.LoadSdfString(text->text, config) : root.Load(file.string(), config);
         },
         root);
     SceneDescription scene;
-    scene.name = file.stem().string();
+    scene.name = scene.world_name = file.stem().string();
     scene.file = file;
     read_own_elements(root);
     if (root.WorldCount() > 0) {
@@ -69,8 +85,8 @@ class SceneLoader {
     } else if (problems_.empty()) {
       problems_.push_back({file.string(), 0, "", "holds neither a <world> nor a <model>"});
     }
-    // Values that could not be read stand at their defaults: checking those would only hide the cause.
-    if (problems_.empty() || root.WorldCount() > 0) {
+    // What SDFormat could not read stands at its defaults: checking those would only hide the cause.
+    if (is_read_ || root.WorldCount() > 0) {
       for (Problem& problem : check_scene(scene)) problems_.push_back(std::move(problem));
     }
     if (!problems_.empty()) throw SceneError(std::move(problems_));
@@ -79,7 +95,11 @@ class SceneLoader {
 
   ModelDescription load_model(const std::string& text) {
     sdf::Root root;
-    parse([&](const sdf::ParserConfig& config) { return root.LoadSdfString(text, config); }, root);
+    parse(
+        [&](const sdf::ParserConfig& config, const std::optional<std::string>& repaired) {
+          return root.LoadSdfString(repaired.value_or(text), config);
+        },
+        root);
     read_own_elements(root);
     ModelDescription model;
     if (root.Model() != nullptr) {
@@ -88,7 +108,9 @@ class SceneLoader {
       problems_.push_back(
           {kText, 0, "", root.WorldCount() > 0 ? "holds a <world>: a <model> is wanted" : "holds no <model>"});
     }
-    if (problems_.empty()) problems_ = check_model(model);
+    if (is_read_ && root.Model() != nullptr) {
+      for (Problem& problem : check_model(model)) problems_.push_back(std::move(problem));
+    }
     if (!problems_.empty()) throw SceneError(std::move(problems_));
     return model;
   }
@@ -103,19 +125,51 @@ class SceneLoader {
 
   template <class Load>
   void parse(const Load& load, sdf::Root& root) {
+    std::vector<std::string> included;
     try {
-      const ParserMessages messages;
+      {
+        const ParserMessages unused;
+        included = check_limits(reading_.xml(), parser_config());
+      }
       const bool is_urdf = reading_.xml().is_urdf();
-      const sdf::Errors errors = is_urdf ? load_urdf(root, parser_config(), reading_) : load(parser_config());
+      SdfRepairs repairs(reading_);
+      std::optional<std::string> repaired;
+      {
+        const ParserMessages unused;  // of values that are tried
+        repaired = is_urdf ? prepared_urdf(reading_) : repairs.repaired_scene();
+      }
+      const ParserMessages messages;
+      const sdf::Errors errors =
+          is_urdf ? load_urdf(root, parser_config(), *repaired) : load(parser_config(), repaired);
       const bool failed = root.Model() == nullptr && root.Light() == nullptr && root.WorldCount() == 0;
+      const std::size_t known = problems_.size();
       take_messages(is_urdf ? messages.of_urdf() : std::vector<std::string>{}, failed);
-      if (problems_.empty()) reading_.take(errors, "");
+      if (problems_.size() == known) reading_.take(errors, "");
+      is_read_ = problems_.size() == known;
       take_messages(messages.of_sdformat(), false);
     } catch (const SceneError&) {
       throw;
-    } catch (const std::exception& error) {  // its assertions, and numbers that it did not expect
-      reading_.report({reading_.xml().file(), 0}, "", std::string("SDFormat cannot read it: ") + error.what());
+    } catch (const sdf::Exception& error) {  // its assertions
+      reading_.report({file_that_fails(included), 0}, "", "SDFormat cannot read it: " + reason_of(error));
+    } catch (const std::exception& error) {  // numbers that it did not expect
+      reading_.report({file_that_fails(included), 0}, "", std::string("SDFormat cannot read it: ") + error.what());
     }
+  }
+
+  /// Which of the files included SDFormat does not survive alone, or the file itself.
+  std::string file_that_fails(const std::vector<std::string>& included) const {
+    const ParserMessages silence;
+    for (const std::string& file : included) {
+      try {
+        sdf::Root root;
+        root.Load(file, parser_config());
+      } catch (const sdf::Exception&) {
+        return file;
+      } catch (const std::exception&) {
+        return file;
+      }
+    }
+    return reading_.xml().file();
   }
 
   /// What no error says. Problems when nothing can be had of the file.
@@ -174,24 +228,9 @@ class SceneLoader {
     if (!fits) scene.time_step = scene.physics_step * std::max(1.0, std::floor(steps + 1e-6));
   }
 
-  /// What worlds may hold that is not simulated.
-  static void tell_left_out(const sdf::World& world) {
-    const std::pair<const char*, const char*> kinds[] = {{"actor", "actors"},
-                                                         {"road", "roads"},
-                                                         {"population", "populations of models"},
-                                                         {"joint", "joints between models"}};
-    for (const auto& [name, called] : kinds) {
-      if (!world.Element()->HasElement(name)) continue;
-      for (auto element = world.Element()->GetElement(name); element != nullptr;
-           element = element->GetNextElement(name)) {
-        SceneReading::warn(source_of(element), "/" + element->Get<std::string>("name"),
-                           "<" + std::string(name) + "> is left out: " + called + " are not simulated");
-      }
-    }
-  }
-
   void read_world(const sdf::World& world, SceneDescription& scene) {
     scene.source = source_of(world.Element());
+    if (!world.Name().empty()) scene.world_name = world.Name();
     scene.plugins = read_plugins(world.Element());
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
@@ -207,11 +246,12 @@ class SceneLoader {
     }
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
     if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
-    tell_left_out(world);
+    report_left_out(world.Element(), "");
     std::vector<Light> lights;
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
       const sdf::Light& light = *world.LightByIndex(i);
-      lights.push_back(read_light(light, reading_.resolved(light, "/" + light.Name())));
+      const Pose pose = reading_.resolved(light, "/" + light.Name());
+      lights.push_back(read_light(light, state_pose(world, "light", light.Name()).value_or(pose)));
     }
     if (!lights.empty()) scene.environment.lights = lights;
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
@@ -222,23 +262,42 @@ class SceneLoader {
       }
       scene.models.push_back(read_model(model, reading_.resolved(model, "/" + model.Name()), reading_));
     }
+    apply_state(world, scene.models);
   }
 
   SceneReading reading_;
   std::vector<Problem>& problems_ = reading_.problems();
+  bool is_read_ = false;  // SDFormat found nothing wrong
 };
+
+/// Calls `load`, whose every failure becomes a SceneError of the file.
+template <class Load>
+auto telling_of(const std::string& file, const Load& load) {
+  try {
+    return load();
+  } catch (const SceneError&) {
+    throw;
+  } catch (const sdf::Exception& error) {
+    throw SceneError({{file, 0, "", "SDFormat cannot read it: " + reason_of(error)}});
+  } catch (const std::exception& error) {
+    throw SceneError({{file, 0, "", std::string("cannot be read: ") + error.what()}});
+  }
+}
 
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path) {
+SceneDescription load_scene(const std::string& name_or_path, const XacroArguments& arguments) {
   const fs::path file = find_scene(name_or_path);
-  const std::optional<SceneText> text = scene_text(file);
-  if (!text) return SceneLoader(file).load_scene(file, text);
-  return SceneLoader(text->text, text->name, file.parent_path()).load_scene(file, text);
+  check_size(file);
+  return telling_of(file.string(), [&] {
+    const std::optional<SceneText> text = scene_text(file, arguments);
+    if (!text) return SceneLoader(file).load_scene(file, text);
+    return SceneLoader(text->text, text->name, file.parent_path()).load_scene(file, text);
+  });
 }
 
 ModelDescription load_model(const std::string& text, const fs::path& folder) {
-  return SceneLoader(text, kText, folder).load_model(text);
+  return telling_of(kText, [&] { return SceneLoader(text, kText, folder).load_model(text); });
 }
 
 }  // namespace bubblesim

@@ -29,10 +29,21 @@ std::optional<std::string> about_unknown_element(const std::string& message) {
   return "<" + match.str(1) + "> is no element of <" + match.str(2) + ">: it is left out";
 }
 
-/// Elements that SDFormat 1.10 and 1.11 brought, which the readers here know all the same.
+/// Values that mean nothing here, or in whose place SDFormat takes its default.
+bool is_of_no_effect(const std::string& message) {
+  static const std::regex pattern(
+      R"((Camera sensor <image><format> has invalid value|The value\[.*\] for a <shader><type>|Unknown atmosphere type|)"
+      R"(The supplied <surface_model>|Invalid light type with a value).*)");
+  return std::regex_match(message, pattern);
+}
+
+/// Elements that later versions of SDFormat or gz-sim brought, which the readers here know all the same.
 bool is_of_later_version(const std::string& message) {
-  return message.find("XML Element[mimic], child of element[axis") != std::string::npos ||
-         message.find("XML Element[screw_thread_pitch], child of element[joint]") != std::string::npos;
+  static const std::regex pattern(
+      R"(XML Element\[(mimic\], child of element\[axis|screw_thread_pitch\], child of element\[joint\])"
+      R"(|(gz_frame_id|ignition_frame_id|frame_id)\], child of element\[sensor\])"
+      R"(|(camera_info_topic|optical_frame_id)\], child of element\[camera\]))");
+  return std::regex_search(message, pattern);
 }
 
 }  // namespace
@@ -50,6 +61,10 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
       continue;
     }
     if (is_of_later_version(problem.message)) continue;
+    if (is_of_no_effect(problem.message)) {
+      warn({problem.file, problem.line}, problem.object, problem.message);
+      continue;
+    }
     if (const auto unknown = about_unknown_element(problem.message)) {
       warn({problem.file, problem.line}, problem.object, *unknown);
       continue;

@@ -10,6 +10,7 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene.hpp"
+#include "meshes/mesh_reader.hpp"
 #include "scene_xml.hpp"
 
 namespace bubblesim {
@@ -23,15 +24,20 @@ class SceneReading {
       : xml_(text, std::move(name)), folder_(std::move(folder)) {}
 
   const SceneXml& xml() const { return xml_; }
+  SceneXml& xml() { return xml_; }
   /// In which the scene's own files are.
   const std::filesystem::path& folder() const { return folder_; }
   std::vector<Problem>& problems() { return problems_; }
+  MeshReader& meshes() { return meshes_; }
 
   void report(const Source& source, const std::string& object, std::string message);
   /// Says on stderr what is odd but stops nothing.
   static void warn(const Source& source, const std::string& object, std::string message);
   /// Takes over what SDFormat found wrong while it read the object at that path, or the whole file when it is empty.
   void take(const sdf::Errors& errors, const std::string& object);
+
+  /// ` (searched in ...)`, for a model that is not found.
+  std::string where_models_are() const;
 
   /// The pose of an element in the frame named, by default in the one of what holds it.
   template <class T>
@@ -42,12 +48,11 @@ class SceneReading {
   }
 
  private:
-  std::string where_models_are() const;
-
   SceneXml xml_;
   std::filesystem::path folder_;
   bool frames_broken_ = false;  // SDFormat found errors that are no fault of a single object
   std::vector<Problem> problems_;
+  MeshReader meshes_;
 };
 
 }  // namespace bubblesim

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "xacro.hpp"
+#include "xml_lines.hpp"
 
 namespace bubblesim {
 namespace {
@@ -51,18 +52,21 @@ std::string from_latin1(const std::string& text) {
 
 }  // namespace
 
-std::optional<SceneText> scene_text(const std::filesystem::path& file) {
-  if (file.extension() == ".xacro") return SceneText{run_xacro(file), file.string() + " (as xacro expands it)"};
+std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments) {
+  if (file.extension() == ".xacro") {
+    return SceneText{run_xacro(file, arguments), file.string() + " (as xacro expands it)"};
+  }
   std::ifstream stream(file);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const bool readable = is_utf8(text);
-  if (!readable) text = from_latin1(text);
+  const std::string original = text;
+  text = without_late_declaration(std::move(text));
+  if (!is_utf8(text)) text = from_latin1(text);
   tinyxml2::XMLDocument document;
   if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;  // told later
   const tinyxml2::XMLElement* root = document.RootElement();
   const std::string old_name = "gazebo";
   const bool is_old = root != nullptr && root->Name() == old_name;
-  if (!is_old && readable) return std::nullopt;
+  if (!is_old && text == original) return std::nullopt;
   if (is_old) rename_root(text, old_name, "sdf");
   return SceneText{text, file.string()};
 }

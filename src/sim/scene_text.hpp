@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "bubblesim/scene_loader.hpp"
+
 namespace bubblesim {
 
 struct SceneText {
@@ -14,7 +16,8 @@ struct SceneText {
 };
 
 /// What is to be read in place of a file: a .xacro as xacro expands it, a scene of before SDFormat 1.3, whose root was
-/// <gazebo>, and one that is not in UTF-8. Nothing for all others. Throws SceneError.
-std::optional<SceneText> scene_text(const std::filesystem::path& file);
+/// <gazebo>, one that is not in UTF-8, and one with a comment before its XML declaration. Nothing for all others.
+/// Throws SceneError.
+std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments);
 
 }  // namespace bubblesim

@@ -3,18 +3,23 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <regex>
 #include <string_view>
 
 #include "own_elements.hpp"
+#include "xml_fault.hpp"
+#include "xml_lines.hpp"
 
 namespace bubblesim {
 namespace {
 
 // What SDFormat calls a text that came from no file.
-constexpr const char* kText = "<data-string>";
+constexpr const char* kUnnamedText = "<data-string>";
 constexpr const char* kUrdf = "<urdf-string>";
 
 using Visitor = std::function<void(const tinyxml2::XMLElement&)>;
@@ -50,15 +55,6 @@ bool needs_line(const std::string& name, const std::string& place) {
          place.find("mimic:/") != std::string::npos;
 }
 
-/// `/Model/joint` from the names of an element and its ancestors.
-std::string object_path(const tinyxml2::XMLElement& element) {
-  const std::string_view kind = element.Name();
-  if (kind == "world" || kind == "sdf") return "";
-  const auto* parent = element.Parent() != nullptr ? element.Parent()->ToElement() : nullptr;
-  const char* name = element.Attribute("name");
-  return (parent != nullptr ? object_path(*parent) : "") + (name != nullptr ? "/" + std::string(name) : "");
-}
-
 /// SDFormat repeats each error for every element around it and once more for the file.
 bool only_follows(const std::string& message) {
   return message.rfind("Error reading element <", 0) == 0 || message.rfind("Unable to read file", 0) == 0 ||
@@ -69,18 +65,19 @@ bool only_follows(const std::string& message) {
 }  // namespace
 
 SceneXml::SceneXml(const std::filesystem::path& file) : file_(file.string()) {
-  check(document_.LoadFile(file_.c_str()));
+  std::ifstream stream(file);
+  read({std::istreambuf_iterator<char>(stream), {}});
 }
 
-SceneXml::SceneXml(const std::string& text, std::string name) : file_(std::move(name)) {
-  check(document_.Parse(text.c_str(), text.size()));
-}
+SceneXml::SceneXml(const std::string& text, std::string name) : file_(std::move(name)) { read(text); }
 
-void SceneXml::check(tinyxml2::XMLError result) const {
+void SceneXml::read(const std::string& text) {
+  const tinyxml2::XMLError result = document_.Parse(text.c_str(), text.size());
   if (result != tinyxml2::XML_SUCCESS) {
     if (result == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) throw SceneError({{file_, 0, "", "is empty"}});
-    throw SceneError({{file_, document_.ErrorLineNum(), "",
-                       std::string("is not well-formed XML here (") + document_.ErrorName() + ")"}});
+    const std::optional<XmlFault> fault = find_xml_fault(text);
+    throw SceneError({{file_, fault ? fault->line : document_.ErrorLineNum(), "",
+                       "is not well-formed XML here: " + (fault ? fault->message : document_.ErrorName())}});
   }
   const tinyxml2::XMLElement* root = document_.RootElement();
   if (root == nullptr) throw SceneError({{file_, 0, "", "holds no element"}});
@@ -108,7 +105,11 @@ void SceneXml::place_elements(const sdf::ElementPtr& root) const {
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
     // SDFormat does not name the file of a text, nor when it has converted URDF.
     const std::string& named = element->FilePath();
-    if (named.empty() || named == kText || named == kUrdf || named == "urdf file") element->SetFilePath(file_);
+    if (named.empty() || named == kUnnamedText || named == kUrdf || named == "urdf file") {
+      element->SetFilePath(file_);
+    } else if (!originals_.empty()) {
+      element->SetFilePath(original_of(named));
+    }
     const std::string where = place(element);
     if (element->FilePath() == file_ && needs_line(element->GetName(), where)) {
       const auto found = lines.lower_bound(where);
@@ -168,9 +169,18 @@ int SceneXml::line_of_object(const std::string& path) const {
   return line;
 }
 
+void SceneXml::stands_for(const std::filesystem::path& copy, const std::filesystem::path& original) {
+  originals_[copy.string()] = original.string();
+}
+
+std::string SceneXml::original_of(const std::string& file) const {
+  const auto found = originals_.find(file);
+  return found != originals_.end() ? found->second : file;
+}
+
 std::string SceneXml::file_of(const sdf::Error& error) const {
-  const std::string file = error.FilePath().value_or(kText);
-  return file == kText || file == kUrdf ? file_ : file;
+  const std::string file = original_of(error.FilePath().value_or(kUnnamedText));
+  return file == kUnnamedText || file == kUrdf ? file_ : file;
 }
 
 std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::string& object) const {
@@ -184,7 +194,9 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     // Whoever reads the sensor tells of a type that is not known.
     // Whoever reads the link tells of shapes that share a name.
     static const std::regex namesake("(collision|visual) with name ?\\[.*\\] already exists.*");
+    // SdfRepairs tells of scripts.
     if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID || std::regex_match(error.Message(), namesake) ||
+        error.Message().rfind("A <script> element is missing a child", 0) == 0 ||
         error.Message().rfind("Attempting to load a Sensor, but the provided sensor type", 0) == 0) {
       harmless = true;
       continue;

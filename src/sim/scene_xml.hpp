@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <filesystem>
+#include <map>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
 #include <string>
@@ -30,6 +31,9 @@ class SceneXml {
   Source place_of(const std::string& element, const std::string& text) const;
 
   const tinyxml2::XMLDocument& document() const { return document_; }
+  tinyxml2::XMLDocument& document() { return document_; }
+  /// SDFormat reads `copy` in place of `original`, which errors name.
+  void stands_for(const std::filesystem::path& copy, const std::filesystem::path& original);
   /// What errors call it.
   const std::string& file() const { return file_; }
   /// Whether it is a robot in URDF, which SDFormat converts.
@@ -40,13 +44,15 @@ class SceneXml {
   std::vector<Problem> located(const sdf::Errors& errors, const std::string& object) const;
 
  private:
-  void check(tinyxml2::XMLError result) const;
+  void read(const std::string& text);
+  std::string original_of(const std::string& file) const;
   std::string file_of(const sdf::Error& error) const;
   int line_of_named(const std::string& message) const;
   int line_of_object(const std::string& path) const;
   std::string unusable_text(const std::string& element, int line) const;
 
   std::string file_;
+  std::map<std::string, std::string> originals_;  // by the copies that are read in their place
   tinyxml2::XMLDocument document_;
 };
 

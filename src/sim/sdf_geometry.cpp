@@ -26,12 +26,11 @@ namespace fs = std::filesystem;
 
 class GeometryReader {
  public:
-  GeometryReader(sdf::ElementPtr element, const fs::path& scene_folder)
-      : element_(std::move(element)), scene_folder_(scene_folder) {}
+  GeometryReader(sdf::ElementPtr element, SceneReading& reading) : element_(std::move(element)), reading_(reading) {}
 
   Geometry mesh(const sdf::Mesh& mesh) const {
     return from_file(mesh.Uri(), [&](const fs::path& file) {
-      return load_mesh({file, mesh.Scale(), mesh.Submesh(), mesh.CenterSubmesh()});
+      return load_mesh({file, mesh.Scale(), mesh.Submesh(), mesh.CenterSubmesh()}, reading_.meshes());
     });
   }
 
@@ -68,12 +67,14 @@ class GeometryReader {
  private:
   template <class Load>
   Geometry from_file(const std::string& uri, const Load& load) const {
-    const fs::path file = find_resource(uri, element_->FilePath(), scene_folder_);
+    const fs::path file = find_resource(uri, element_->FilePath(), reading_.folder());
     if (file.empty()) {
-      throw MeshError("the file '" + uri + "' is not found; model:// names a folder in BUBBLESIM_MODEL_PATH or " +
-                      "GAZEBO_MODEL_PATH, package:// a ROS package, other paths start beside the file that names them");
+      throw MissingFile(
+          "the file '" + uri + "' is not found; model:// names a folder in BUBBLESIM_MODEL_PATH or " +
+          "GAZEBO_MODEL_PATH, package:// a ROS package, other paths start beside the file that names them");
     }
     try {
+      if (!fs::is_regular_file(file)) throw MeshError("is no regular file");
       return Mesh{load(file)};
     } catch (const MeshError& error) {
       throw MeshError(file.string() + " " + error.what());
@@ -81,19 +82,19 @@ class GeometryReader {
   }
 
   sdf::ElementPtr element_;
-  const fs::path& scene_folder_;
+  SceneReading& reading_;
 };
 
 }  // namespace
 
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, const fs::path& scene_folder) {
+std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, SceneReading& reading) {
   if (const auto* box = geometry.BoxShape()) return Box{box->Size()};
   if (const auto* sphere = geometry.SphereShape()) return Sphere{sphere->Radius()};
   if (const auto* cylinder = geometry.CylinderShape()) return Cylinder{cylinder->Radius(), cylinder->Length()};
   if (const auto* capsule = geometry.CapsuleShape()) return Capsule{capsule->Radius(), capsule->Length()};
   if (const auto* ellipsoid = geometry.EllipsoidShape()) return Ellipsoid{ellipsoid->Radii()};
   if (const auto* plane = geometry.PlaneShape()) return Plane{plane->Normal()};
-  const GeometryReader reader(geometry.Element(), scene_folder);
+  const GeometryReader reader(geometry.Element(), reading);
   if (const auto* mesh = geometry.MeshShape()) return reader.mesh(*mesh);
   if (const auto* map = geometry.HeightmapShape()) return reader.heightmap(*map);
   if (geometry.Element() != nullptr && geometry.Element()->HasElement("polyline")) return reader.polylines();

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
+#include "checks.hpp"
+#include "describe.hpp"
 #include "own_elements.hpp"
 #include "sdf_sensors.hpp"
 #include "sdf_source.hpp"
@@ -70,6 +72,16 @@ double read_screw_lead(const sdf::Joint& joint, const std::string& path, SceneRe
   return 1;
 }
 
+/// A limit of positions, `none` when nothing gets there.
+double reachable(double limit, double none, const std::string& name, const sdf::JointAxis& axis,
+                 const std::string& path) {
+  if (std::abs(limit) >= kNoLimit) return none;
+  if (!(std::abs(limit) > kMaxDistance)) return limit;
+  SceneReading::warn(source_of(axis.Element()->FindElement("limit"), name), path,
+                     "the " + name + " limit is " + text(limit) + ", beyond 1e6: there is none");
+  return none;
+}
+
 AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, const std::string& path,
                           SceneReading& reading) {
   const auto limit = [](double value, double none) { return std::abs(value) < kNoLimit ? value : none; };
@@ -77,8 +89,8 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
   AxisDescription description;
   reading.take(axis.ResolveXyz(description.direction, joint.Name()), path);
   if (joint.Type() != sdf::JointType::CONTINUOUS) {
-    description.lower = limit(axis.Lower(), -none);
-    description.upper = limit(axis.Upper(), none);
+    description.lower = reachable(axis.Lower(), -none, "lower", axis, path);
+    description.upper = reachable(axis.Upper(), none, "upper", axis, path);
   }
   // A negative effort or velocity means that there is no limit; many files write a velocity of 0, which Gazebo's motors
   // do not heed.

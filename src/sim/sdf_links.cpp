@@ -11,8 +11,13 @@
 #include <variant>
 #include <vector>
 
+#include "checks.hpp"
+#include "describe.hpp"
 #include "meshes/mesh_error.hpp"
+#include "nearest_inertia.hpp"
+#include "scene_check.hpp"
 #include "sdf_geometry.hpp"
+#include "sdf_left_out.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_sensors.hpp"
 #include "sdf_source.hpp"
@@ -59,9 +64,13 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
   const std::string path = link_path + "/" + collision.Name();
   description.pose = pose;
   try {
-    const auto geometry = read_geometry(*collision.Geom(), reading.folder());
+    const auto geometry = read_geometry(*collision.Geom(), reading);
     if (!geometry) return std::nullopt;
     description.geometry = *geometry;
+  } catch (const MissingFile& error) {
+    SceneReading::warn(source_of(collision.Element(), "geometry"), path,
+                       std::string(error.what()) + "; this collision is left out");
+    return std::nullopt;
   } catch (const MeshError& error) {
     reading.report(source_of(collision.Element(), "geometry"), path, error.what());
     return std::nullopt;
@@ -99,7 +108,7 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
   description.laser_retro = visual.LaserRetro();
   const std::string path = link_path + "/" + visual.Name();
   try {
-    const auto geometry = read_geometry(*visual.Geom(), reading.folder());
+    const auto geometry = read_geometry(*visual.Geom(), reading);
     if (!geometry) return;
     description.pose = pose;
     description.geometry = *geometry;
@@ -121,10 +130,28 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
   }
 }
 
-/// Many robots leave it at zero, with which nothing can turn.
-void give_inertia(LinkDescription& link, const std::string& path) {
+/// Many robots leave it at zero, with which nothing can turn, or have one that no body has.
+void repair_inertia(LinkDescription& link, const std::string& path) {
+  const Inertia given{link.inertia_diagonal, link.inertia_products};
+  if (!within(given.diagonal, 1e9) || !within(given.products, 1e9)) return;  // the check reports it
+  if (is_positive_definite(given.diagonal, given.products)) return;
+  // Not by ==, which takes what is small for zero.
+  const bool is_zero = given.diagonal.Length() == 0 && given.products.Length() == 0;
+  const std::optional<Inertia> nearest = nearest_positive_definite(given);
+  const std::string is = is_zero ? "the inertia is 0"
+                                 : "the inertia is ixx iyy izz " + text(given.diagonal) + ", ixy ixz iyz " +
+                                       text(given.products) + ", which is not positive definite";
+  if (nearest) {
+    link.inertia_diagonal = nearest->diagonal;
+    link.inertia_products = nearest->products;
+    SceneReading::warn(link.source, path,
+                       is + ": the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
+                           text(nearest->products) + ", is taken");
+    return;
+  }
   link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
-  SceneReading::warn(link.source, path, "the inertia is 0: that of a ball with a radius of 0.1 m is taken instead");
+  link.inertia_products = Vector3::Zero;
+  SceneReading::warn(link.source, path, is + ": that of a ball with a radius of 0.1 m is taken instead");
 }
 
 }  // namespace
@@ -135,6 +162,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.name = link.Name();
   description.pose = reading.resolved(link, path);
   description.source = source_of(link.Element());
+  report_left_out(link.Element(), path);
   description.has_weight = link.Element()->Get<bool>("gravity", true).first;
   const auto& inertial = link.Inertial();
   const ignition::math::Matrix3d inertia = inertial.Moi();
@@ -142,9 +170,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.centre_of_mass = inertial.Pose().Pos();
   description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
   description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
-  // Not by ==, which takes what is small for zero.
-  const bool is_zero = description.inertia_diagonal.Length() == 0 && description.inertia_products.Length() == 0;
-  if (!is_static && description.mass > 0 && is_zero) give_inertia(description, path);
+  if (!is_static && description.mass > 0) repair_inertia(description, path);
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
     const sdf::Collision& collision = *link.CollisionByIndex(i);
     const Pose pose = reading.resolved(collision, path + "/" + collision.Name());

@@ -7,6 +7,7 @@
 
 #include "own_elements.hpp"
 #include "sdf_joints.hpp"
+#include "sdf_left_out.hpp"
 #include "sdf_links.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_source.hpp"
@@ -58,6 +59,7 @@ class ModelReader {
  private:
   void read_inner(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& outer_path) {
     const std::string path = outer_path + "/" + model.Name();
+    report_left_out(model.Element(), path);
     NestedModelDescription nested;
     nested.name = inner + model.Name();
     nested.pose = pose * reading_.resolved(model, path);
@@ -80,6 +82,7 @@ class ModelReader {
 
   void read_joint_in(const sdf::Joint& read, const std::string& inner, const Pose& pose, const std::string& path) {
     JointDescription joint = read_joint(read, path, reading_);
+    if (joint.parent.empty() || joint.child.empty()) return;  // why was reported
     const auto prefix = [&inner](std::string& name) {
       if (!name.empty() && name != "world") name = inner + name;
     };
@@ -124,6 +127,7 @@ std::string name_in_paths(const sdf::Model& model) {
 ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading) {
   const std::string name = name_in_paths(model);
   const std::string path = "/" + name;
+  report_left_out(model.Element(), path);
   ModelDescription description;
   description.name = name;
   description.pose = pose;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "describe.hpp"
 #include "own_elements.hpp"
 #include "sdf_plugins.hpp"
 #include "sdf_source.hpp"
@@ -62,18 +63,34 @@ ScanAngles read_angles(unsigned int samples, double resolution, double min, doub
   return {static_cast<int>(std::min(rays, 1e9)), min, max};
 }
 
-LidarDescription read_lidar(const sdf::Lidar& lidar) {
+/// As Gazebo has it: rings in any order, and one alone, or none, looks straight ahead.
+void straighten(ScanAngles& vertical, const Source& source, const std::string& path) {
+  const std::string angles = text(vertical.min) + " to " + text(vertical.max) + " rad";
+  if (vertical.samples < 1 || (vertical.samples == 1 && vertical.min != vertical.max)) {
+    SceneReading::warn(
+        source, path,
+        std::to_string(vertical.samples) + " vertical samples from " + angles + ": a single ring at 0 rad is taken");
+    vertical = {1, 0, 0};
+  } else if (vertical.min > vertical.max) {
+    SceneReading::warn(source, path, "the vertical angles are " + angles + ": they are taken from low to high");
+    std::swap(vertical.min, vertical.max);
+  }
+}
+
+LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path) {
   LidarDescription description;
   description.horizontal =
       read_angles(lidar.HorizontalScanSamples(), lidar.HorizontalScanResolution(),
                   lidar.HorizontalScanMinAngle().Radian(), lidar.HorizontalScanMaxAngle().Radian());
   description.vertical = read_angles(lidar.VerticalScanSamples(), lidar.VerticalScanResolution(),
                                      lidar.VerticalScanMinAngle().Radian(), lidar.VerticalScanMaxAngle().Radian());
+  straighten(description.vertical, source_of(lidar.Element()), path);
   description.min_range = lidar.RangeMin();
   description.max_range = lidar.RangeMax();
   // Some models have one that would leave no range at all.
   description.resolution = lidar.RangeResolution() < lidar.RangeMax() ? lidar.RangeResolution() : 0;
   description.noise = read_noise(lidar.LidarNoise());
+  description.signal = own_text(lidar.Element(), "bubblesim:signal").value_or("");
   return description;
 }
 
@@ -131,11 +148,25 @@ ContactDescription read_contact(const sdf::ElementPtr& sensor) {
   return description;
 }
 
-CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const Report& report) {
+/// Gazebo takes half a turn, of which a plane shows nothing but the edge.
+void widen_at_most(double& field_of_view, const Source& source, const std::string& path) {
+  constexpr double kWide = 3.1;
+  constexpr double kWidest = 3.13;
+  if (!(field_of_view > kWide && field_of_view <= M_PI + 1e-3)) return;
+  const std::string taken = field_of_view > kWidest ? ", " + text(kWidest) + " is taken" : "";
+  SceneReading::warn(source, path,
+                     "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
+                         ": what lies ahead is tiny in such a picture");
+  field_of_view = std::min(field_of_view, kWidest);
+}
+
+CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const std::string& path,
+                              const Report& report) {
   CameraDescription description;
   description.width = static_cast<int>(camera.ImageWidth());
   description.height = static_cast<int>(camera.ImageHeight());
   description.horizontal_fov = camera.HorizontalFov().Radian();
+  widen_at_most(description.horizontal_fov, source_of(camera.Element(), "horizontal_fov"), path);
   description.near = depth_only && camera.HasDepthNearClip() ? camera.DepthNearClip() : camera.NearClip();
   description.far = depth_only && camera.HasDepthFarClip() ? camera.DepthFarClip() : camera.FarClip();
   // Plugins of depth cameras publish pictures, too.
@@ -216,7 +247,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::LIDAR:
     case sdf::SensorType::GPU_LIDAR:
       if (const sdf::Lidar* lidar = sensor.LidarSensor()) {
-        description.kind = read_lidar(*lidar);
+        description.kind = read_lidar(*lidar, path);
         return true;
       }
       report(description.source, "a lidar needs a <lidar> element with <scan> and <range>");
@@ -226,7 +257,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::RGBD_CAMERA:
     case sdf::SensorType::SEGMENTATION_CAMERA:
       if (const sdf::Camera* camera = sensor.CameraSensor()) {
-        description.kind = read_camera(*camera, sensor.Type() == sdf::SensorType::DEPTH_CAMERA, report);
+        description.kind = read_camera(*camera, sensor.Type() == sdf::SensorType::DEPTH_CAMERA, path, report);
         description.pose = description.pose * camera->RawPose();
         return true;
       }
@@ -247,9 +278,36 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
   }
 }
 
+/// The first of several elements that is there, without spaces around its text.
+std::string first_text(const sdf::ElementPtr& parent, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (parent == nullptr) break;
+    if (const auto text = own_text(parent, name)) return *text;
+  }
+  return "";
+}
+
+/// SDFormat has no functions for most of it, and later versions of the format more of it.
+GzTopic read_gz_topic(const sdf::ElementPtr& sensor) {
+  const sdf::ElementPtr contact = sensor->FindElement("contact");
+  const sdf::ElementPtr camera = sensor->FindElement("camera");
+  GzTopic gz;
+  for (const sdf::ElementPtr& element : {contact, sensor}) {
+    gz.topic = first_text(element, {"topic"});
+    if (gz.topic.rfind("__default", 0) == 0) gz.topic.clear();  // SDFormat's defaults
+    if (!gz.topic.empty()) break;
+  }
+  gz.info_topic = first_text(camera, {"camera_info_topic"});
+  gz.frame = first_text(camera, {"optical_frame_id"});
+  if (gz.frame.empty()) gz.frame = first_text(sensor, {"gz_frame_id", "ignition_frame_id", "frame_id"});
+  return gz;
+}
+
 SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose) {
   SensorDescription description;
   description.name = sensor.Name();
+  description.type = sensor.TypeStr();
+  description.gz = read_gz_topic(sensor.Element());
   description.source = source_of(sensor.Element());
   description.pose = pose;
   description.update_rate = sensor.UpdateRate();
@@ -284,8 +342,10 @@ std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const
     reading.take(camera.Load(element), path);
     SensorDescription& description = all.emplace_back(read_any(sensor, pose * camera.RawPose()));
     description.name += "_" + camera.Name();
-    if (!description.topic.empty()) description.topic += "/" + camera.Name();
-    description.kind = read_camera(camera, false, report_here);
+    for (std::string* topic : {&description.topic, &description.gz.topic}) {
+      if (!topic->empty()) *topic += "/" + camera.Name();
+    }
+    description.kind = read_camera(camera, false, path, report_here);
   }
   if (all.empty()) report_here(source_of(sensor.Element()), "a multicamera needs a <camera> for each of its cameras");
   return all;

@@ -26,6 +26,7 @@ struct Simulation::SensorSlot {
   std::unique_ptr<Sensor> sensor;
   double period = 0;    // s
   double due = 0;       // s of simulation time
+  double time = 0;      // s, at which it was last due, or measured for somebody who wanted it at once
   bool wanted = false;  // somebody read it since it last measured
   bool measured = false;
   bool shows = false;  // a picture that somebody gave it
@@ -77,22 +78,16 @@ void Simulation::drain() {
 
 namespace {
 
-/// Notes this thread as the one that steps, as long as it lives; throws when there is one.
-class Exclusive {
+/// Sets a flag as long as it lives.
+class Noted {
  public:
-  explicit Exclusive(std::atomic<std::thread::id>& stepping) : stepping_(stepping) {
-    std::thread::id none;
-    if (stepping_.compare_exchange_strong(none, std::this_thread::get_id())) return;
-    throw std::logic_error(none == std::this_thread::get_id()
-                               ? "a pass is being run: step() cannot be called by what takes part in it"
-                               : "another thread is stepping this simulation already");
-  }
-  ~Exclusive() { stepping_ = std::thread::id(); }
-  Exclusive(const Exclusive&) = delete;
-  Exclusive& operator=(const Exclusive&) = delete;
+  explicit Noted(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Noted() { flag_ = false; }
+  Noted(const Noted&) = delete;
+  Noted& operator=(const Noted&) = delete;
 
  private:
-  std::atomic<std::thread::id>& stepping_;
+  bool& flag_;
 };
 
 /// Seconds of a physics step when scripts have changed the time step: a whole number of them make a pass.
@@ -113,10 +108,13 @@ void Simulation::set_time_step(double seconds) {
 }
 
 void Simulation::step() {
-  const Exclusive exclusive(stepping_thread_);
-  draining_ = true;
+  if (stepping_.is_mine()) {
+    throw std::logic_error("a pass is being run: step() cannot be called by what takes part in it");
+  }
+  const AccessLock::Hold alone(stepping_);
   drain();
-  draining_ = false;
+  const AccessLock::Hold hold(world_.access());
+  const Noted in_pass(in_pass_);
   const double now = time();  // a reset while draining sets it back
   for (Participant* participant : participants_) participant->actuate(world_, now);
   advance_physics(scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
@@ -127,16 +125,15 @@ void Simulation::step() {
 }
 
 void Simulation::check_may_change() const {
-  const std::thread::id stepping = stepping_thread_;
-  if (stepping == std::thread::id()) return;
-  if (stepping != std::this_thread::get_id()) {
-    throw std::logic_error("another thread is stepping this simulation: change it from there, or when it has ended");
+  if (!in_pass_) return;
+  if (!stepping_.is_mine()) {
+    throw std::logic_error("another thread is in the middle of a pass of this simulation: change it between passes");
   }
-  if (!draining_)
-    throw std::logic_error("a pass is being run: the world can be changed before its actuation or after it");
+  throw std::logic_error("a pass is being run: the world can be changed before its actuation or after it");
 }
 
 void Simulation::reset_world() {
+  const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
   std::vector<SensorSlot> before = std::exchange(sensors_, {});
@@ -149,6 +146,7 @@ void Simulation::reset_world() {
 }
 
 void Simulation::reset() {
+  const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
   make_all_sensors();
@@ -159,6 +157,7 @@ void Simulation::reset() {
 }
 
 ObjectId Simulation::add_model(ModelDescription model) {
+  const AccessLock::Hold hold(world_.access());
   check_may_change();
   const ObjectId id = world_.add_model(std::move(model));
   rays_->add_model(world_, id, world_.description(id));
@@ -168,6 +167,7 @@ ObjectId Simulation::add_model(ModelDescription model) {
 }
 
 void Simulation::remove_model(ObjectId model) {
+  const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.check_removable(model);
   take_out(model);
@@ -188,6 +188,7 @@ void Simulation::update_sensors() {
     if (slot.due > until) continue;
     slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
     if (slot.shows) continue;
+    slot.time = time();
     slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
     if (slot.wanted) update(slot);
     slot.wanted = false;
@@ -217,7 +218,9 @@ std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
 
 std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
   SensorSlot& found = slot(sensor);
-  if (!found.shows) update(found);
+  if (found.shows) return found.sensor->reading();
+  update(found);
+  found.time = time();
   return found.sensor->reading();
 }
 
@@ -237,7 +240,10 @@ void Simulation::show_picture(ObjectId camera, const std::vector<std::uint8_t>& 
   picture.rgb = rgb;
   found.sensor->replace(time(), std::move(picture));
   found.shows = true;
+  found.time = time();
 }
+
+double Simulation::reading_time(ObjectId sensor) { return slot(sensor).time; }
 
 std::string_view Simulation::sensor_kind(ObjectId sensor) {
   return kind_name(slot(sensor).sensor->reading()->measurement);

@@ -80,6 +80,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.soft_erp = softness.erp;
   made.soft_cfm = softness.cfm;
   pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
+  // As deep as they may, and in no time: else each wheel would rest at a depth of its own, and a robot lean.
+  if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;
   // What is soft pushes as its spring does; a limit would let heavy things sink in.
   const double speed = higher(a.max_vel, b.max_vel).value_or(kMaxCorrectingVelocity);
   const bool limited = softness.rigid && softness.erp > 0;

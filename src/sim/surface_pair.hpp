@@ -12,6 +12,7 @@ struct SurfacePair {
   dSurfaceParameters ode{};
   const Surface* directed = nullptr;  ///< the one whose fdir1 counts; null when none has a direction
   double sink = 0;                    ///< m that the shapes may sink into one another
+  double sink_speed = 0;              ///< m/s at most at which they do, when the contact is rigid; 0: only by chance
   double max_depth = 0;               ///< m; a deeper overlap is treated as this one, or things would fly apart
 };
 

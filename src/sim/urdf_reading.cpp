@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "sdf_values.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -107,8 +109,38 @@ void hold_massless_root(XMLElement& robot, const SceneReading& reading) {
   joint->InsertNewChildElement("child")->SetAttribute("link", name.c_str());
 }
 
-/// The text that SDFormat is to read in place of the file's.
-std::string prepared(const SceneReading& reading) {
+/// What a <gazebo> adds to a link or to the model is SDFormat, but for its own words.
+void repair_extension(XMLElement& extension, SceneReading& reading) {
+  const std::string& file = reading.xml().file();
+  const std::string link = attribute(&extension, "reference");
+  const std::string path = "/" + attribute(reading.xml().document().RootElement(), "name") + "/" + link;
+  for (auto* child = extension.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string_view name = child->Name();
+    if ((name == "mu1" || name == "mu2") && child->DoubleText() < 0) {
+      SceneReading::warn({file, child->GetLineNum()}, path,
+                         "<" + std::string(name) + "> is below 0: the friction is infinite");
+      child->SetText("inf");
+    } else if (name == "sensor") {
+      replace_bad_values(*child, link.empty() ? "model" : "link", file, reading);
+    }
+  }
+}
+
+std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
+  const auto* mimic = joint.FirstChildElement("mimic");
+  if (mimic == nullptr) return std::nullopt;
+  return MimicDescription{attribute(mimic, "joint"), 0, mimic->DoubleAttribute("multiplier", 1),
+                          mimic->DoubleAttribute("offset", 0), 0};
+}
+
+}  // namespace
+
+std::string prepared_urdf(SceneReading& reading) {
+  XMLElement& original = *reading.xml().document().RootElement();  // a copy has no lines
+  for (auto* extension = original.FirstChildElement("gazebo"); extension != nullptr;
+       extension = extension->NextSiblingElement("gazebo")) {
+    repair_extension(*extension, reading);
+  }
   tinyxml2::XMLDocument document;
   reading.xml().document().DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
@@ -123,17 +155,8 @@ std::string prepared(const SceneReading& reading) {
   return printer.CStr();
 }
 
-std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
-  const auto* mimic = joint.FirstChildElement("mimic");
-  if (mimic == nullptr) return std::nullopt;
-  return MimicDescription{attribute(mimic, "joint"), 0, mimic->DoubleAttribute("multiplier", 1),
-                          mimic->DoubleAttribute("offset", 0), 0};
-}
-
-}  // namespace
-
-sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const SceneReading& reading) {
-  sdf::Errors errors = root.LoadSdfString(prepared(reading), config);
+sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const std::string& prepared) {
+  sdf::Errors errors = root.LoadSdfString(prepared, config);
   for (sdf::Error& error : errors) {
     if (error.Message().find(kNoLink) != std::string::npos) error = sdf::Error(error.Code(), kNoOwnLink);
   }

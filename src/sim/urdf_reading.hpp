@@ -14,8 +14,11 @@
 
 namespace bubblesim {
 
-/// Reads the <robot> of a reading.
-sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const SceneReading& reading);
+/// The text of a reading's <robot> that SDFormat is to convert.
+std::string prepared_urdf(SceneReading& reading);
+
+/// Reads that text.
+sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const std::string& prepared);
 
 /// Lets go what <joint type="floating"> and "planar" hold, takes mimics over, and tells of all joints that SDFormat
 /// left out. For a model of which load_urdf() made the root.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the description of a model to bodies, joints and shapes in ODE.
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "bubblesim/error.hpp"
 #include "contact_defaults.hpp"
 #include "meshes/made_meshes.hpp"
 #include "scene_check.hpp"
@@ -54,6 +56,13 @@ dGeomID make_geom(Collider& collider, const Pose& pose) {
   return std::visit(Maker{collider, pose}, collider.geometry);
 }
 
+void place_body(dBodyID body, const LinkDescription& link, const Pose& pose) {
+  const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
+  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
+  dBodySetPosition(body, centre.X(), centre.Y(), centre.Z());
+  dBodySetQuaternion(body, rotation);
+}
+
 ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
   dMass mass;
   dMassSetParameters(&mass, link.mass, 0, 0, 0, link.inertia_diagonal.X(), link.inertia_diagonal.Y(),
@@ -62,10 +71,7 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
   ode::BodyHandle body(dBodyCreate(world));
   dBodySetMass(body.get(), &mass);
   dBodySetGravityMode(body.get(), link.has_weight ? 1 : 0);
-  const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
-  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
-  dBodySetPosition(body.get(), centre.X(), centre.Y(), centre.Z());
-  dBodySetQuaternion(body.get(), rotation);
+  place_body(body.get(), link, pose);
   return body;
 }
 
@@ -107,6 +113,7 @@ class ModelBuilder {
     for (const NestedModelDescription& nested : description.nested) {
       model_.nested.push_back(frame_at(nested.canonical_link, description.pose * nested.pose));
     }
+    for (std::size_t i = 0; i < links.size(); ++i) start_at(description.links[i], model_.links[i]);
     return std::move(model_);
   }
 
@@ -139,11 +146,25 @@ class ModelBuilder {
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
   }
 
+  void tell_remark(const CollisionMesh& mesh, const CollisionDescription& collision) const {
+    if (mesh.remark.empty()) return;
+    const std::string path = "/" + model_.description.name + "/" + collision.name;
+    const Problem problem{collision.source.file, collision.source.line, path, mesh.remark};
+    std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
+  }
+
+  /// After the joints are made, whose positions it decides.
+  void start_at(const LinkDescription& description, const Link& link) const {
+    if (!description.start || link.body == nullptr) return;
+    place_body(link.body.get(), description, model_.description.pose * *description.start);
+  }
+
   void add_collider(const Link& link, const CollisionDescription& description, bool watched) {
     const Pose pose = link.pose * description.pose;
     Collider& collider = model_.colliders.emplace_back();
     collider.geometry = description.geometry;
     collider.geom.reset(make_geom(collider, pose));
+    if (collider.mesh != nullptr && collider.mesh.use_count() == 1) tell_remark(*collider.mesh, description);
     collider.link = &link;
     collider.name = description.name;
     collider.watched = watched;

@@ -14,6 +14,7 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
+#include "contact_thinning.hpp"
 #include "islands.hpp"
 #include "joints/joint.hpp"
 #include "meshes/collision_mesh.hpp"
@@ -127,7 +128,7 @@ struct LinkState {
   Pose pose;       // of its body
   Twist velocity;  // of its body
 };
-struct Moment {
+struct StateSample {
   double time = 0;  // s, of the world's age
   std::vector<LinkState> links;
 };
@@ -153,12 +154,13 @@ struct World::State {
   std::vector<Touch> touches;             // of the last advance()
   std::uint64_t steps = 0;                // begun in the last advance()
   std::vector<PlacedModel*> moving;       // the models that move, by their number in the islands
+  std::vector<FoundContact> found;        // of the last substep
   Islands islands;                        // of the last substep; models by their number
   double bottom = 0;                      // m along gravity, the lowest place that a model or static shape was made at
   double age = 0;                         // s since it was built
   int steps_to_iterate = 0;               // after the exact solver found no solution
   unsigned long random;                   // state of the iterative solver's random numbers
-  std::deque<Moment> history;             // the last passes
+  std::deque<StateSample> history;        // the last passes
   std::vector<ObjectId> lost_models;      // those that diverged
   bool diverged = false;
   bool interrupted = false;  // ODE threw in the middle of a step

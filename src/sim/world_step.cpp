@@ -16,8 +16,6 @@ namespace bubblesim {
 namespace {
 
 constexpr double kMaxDuration = 1000;  // s, of one call
-/// An island of bodies with more contacts than these is too big for the exact solver, whose cost grows with their cube.
-constexpr int kManyContacts = 20;
 /// When the exact solver found no solution, what hangs together so badly has this long to change.
 constexpr int kStepsToIterate = 20;
 constexpr std::size_t kRememberedPasses = 10;
@@ -69,7 +67,7 @@ void substep(World::State& state, double step) {
         aim_motor_meters(state, placed);
       }
     }
-    if (state.steps_to_iterate > 0 || state.islands.most_contacts() > kManyContacts) {
+    if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
       step_iteratively(state, step);
       state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
     } else {
@@ -132,14 +130,14 @@ std::vector<ObjectId> World::fallen_models() const {
 
 void World::write_last_states(std::ostream& out) const {
   out << "time,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
-  for (const Moment& moment : state_->history) {
-    for (const LinkState& link : moment.links) {
+  for (const StateSample& sample : state_->history) {
+    for (const LinkState& link : sample.links) {
       if (state_->tree.objects().count(link.object) == 0) continue;
       const Vector3& p = link.pose.Pos();
       const Quaternion& q = link.pose.Rot();
       const Vector3& v = link.velocity.linear;
       const Vector3& w = link.velocity.angular;
-      out << moment.time << ',' << state_->tree.path(link.object);
+      out << sample.time << ',' << state_->tree.path(link.object);
       for (const double value :
            {p.X(), p.Y(), p.Z(), q.X(), q.Y(), q.Z(), q.W(), v.X(), v.Y(), v.Z(), w.X(), w.Y(), w.Z()}) {
         out << ',' << value;

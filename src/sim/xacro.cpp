@@ -1,78 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "xacro.hpp"
 
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <memory>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <vector>
 
 #include "bubblesim/error.hpp"
+#include "limited_program.hpp"
+#include "scene_folders.hpp"
 
 namespace bubblesim {
 namespace {
 
-/// A file without a name that holds what a program writes: it may write as much as it likes before anybody reads.
-class Output {
- public:
-  Output() : file_(std::tmpfile()) {}
-  /// -1 when there is no room for it.
-  int descriptor() const { return file_ != nullptr ? ::fileno(file_.get()) : -1; }
-  std::string text() const {
-    std::string all;
-    char part[4096];
-    std::rewind(file_.get());
-    while (const std::size_t size = std::fread(part, 1, sizeof part, file_.get())) all.append(part, size);
-    return all;
-  }
+constexpr const char* kTimeVariable = "BUBBLESIM_XACRO_SECONDS";
 
- private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
-};
-
-/// The exit status of `program FILE`, or nothing when there is no such program.
-bool run(const std::string& program, const std::string& file, const Output& output, const Output& errors, int& status) {
-  std::string arguments[] = {program, file};
-  char* const argv[] = {arguments[0].data(), arguments[1].data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
-  pid_t child = 0;
-  const int failed = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, argv, environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return false;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return true;
+/// `env PYTHONPATH=...`, with which xacro finds how ROS 1 finds packages.
+std::vector<std::string> with_packages() {
+  const char* given = std::getenv("PYTHONPATH");
+  const std::string path = shared_folder("xacro_packages", BUBBLESIM_XACRO_PACKAGES).string();
+  return {"/usr/bin/env", "PYTHONPATH=" + path + (given != nullptr ? ":" + std::string(given) : "")};
 }
 
-std::string last_line(std::string text) {
-  text.erase(text.find_last_not_of('\n') + 1);
-  return text.substr(text.rfind('\n') + 1);
+/// The last line, but for those in which xacro lists the files that it was in.
+std::string last_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_place = line.rfind("when ", 0) == 0 || line.rfind("included from", 0) == 0;
+    if (!line.empty() && !is_place) last = line;
+  }
+  return last;
+}
+
+/// How long xacro may take.
+std::chrono::milliseconds patience() {
+  const char* given = std::getenv(kTimeVariable);
+  const double seconds = given != nullptr ? std::atof(given) : 0;
+  return seconds > 0 && seconds < 1e6 ? std::chrono::milliseconds(static_cast<long>(1000 * seconds))
+                                      : std::chrono::seconds(30);
+}
+
+/// The one on PATH, or else of the virtual environment of this build.
+std::string program() {
+  const std::string found = find_program("xacro");
+  const std::string own = BUBBLESIM_VIRTUAL_ENV "/bin/xacro";
+  if (!found.empty() || !std::filesystem::is_regular_file(own)) return found;
+  return own;
 }
 
 }  // namespace
 
-std::string run_xacro(const std::filesystem::path& file) {
+std::string run_xacro(const std::filesystem::path& file, const XacroArguments& arguments) {
   const auto fail = [&](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
-  const Output output;
-  const Output errors;
-  if (output.descriptor() < 0 || errors.descriptor() < 0) fail("there is no room for what xacro writes");
-  int status = 0;
-  if (!run("xacro", file.string(), output, errors, status) &&
-      !run(BUBBLESIM_VIRTUAL_ENV "/bin/xacro", file.string(), output, errors, status)) {
-    fail("needs the program xacro, which is not on PATH: pip install xacro==1.13.3");
+  const std::string xacro = program();
+  if (xacro.empty()) fail("needs the program xacro, which is not on PATH: pip install xacro==2.1.1");
+  const std::chrono::milliseconds time = patience();
+  std::vector<std::string> command = with_packages();
+  command.insert(command.end(), {xacro, file.string()});
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const ProgramResult result = run_limited(command, time);
+  if (!result.in_time) {
+    fail("xacro did not end within " + std::to_string(std::chrono::duration<double>(time).count()).substr(0, 4) +
+         " s and was killed; " + kTimeVariable + " gives it more");
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    fail("xacro cannot expand it: " + last_line(errors.text()) + " ('xacro " + file.string() + "' says more)");
+  if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) != 0) {
+    const std::string reason = WIFSIGNALED(result.status) ? "it was ended by the signal " +
+                                                                std::string(::sigabbrev_np(WTERMSIG(result.status)))
+                                                          : last_line(result.errors);
+    fail("xacro cannot expand it: " + reason + " ('xacro " + file.string() + "' says more)");
   }
-  return output.text();
+  return result.output;
 }
 
 }  // namespace bubblesim

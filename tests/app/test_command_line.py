@@ -39,8 +39,13 @@ def test_scenes_are_listed() -> None:
     ("arguments", "told"),
     [
         ([], "SCENE"),
-        (["ball", "--bogus"], "--bogus"),
-        (["ball", "other"], "other"),
+        (["ball", "--bogus"], "error: unknown option --bogus\n"),
+        (
+            ["ball", "--childscript", "/Ball=x.py"],
+            "unknown option --childscript; did you mean --child-script?\nRun with",
+        ),
+        (["ball", "--childscript=/Ball=x.py"], "unknown option --childscript; did you mean --child-script?\nRun with"),
+        (["ball", "other"], "unexpected argument 'other'"),
         (["ball", "--until", "soon"], "--until"),
         (["ball", "--until", "-1"], "--until"),
         (["ball", "--until", "nan"], "--until"),
@@ -54,6 +59,10 @@ def test_scenes_are_listed() -> None:
         (["nosuch", "--no-ros"], "no scene is named 'nosuch'"),
         (["tricycel", "--no-ros"], "tricycle"),
         (["/none/such.sdf", "--no-ros"], "/none/such.sdf"),
+        (["dd.py", "--no-ros"], "dd.py: is a script, not a scene: name the .sdf file"),
+        (["my/robot.lua", "--no-ros"], "my/robot.lua: is a script, not a scene: name the .sdf file"),
+        (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: is a file of CoppeliaSim"),
+        (["a/room.simscene.xml", "--no-ros"], "a/room.simscene.xml: is a file of CoppeliaSim"),
     ],
     ids=" ".join,
 )

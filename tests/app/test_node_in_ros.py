@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The node among other ROS nodes: how it pauses, ends and gets on without a master."""
 
+import os
+import pty
 import signal
+import subprocess
 from pathlib import Path
 
 import pytest
 
-from node_support import NAME, Node, endless_fall, write
-from ros_support import RosCore, free_port, ros_environment, wait_until
+from node_support import NAME, Node, endless_fall, processes_with, write
+from ros_support import RosCore, built, free_port, ros_environment, wait_until
 
 TELL = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signals_end_it_cleanly(roscore: RosCore, tmp_path: Path, number: signal.Signals) -> None:
     script = write(tmp_path / "script.py", TELL)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
@@ -21,6 +24,41 @@ def test_signals_end_it_cleanly(roscore: RosCore, tmp_path: Path, number: signal
         assert node.end(number) == 0
         assert node.output.endswith("cleanup\n")
         assert NAME not in roscore.nodes()
+
+
+def test_a_terminal_that_is_closed_ends_it_with_its_children(roscore: RosCore, tmp_path: Path) -> None:
+    code = f"""
+        def sysCall_init(): sim.launchExecutable('sleep', '36059.5')
+        def sysCall_actuation(): print('running')
+        def sysCall_cleanup(): open('{tmp_path}/cleanup', 'w').close()
+    """
+    script = write(tmp_path / "script.py", code)
+    ours, its = pty.openpty()
+    node = subprocess.Popen(
+        ["setsid", "--ctty", "--wait", built("sim"), "ball", "--child-script", f"/Ball={script}"],
+        env=roscore.env,
+        stdin=its,
+        stdout=its,
+        stderr=its,
+    )
+    os.close(its)
+    wait_until(lambda: NAME in roscore.nodes() and processes_with("sleep 36059.5") != [], "the script")
+    os.close(ours)
+    node.wait(timeout=20)
+    wait_until(lambda: processes_with("sleep 36059.5") == [], "the end of what the script has started")
+    assert (tmp_path / "cleanup").exists()
+    assert NAME not in roscore.nodes()
+
+
+def test_a_terminal_that_is_closed_does_not_end_it_under_nohup(roscore: RosCore, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with log.open("w") as output:
+        node = subprocess.Popen(["nohup", built("sim"), "ball"], env=roscore.env, stdout=output, stderr=output)
+    wait_until(lambda: NAME in roscore.nodes(), "the node")
+    node.send_signal(signal.SIGHUP)
+    assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
+    node.send_signal(signal.SIGINT)
+    assert node.wait(timeout=20) == 0
 
 
 @pytest.mark.parametrize("options", [["--paused"], ["--speed", "0.0001"]], ids=["paused", "slow"])

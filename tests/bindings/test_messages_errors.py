@@ -42,7 +42,11 @@ def test_elements_are_located_by_index() -> None:
         ("Int64", 2**63, "expected int64 (-9223372036854775808 to 9223372036854775807), found int 9223372036854775808"),
         ("UInt64", 2**64, "expected uint64 (0 to 18446744073709551615), found int 18446744073709551616"),
         ("UInt64", -1, "expected uint64 (0 to 18446744073709551615), found int -1"),
-        ("Int32", 1.5, "expected int32 (-2147483648 to 2147483647), found float 1.5"),
+        ("Int32", 2.0**31, "expected int32 (-2147483648 to 2147483647), found float 2147483648.0"),
+        ("UInt8", -1.5, "expected uint8 (0 to 255), found float -1.5"),
+        ("Int32", float("inf"), "expected int32 (-2147483648 to 2147483647), found float inf"),
+        ("UInt64", float("-inf"), "expected uint64 (0 to 18446744073709551615), found float -inf"),
+        ("Bool", 0.5, "expected bool, found float 0.5"),
         ("Int32", float("nan"), "expected int32 (-2147483648 to 2147483647), found float nan"),
         ("Int32", None, "expected int32 (-2147483648 to 2147483647), found None"),
         ("Float32", 1e39, "expected float32 (finite or inf), found float 1e+39"),
@@ -84,7 +88,8 @@ def test_arrays_of_floats_refuse_what_is_no_sequence_of_numbers(value: object) -
     [
         ([1, 256], 1, "int 256"),
         (np.array([1, 2, -1]), 2, "-1"),
-        (np.array([0.5]), 0, "0.5"),
+        (np.array([-1.0]), 0, "-1"),
+        (np.array([0.0, np.inf]), 1, "inf"),
         (np.array([float("nan")]), 0, "nan"),
     ],
 )
@@ -136,14 +141,22 @@ def test_unknown_types_name_the_list_and_the_command() -> None:
         codec.encode("geometry_msgs/Twits", {})
     assert str(caught.value) == (
         "geometry_msgs/Twits is not among the message types of this build, and this machine has no definition of it; "
-        "did you mean geometry_msgs/Twist? to add it, install its package or put it into the workspace, and list it "
-        "in meta/messages.txt: rosrun bubblesim add_message geometry_msgs/Twits"
+        "did you mean geometry_msgs/Twist?"
+    )
+    with pytest.raises(codec.MessageError) as caught:
+        codec.encode("quantum_teleport_msgs/Beam", {})
+    assert str(caught.value) == (
+        "quantum_teleport_msgs/Beam is not among the message types of this build, and this machine has no definition "
+        "of it; to add it, install its package or put it into the workspace, and list it in meta/messages.txt: rosrun "
+        "bubblesim add_message quantum_teleport_msgs/Beam"
     )
 
 
 def test_unknown_services_name_their_list() -> None:
-    with pytest.raises(codec.MessageError, match=r"did you mean std_srvs/SetBool\?.*in meta/services\.txt: rosrun"):
+    with pytest.raises(codec.MessageError, match=r"did you mean std_srvs/SetBool\?$"):
         codec.service_md5("std_srvs/SetBol")
+    with pytest.raises(codec.MessageError, match=r"to add it, .* in meta/services\.txt: rosrun"):
+        codec.service_md5("quantum_teleport_srvs/Beam")
 
 
 def test_unknown_types_may_have_meant_one_that_is_not_listed() -> None:

@@ -2,6 +2,7 @@
 """Which Python values a field takes, and what it gives back."""
 
 import array
+import math
 from collections import OrderedDict
 from fractions import Fraction
 from typing import Any
@@ -27,6 +28,53 @@ def test_floats_take_all_real_numbers(value: Any) -> None:
 @pytest.mark.parametrize("name", ["Int8", "UInt16", "Int64", "UInt64"])
 def test_integers_take_all_whole_numbers(name: str, value: Any) -> None:
     assert same(back(f"std_msgs/{name}", value), 2)
+
+
+@pytest.mark.parametrize("make", [float, np.float64, np.float32, np.float16])
+@pytest.mark.parametrize(
+    ("name", "value", "result"),
+    [("Int32", 1.75, 1), ("Int32", -1.75, -1), ("UInt8", 255.5, 255), ("UInt8", -0.5, 0), ("Int64", -0.5, 0)],
+)
+def test_integers_take_floats_truncated_toward_zero(name: str, value: float, result: int, make: Any) -> None:
+    assert back(f"std_msgs/{name}", make(value)) == result
+
+
+@pytest.mark.parametrize("make", [list, np.array, lambda values: np.array(values, dtype=object)])
+def test_arrays_of_integers_take_floats_truncated_toward_zero(make: Any) -> None:
+    assert list(back("std_msgs/Int16MultiArray", make([1.75, -1.75, 3.0]))) == [1, -1, 3]
+
+
+def test_nanoseconds_that_are_not_quite_whole_are_truncated() -> None:
+    t = 0.15
+    nanoseconds = (t - math.floor(t)) * 10**9  # 150000000.00000003 of some times
+    assert back("std_msgs/Time", {"secs": 0, "nsecs": 150000000.00000003}) == {"secs": 0, "nsecs": 150_000_000}
+    assert back("std_msgs/Time", {"secs": math.floor(t), "nsecs": nanoseconds})["nsecs"] == int(nanoseconds)
+
+
+@pytest.mark.parametrize("value", [150000000.00000003, 7.0009, -7.0009, 3])
+def test_nothing_is_said_of_less_than_a_thousandth(value: float) -> None:
+    assert codec.truncations("std_msgs/Int32", {"data": value}) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "message", "truncations"),
+    [
+        ("std_msgs/UInt8", {"data": 7.0011}, [("data", 7.0011)]),
+        ("std_msgs/UInt8", {"data": np.float32(-0.5)}, [("data", -0.5)]),
+        ("rosgraph_msgs/Clock", {"clock": {"secs": 1.5, "nsecs": 2.25}}, [("clock.secs", 1.5), ("clock.nsecs", 2.25)]),
+        ("std_msgs/Int8MultiArray", {"data": [1, 1.5, 2.5]}, [("data", 1.5)]),
+        ("std_msgs/Int8MultiArray", {"data": np.array([1, 1.5, 2.5])}, [("data", 1.5)]),
+        (
+            "std_msgs/Int8MultiArray",
+            {"layout": {"dim": [{"size": 1.5}, {"size": 2.5, "stride": 3.5}], "data_offset": 4.5}, "data": [5.5]},
+            [("layout.dim.size", 1.5), ("layout.dim.stride", 3.5), ("layout.data_offset", 4.5), ("data", 5.5)],
+        ),
+        ("std_msgs/Float64", {"data": 1.5}, None),
+        ("std_msgs/Time", {"data": 1.5}, None),
+    ],
+)
+def test_each_truncated_field_is_named_once_with_its_first_value(name: str, message: Any, truncations: Any) -> None:
+    assert codec.truncations(name, message) == truncations
 
 
 @pytest.mark.parametrize(

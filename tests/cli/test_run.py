@@ -53,7 +53,7 @@ def test_a_master_that_is_needed_and_missing_is_told(tmp_path: Path) -> None:
     assert "add --roscore" in run.stderr
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signals_end_all_of_it(tmp_path: Path, number: signal.Signals) -> None:
     port = free_port()
     log = tmp_path / "out"

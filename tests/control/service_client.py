@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Takes lines [service, request] in JSON on stdin, calls as rosservice does, writes each response as a line of JSON."""
+"""Takes lines [service, request] in JSON on stdin, calls as rosservice does, writes each response as a line of JSON:
+{"error": TEXT} for a call that failed.
+"""
 
 import json
 import sys
@@ -9,5 +11,9 @@ import yaml
 
 for line in sys.stdin:
     service, request = json.loads(line)
-    _, response = rosservice.call_service(service, [request])
-    print(json.dumps(yaml.safe_load(str(response))), flush=True)
+    try:
+        _, response = rosservice.call_service(service, [request])
+        answer = yaml.safe_load(str(response))
+    except rosservice.ROSServiceException as error:
+        answer = {"error": str(error)}
+    print(json.dumps(answer), flush=True)

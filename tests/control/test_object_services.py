@@ -2,6 +2,7 @@
 """The services that read and set objects, called as other nodes call them."""
 
 import math
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,13 @@ SCENE = """\
 class Caller:
     def __init__(self, core: RosCore) -> None:
         self._core = core
+
+    def error(self, service: str, **request: Any) -> str:
+        """What rosservice writes when the call fails."""
+        command = ["rosservice", "call", f"{NAME}/{service}", yaml.safe_dump(request)]
+        failed = subprocess.run(command, env=self._core.env, capture_output=True, text=True, check=False)
+        assert (failed.returncode, failed.stdout) == (2, "")
+        return failed.stderr
 
     def __call__(self, service: str, **request: Any) -> Any:
         answer = self._core.run("rosservice", "call", f"{NAME}/{service}", yaml.safe_dump(request))
@@ -79,7 +87,15 @@ def test_what_is_wrong_is_told_and_changes_nothing(call: Caller) -> None:
         answer = call("set_object_pose", **request)
         assert answer["success"] is False
         assert hint in answer["status_message"]
-    missing = call("get_object_state", object="/Bos")
-    assert missing["success"] is False
-    assert "/Box" in missing["status_message"]
     assert call("get_object_state", object="/Box") == before
+
+
+def test_a_state_that_cannot_be_read_fails_the_call_with_the_reason_alone(call: Caller) -> None:
+    for request, reason in (
+        ({"object": "/Bos"}, "no object matches '/Bos'; did you mean /Box?"),
+        ({"object": "/Box", "reference": "/Platfrom"}, "no object matches '/Platfrom'; did you mean /Platform?"),
+    ):
+        service = f"ERROR: service [{NAME}/get_object_state] responded with an error: "
+        assert reason in call.error("get_object_state", **request)
+        assert call.error("get_object_state", **request).startswith(service)
+        assert call.error("get_object_state", **request).count("\n") == 1

@@ -46,7 +46,7 @@ def test_demo_drives_and_leaves_a_picture_and_no_process(scene: str, tmp_path: P
     assert processes_with(f"ROS_MASTER_URI=http://localhost:{port}") == []
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_demo_ends_in_order_on_a_signal(number: signal.Signals, tmp_path: Path) -> None:
     port = free_port()
     process = demo(tmp_path, port)

@@ -29,9 +29,9 @@ def joint(name: str, parent: str, child: str, axis: str, limit: float = 1e16) ->
     return f'<joint name="{name}" type="revolute">{ends}<axis><xyz>{axis}</xyz>{limits}</axis></joint>'
 
 
-def wheel(name: str, x: float, y: float, parent: str = "body") -> str:
-    sphere = f"<sphere><radius>{RADIUS}</radius></sphere>"
-    return link(name, x, y, RADIUS, 1, 0.004, sphere) + joint(f"{name}_joint", parent, name, "0 1 0")
+def wheel(name: str, x: float, y: float, parent: str = "body", radius: float = RADIUS) -> str:
+    sphere = f"<sphere><radius>{radius}</radius></sphere>"
+    return link(name, x, y, radius, 1, 0.004, sphere) + joint(f"{name}_joint", parent, name, "0 1 0")
 
 
 def steered(name: str, x: float, y: float) -> str:
@@ -145,6 +145,18 @@ ROS2 = plugin(
     max_wheel_torque="20",
     publish_odom="true",
 )
+SMALL = wheel("small_left", WHEELBASE, TRACK / 4, radius=RADIUS / 2) + wheel(
+    "small_right", WHEELBASE, -TRACK / 4, radius=RADIUS / 2
+)
+PAIRS = (
+    '<plugin name="drive" filename="libgazebo_ros_diff_drive.so"><num_wheel_pairs>2</num_wheel_pairs>'
+    "<left_joint>left_joint</left_joint><left_joint>small_left_joint</left_joint>"
+    "<right_joint>right_joint</right_joint><right_joint>small_right_joint</right_joint>"
+    f"<wheel_separation>{TRACK}</wheel_separation><wheel_separation>{TRACK / 2}</wheel_separation>"
+    f"<wheel_diameter>{2 * RADIUS}</wheel_diameter><wheel_diameter>{RADIUS}</wheel_diameter>"
+    "<max_wheel_torque>20</max_wheel_torque><publish_odom>true</publish_odom></plugin>"
+) + plugin("libgazebo_ros_joint_state_publisher.so")
+MISCOUNTED = PAIRS.replace(">2</num", ">3</num").replace('"drive"', '"miscounted"')
 PLANAR = plugin("libgazebo_ros_planar_move.so", robotNamespace="sledge", odometryFrame="odom", robotBaseFrame="body")
 BOX = link("body", 0, 0, 0, 5, 0.1, "<box><size>0.5 0.5 0.1</size></box>")
 
@@ -169,6 +181,8 @@ WORLD = "".join(
         ),
         robot("plain", 40, REAR + CASTER, GAZEBO),
         robot("ros2", 80, REAR + CASTER, ROS2),
+        robot("pairs", 100, REAR + SMALL, PAIRS),
+        robot("miscounted", 110, REAR + SMALL, MISCOUNTED),
         f'<model name="gz_arm"><pose>0 90 0 0 0 0</pose>{GZ_ARM}</model>',
         f'<model name="robot_arm"><pose>0 60 0 0 0 0</pose>{ARM}</model>',
         f'<model name="sledge"><pose>0 50 0.05 0 0 0</pose>{BOX}{PLANAR}</model>',
@@ -268,6 +282,30 @@ def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
 def test_ros_2s_drive_turns_to_the_left_for_a_positive_rate(peer: Peer) -> None:
     peer.drive("/ros2/cmd_vel", 0.3, 0.5)
     assert velocity(moving(peer, "/ros2/odom", "yaw", 0.4)) == pytest.approx((0.3, 0.5), abs=0.05)
+
+
+def test_ros_2s_drive_drives_each_pair_of_wheels_by_its_own_measures(running: Any, peer: Peer) -> None:
+    peer.drive("/pairs/cmd_vel", 0.3, 0.0)
+    assert velocity(moving(peer, "/pairs/odom", "x", 0.28)) == pytest.approx((0.3, 0.0), abs=0.01)
+
+    def speeds(forward: float, turning: float) -> Message:
+        rims = {side: forward + sign * turning * TRACK / 2 for side, sign in (("left", -1), ("right", 1))}
+        small = {side: forward + sign * turning * TRACK / 4 for side, sign in (("left", -1), ("right", 1))}
+        return {f"{side}_joint": rims[side] / RADIUS for side in rims} | {
+            f"small_{side}_joint": small[side] / (RADIUS / 2) for side in small
+        }
+
+    def turn_at(wanted: Message) -> None:
+        def holds(state: Message) -> bool:
+            found = dict(zip(state["name"], state["velocity"], strict=True))
+            return found == pytest.approx(wanted, abs=0.05)
+
+        peer.wait_for("/pairs/joint_states", "sensor_msgs/JointState", holds, f"wheels to turn at {wanted}")
+
+    turn_at(speeds(0.3, 0.0))
+    peer.drive("/pairs/cmd_vel", 0.0, 0.5)
+    turn_at(speeds(0.0, 0.5))
+    running.node.wait_for_output("<leftJoint> stands there 2 times, it must be 3 times")
 
 
 def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None:

@@ -24,6 +24,9 @@ MODEL = """\
       <joint>b, c</joint>
       <source>wheels</source>
       <ros><namespace>/robot</namespace></ros>
+      <wheel_diameter>0.2</wheel_diameter>
+      <wheel_diameter>0.1</wheel_diameter>
+      <wheel_diameter>wide</wheel_diameter>
     </plugin>
     <link name="link"/>
   </model>
@@ -52,6 +55,26 @@ def test_values_have_types_and_both_spellings_and_defaults(parameters: Parameter
     parameters.check()
 
 
+def test_several_elements_of_a_name_have_a_length_each(parameters: Parameters) -> None:
+    assert parameters.lengths("wheelDiameter", 1.0, 2) == [0.2, 0.1]
+    assert parameters.lengths("wheelSeparation", 1.0, 3) == [0.5, 0.5, 0.5], "the last one counts for the rest"
+    assert parameters.lengths("missing", 1.0, 2) == [1.0, 1.0]
+    parameters.check()
+    parameters.lengths("wheelDiameter", 1.0, 3)
+    with pytest.raises(ParameterError, match=":17: plugin 'p': <wheelDiameter> is 'wide', it must be a number above 0"):
+        parameters.check()
+
+
+def test_deviations_are_one_or_three(parameters: Parameters) -> None:
+    assert parameters.deviations("wheelSeparation") == (0.5,)
+    assert parameters.deviations("offset") == (1.0, 2.0, 3.0)
+    assert parameters.deviations("missing") == (0.0,)
+    parameters.check()
+    parameters.deviations("none")
+    with pytest.raises(ParameterError, match=r"one number or three \(x, y and z\) of at least 0"):
+        parameters.check()
+
+
 def test_all_that_is_wrong_is_told_at_once_with_its_line(parameters: Parameters) -> None:
     assert parameters.number("often", 2.0) == 2.0
     assert parameters.length("none", 3.0) == 3.0
@@ -71,7 +94,7 @@ def test_what_nobody_asked_for_is_named(parameters: Parameters) -> None:
     parameters.number("wheelSeparation", 1.0)
     parameters.names("joint")
     parameters.flag("enable", default=True)
-    for known in ("often", "none", "offset", "ros", "source", "disabled"):
+    for known in ("often", "none", "offset", "ros", "source", "disabled", "wheel_diameter"):
         parameters.ignore(known)
     assert sorted(parameters.unused()) == ["enabled; did you mean enable?", "wheel_radius"]
 

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from node_support import Node, write
+from cli_support import bubblesim as command
+from node_support import Node, run_sim, write
 from ros_support import RosCore
 
 MODEL = """\
@@ -65,3 +66,14 @@ def test_the_file_and_line_are_told_once_and_the_model_runs_on(
     with Node(shared_core.env, tmp_path / "log", file, "--until", "0.5", "--speed", "max") as node:
         assert node.process.wait(60) == 0
     assert node.output.count(told.format(file=file)) == 1, node.output
+
+
+def test_plugins_without_a_device_are_told_without_ros_too(tmp_path: Path) -> None:
+    plugins = (
+        '<plugin name="arm" filename="libmy_arm.so"/><plugin name="drive" filename="libgazebo_ros_diff_drive.so"/>'
+    )
+    file = write(tmp_path / "robot.sdf", MODEL.format(plugin=plugins))
+    told = f"warning: {file}:10: plugin 'arm' (libmy_arm.so): there is no device for it; the model runs without it"
+    run = run_sim(file, "--no-ros", "--until", "0.1", "--speed", "max")
+    assert (run.returncode, run.stderr.splitlines()) == (0, [told])
+    assert command("check", file).stderr.splitlines() == [told]

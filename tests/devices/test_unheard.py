@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from ros_peer import Peer
 
-from node_support import write
-from ros_support import wait_until
+from node_support import Node, write
+from ros_support import RosCore, wait_until
 
 ROBOT = """\
 <sdf version="1.9" xmlns:bubblesim="https://bubblesim">
@@ -64,3 +64,28 @@ def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
     later, after = measurements(peer)
     # 20 passes a second, of the lidar alone: two cameras at its side would make it three times as many.
     assert 0 < after - before < 2 * 20 * (later - time)
+
+
+@pytest.mark.parametrize(
+    ("scene", "infos", "image", "others"),
+    [
+        ("robot", ["/camera_info", "/plugged/camera_info"], "/own", 0),
+        ("tricycle", ["/camera_info"], "/image", 20),  # its script reads the sonar in each pass
+    ],
+)
+def test_the_optics_of_a_camera_alone_do_not_have_it_measure(
+    roscore: RosCore, tmp_path: Path, scene: str, infos: list[str], image: str, others: float
+) -> None:
+    """`others`: measurements of other sensors in a simulated second."""
+    file = write(tmp_path / "robot.sdf", ROBOT.replace("{camera}", CAMERA)) if scene == "robot" else scene
+    with Node(roscore.env, tmp_path / "log", file), Peer(roscore, tmp_path / "heard") as peer:
+        for info in infos:
+            peer.next(info, "sensor_msgs/CameraInfo")
+        measurements(peer)
+        time, before = measurements(peer)
+        optics = [peer.next(info, count=5) for info in infos]
+        later, after = measurements(peer)
+        assert after - before == pytest.approx(others * (later - time), abs=1)
+        assert all(message["width"] > 0 and message["K"][0] > 0 for message in optics)
+        picture = peer.next(image, "sensor_msgs/Image")
+        assert (picture["width"], picture["height"]) == (optics[0]["width"], optics[0]["height"])

@@ -2,7 +2,9 @@
 """The bridge as a node: its names, its time, its master coming late, hanging or going away."""
 
 import time
+import xmlrpc.client
 from pathlib import Path
+from typing import Any
 
 from bridge_probe import Probe
 
@@ -198,13 +200,15 @@ def test_simulation_does_not_wait_for_a_hanging_master(roscore: RosCore) -> None
             time.sleep(0.1)
 
 
-def test_simulation_survives_a_second_node_of_its_name(roscore: RosCore) -> None:
-    with Probe(roscore.env) as first:
-        publisher = first.ask("advertise", "/map", "float", "latch")
-        wait_until(lambda: NAME in roscore.state()["publishers"].get("/map", []), "the first node")
-        with Probe(roscore.env):
-            first.wait_for(lambda: first.ask("connected") == "no", "the first node to be told to go")
-            assert first.ask("publish", publisher, 1.0) == ""
-            assert "invalid" not in first.ask("advertise", "/other", "float")
-        assert first.terminate() < BOUND + SLACK
-        assert first.process.returncode == 0
+def test_simulation_survives_a_shutdown_of_its_node_by_a_peer(roscore: RosCore) -> None:
+    master: Any = xmlrpc.client.ServerProxy(roscore.env["ROS_MASTER_URI"])
+    with Probe(roscore.env) as probe:
+        publisher = probe.ask("advertise", "/map", "float", "latch")
+        wait_until(lambda: NAME in roscore.state()["publishers"].get("/map", []), "the node")
+        _, _, address = master.lookupNode("/peer", NAME)
+        xmlrpc.client.ServerProxy(address).shutdown("/peer", "a test")
+        probe.wait_for(lambda: probe.ask("connected") == "no", "the node to be shut down")
+        assert probe.ask("publish", publisher, 1.0) == ""
+        assert "invalid" not in probe.ask("advertise", "/other", "float")
+        assert probe.terminate() < BOUND + SLACK
+        assert probe.process.returncode == 0

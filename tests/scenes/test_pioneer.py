@@ -11,7 +11,7 @@ import pytest
 import bubblesim
 from bubblesim.controllers.differential_drive import DifferentialDrive, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
-from node_support import Node, run_sim, told_by, write
+from node_support import Node, run_script, run_sim, told_by, write
 from ros_support import RosCore
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33)
@@ -78,31 +78,6 @@ def test_its_lidar_sees_the_room_and_not_itself() -> None:
     assert points[:, 2].min() > -0.31 - 0.06
 
 
-def test_the_points_are_in_a_signal(tmp_path: Path) -> None:
-    listener = write(
-        tmp_path / "listener.py",
-        """\
-        import numpy as np
-
-        def sysCall_init():
-            self.lidar = sim.getObject('/Pioneer_p3dx_lidar')
-            self.seen = None
-
-        def sysCall_sensing():
-            data = sim.getStringSignal('Pioneer_p3dx_lidar_data')  # of the pass before: the robot's script comes later
-            if data is not None:
-                np.testing.assert_array_equal(np.frombuffer(data, np.float32).reshape(-1, 3), self.seen)
-                print('equal')
-            self.seen = sim.readLidarPoints(self.lidar)
-            assert sim.getReadingTime(self.lidar) <= sim.getSimulationTime()
-        """,
-    )
-    options = ["--no-ros", "--strict", "--speed", "max", "--until", "0.5"]
-    run = run_sim("pioneer", *options, "--child-script", f"/Table={listener}")
-    assert (run.stderr, run.returncode) == ("", 0)
-    assert "equal" in run.stdout
-
-
 PROBE = """\
 import json
 import rospy
@@ -155,3 +130,87 @@ def test_it_follows_velocities_and_tells_where_it_is(roscore: RosCore, tmp_path:
     assert (frame, size, length) == ("Pioneer_p3dx_lidar", 12, 12 * points)
     assert points > 9000
     assert found["joints"][:2] == ["Pioneer_p3dx_leftMotor", "Pioneer_p3dx_rightMotor"]
+
+
+SIGNAL_READERS = {
+    "script.py": """
+        def sysCall_init():
+            self.lidar = sim.getObject('/Pioneer_p3dx_lidar')
+        def sysCall_sensing():
+            data = sim.getStringSignal('Pioneer_p3dx_lidar_data')
+            if data:
+                assert data == sim.readLidarPoints(self.lidar).tobytes()
+                assert data == sim.getStringProperty(sim.handle_scene, 'signal.Pioneer_p3dx_lidar_data')
+                print(f'{sim.getSimulationTime():.2f}', *sim.unpackFloatTable(data))
+                sim.clearStringSignal('Pioneer_p3dx_lidar_data')
+        """,
+    "script.lua": """
+        function sysCall_init() end
+        function sysCall_sensing()
+          local data = sim.getStringSignal('Pioneer_p3dx_lidar_data')
+          if data then
+            print(string.format('%.2f ', sim.getSimulationTime()) .. table.concat(sim.unpackFloatTable(data), ' '))
+            sim.clearStringSignal('Pioneer_p3dx_lidar_data')
+          end
+        end
+        """,
+}
+
+
+def test_other_scripts_find_the_points_in_the_signal(tmp_path: Path) -> None:
+    code = """
+        def sysCall_init():
+            self.lidar = sim.getObject('/Pioneer_p3dx_lidar')
+        def sysCall_sensing():
+            assert sim.getStringSignal('Pioneer_p3dx_lidar_data') == sim.readLidarPoints(self.lidar).tobytes()
+            print('equal')
+    """
+    run = run_script(tmp_path, code, "--strict", scene="pioneer", target="/Table")
+    assert (run.stderr, run.returncode) == ("", 0)
+    assert run.stdout.splitlines() == ["equal"] * 4
+
+
+@pytest.mark.parametrize("name", SIGNAL_READERS)
+def test_a_script_in_place_of_its_own_finds_the_points_of_its_lidar_in_the_signal(tmp_path: Path, name: str) -> None:
+    run = run_script(
+        tmp_path, SIGNAL_READERS[name], "--strict", name=name, scene="pioneer", target="/Pioneer_p3dx", until=0.35
+    )
+    assert (run.stderr, run.returncode) == ("", 0)
+    scans = [np.array(line.split(), float) for line in run.stdout.splitlines()]
+    assert [scan[0] for scan in scans] == pytest.approx([0.0, 0.1, 0.2, 0.3])  # 10 Hz, and nothing once it was cleared
+    for scan in scans:
+        points = scan[1:].reshape(-1, 3)
+        ranges = np.linalg.norm(points, axis=1)
+        assert len(points) > 5000  # of 16 rings of 720
+        assert ((ranges > 0.1) & (ranges < 20.1)).all()  # 0.2 to 20 m, and a noise of 1 cm
+        elevations = np.degrees(np.arcsin(points[:, 2] / ranges))
+        assert np.abs(elevations).max() == pytest.approx(15.0, abs=0.01)
+
+
+def test_a_script_may_set_the_signal_itself(tmp_path: Path) -> None:
+    code = """
+        def sysCall_init():
+            sim.setStringSignal('Pioneer_p3dx_lidar_data', 'mine')
+            print(sim.getStringSignal('Pioneer_p3dx_lidar_data'), sim.getStringSignal(''), sim.getStringSignal('other'))
+    """
+    run = run_script(tmp_path, code, scene="pioneer", target="/Pioneer_p3dx")
+    assert (run.stdout, run.stderr) == ("mine None None\n", "")
+
+
+def test_the_signal_belongs_to_a_lidar(tmp_path: Path) -> None:
+    scene = write(
+        tmp_path / "wrong.sdf",
+        """\
+        <?xml version="1.0"?>
+        <sdf version="1.9" xmlns:bubblesim="https://bubblesim">
+          <world name="wrong">
+            <model name="M">
+              <link name="l"><sensor name="s" type="imu"><bubblesim:signal>x</bubblesim:signal></sensor></link>
+            </model>
+          </world>
+        </sdf>
+        """,
+    )
+    run = run_sim(scene, "--no-ros", "--until", "0")
+    assert run.returncode == 2
+    assert "<bubblesim:signal> stands in <sensor>, it belongs in <lidar>" in run.stderr

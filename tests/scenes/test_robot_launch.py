@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The robots' launch files: all frames from map to the last wheel and sensor are there."""
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from ros_support import DEADLINE, RosCore, start, stop
+from ros_support import DEADLINE, RosCore, start, stop, wait_until
 
 # Heights at which the frames are by the robots' measures, metres.
 FRAMES = {
@@ -57,3 +58,23 @@ def test_all_frames_of_a_robot_hang_together(roscore: RosCore, tmp_path: Path, r
         stop(launched)
     heights = {frame: float(z) for frame, _, _, z in (line.split() for line in probe.stdout.splitlines())}
     assert heights == pytest.approx(FRAMES[robot], abs=1e-3)
+
+
+@pytest.mark.parametrize("before", [None, True, False])
+def test_use_sim_time_is_put_back_at_the_end(roscore: RosCore, before: bool | None) -> None:
+    if before is not None:
+        roscore.set_param("/use_sim_time", before)
+    launched = start(["roslaunch", "bubblesim", "bubblerob.launch"], roscore.env, stdout=subprocess.DEVNULL)
+    try:
+        wait_until(lambda: "/sim_ros_interface" in roscore.nodes(), "the simulator", 2 * DEADLINE)
+        assert roscore.run("rosparam", "get", "/use_sim_time") == "true\n"
+        launched.send_signal(signal.SIGINT)
+        launched.wait(timeout=2 * DEADLINE)
+    finally:
+        stop(launched)
+    parameters = roscore.run("rosparam", "list").split()
+    assert "/sim_ros_interface/use_sim_time_before" not in parameters
+    if before is None:
+        assert "/use_sim_time" not in parameters
+    else:
+        assert roscore.run("rosparam", "get", "/use_sim_time") == f"{str(before).lower()}\n"

@@ -75,7 +75,11 @@ def test_a_failing_service_ends_its_script_and_tells_the_caller(script: Script, 
     call = ["rosservice", "call", "/wrong"]
     failed = subprocess.run(call, env=roscore.env, text=True, capture_output=True, timeout=30, check=False)
     assert failed.returncode != 0
-    assert "the child script of /Ball failed or ended" in failed.stdout + failed.stderr
+    # rosservice's own words, then the reason.
+    told = failed.stderr.partition("responded with an error: b")[2].strip("'\"\n")
+    assert told.startswith("bubblesim.MessageError: std_srvs/TriggerResponse"), failed.stderr
+    assert "sucess" in told
+    assert told.endswith("; the child script of /Ball failed or ended")
     node.wait_for_output("sucess")
     assert "the callback answer" in node.output
     assert node.process.poll() is None

@@ -8,7 +8,7 @@ import pytest
 from node_support import NAME, Node
 from ros_support import RosCore, wait_until
 
-Script = Callable[[str], Node]
+Script = Callable[..., Node]
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_an_unlisted_type_is_told_with_the_list_to_add_it_to(script: Script) -> 
     node = script("def sysCall_init(): simROS.advertise('/t', 'std_msgs/Flaot32')\n")
     node.wait_for_output("and is disabled")
     node.wait_for_output("std_msgs/Flaot32")
-    assert "std_msgs/Float32" in node.output.splitlines()[-1]
+    assert node.output.splitlines()[-1].endswith("; did you mean std_msgs/Float32?")
 
 
 def test_a_type_without_fields_is_nothing_to_warn_of(script: Script, roscore: RosCore) -> None:
@@ -124,6 +124,124 @@ def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
     roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/Time", "{data: {secs: 7, nsecs: 8}}")
     node.wait_for_output("heard {'data': {'sec': 7, 'nanosec': 8}}")
     wait_until(lambda: "/in" not in roscore.state()["subscribers"], "the subscriber to go")
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("script.py", "def sysCall_init():\n    simROS.createPublisher('/t', 'std_msgs/Empty')\n"),
+        ("script.lua", "function sysCall_init()\n  simROS.createPublisher('/t', 'std_msgs/Empty')\nend\n"),
+    ],
+)
+def test_a_name_of_simros2_in_simros_is_reported_with_its_counterpart(script: Script, name: str, code: str) -> None:
+    node = script(code, name)
+    node.wait_for_output("belongs to simROS2; its counterpart is simROS.advertise")
+    assert f"{name}:2" in node.output
+
+
+CLOCKS = {
+    "script.py": """
+        def sysCall_init():
+            self.clock = simROS.advertise('/clock', 'rosgraph_msgs/Clock')
+        def sysCall_sensing():
+            simROS.publish(self.clock, {'clock': {'secs': 1, 'nsecs': 150000000.00000003}})
+        """,
+    "script.lua": """
+        function sysCall_init()
+          clock = simROS.advertise('/clock', 'rosgraph_msgs/Clock')
+        end
+        function sysCall_sensing()
+          simROS.publish(clock, {clock = {secs = 1, nsecs = 150000000.00000003}})
+        end
+        """,
+}
+
+
+@pytest.mark.parametrize("name", CLOCKS)
+def test_a_float_that_is_not_quite_whole_goes_into_an_integer_field(
+    script: Script, roscore: RosCore, name: str
+) -> None:
+    node = script(CLOCKS[name], name)
+    text = roscore.run("rostopic", "echo", "-n", "1", "/clock")
+    assert text.split()[1:] == ["secs:", "1", "nsecs:", "150000000", "---"]
+    assert "warning" not in node.output.replace("warning: /clock", "")
+    assert "disabled" not in node.output
+
+
+TRUNCATED = {
+    "script.py": """
+        def sysCall_init():
+            self.topic = simROS.advertise('/t', 'std_msgs/Int8MultiArray')
+        def sysCall_sensing():
+            t = sim.getSimulationTime()
+            simROS.publish(self.topic, {'layout': {'data_offset': 3.75 + t}, 'data': [1, -1.75]})
+        """,
+    "script.lua": """
+        function sysCall_init()
+          topic = simROS.advertise('/t', 'std_msgs/Int8MultiArray')
+        end
+        function sysCall_sensing()
+          local t = sim.getSimulationTime()
+          simROS.publish(topic, {layout = {data_offset = 3.75 + t}, data = {1, -1.75}})
+        end
+        """,
+}
+
+
+@pytest.mark.parametrize("name", TRUNCATED)
+def test_a_float_that_loses_its_fraction_is_one_warning_for_each_field(
+    script: Script, roscore: RosCore, name: str
+) -> None:
+    node = script(TRUNCATED[name], name)
+    for _ in range(2):  # with and without a subscriber
+        assert "data: [1, -1]" in roscore.run("rostopic", "echo", "-n", "1", "/t")
+    warnings = [line for line in node.output.splitlines() if "truncated" in line]
+    begin = "warning: child script of /Ball: '/t': the integer field"
+    assert warnings == [
+        f"{begin} layout.data_offset got the float 3.75, which is truncated to 3",
+        f"{begin} data got the float -1.75, which is truncated to -1",
+    ]
+
+
+LATE_ERRORS = {
+    "script.py": """
+        def sysCall_init():
+            self.topic = simROS.advertise('/t', 'std_msgs/UInt8')
+        def sysCall_sensing():
+            simROS.publish(self.topic, {'data': 0 if sim.getSimulationTime() < 0.2 else float('nan')})
+        """,
+    "script.lua": """
+        function sysCall_init()
+          topic = simROS.advertise('/t', 'std_msgs/UInt8')
+        end
+        function sysCall_sensing()
+          simROS.publish(topic, {data = sim.getSimulationTime() < 0.2 and 0 or 0 / 0})
+        end
+        """,
+}
+
+
+@pytest.mark.parametrize("name", LATE_ERRORS)
+def test_messages_without_a_subscriber_are_checked_once_a_second(script: Script, name: str) -> None:
+    node = script(LATE_ERRORS[name], name)
+    node.wait_for_output("std_msgs/UInt8: data: expected uint8 (0 to 255), found float ")
+    assert "failed in sysCall_sensing" in node.output
+
+
+def test_a_float_in_a_request_or_a_response_is_one_warning_each(script: Script, roscore: RosCore) -> None:
+    node = script("""\
+        def sysCall_init():
+            simROS.advertiseService('/set', 'sensor_msgs/SetCameraInfo', lambda request: {'success': True})
+            simROS.advertiseService('/count', 'nav_msgs/GetMap', lambda request: {'map': {'info': {'width': 2.5}}})
+            self.client = simROS.serviceClient('/set', 'sensor_msgs/SetCameraInfo')
+            self.count = simROS.serviceClient('/count', 'nav_msgs/GetMap')
+        def sysCall_sensing():
+            simROS.call(self.client, {'camera_info': {'width': 1.5}})
+            print(simROS.call(self.count)['map']['info']['width'])
+        """)
+    wait_until(lambda: node.output.count("\n2") >= 3, "three calls")
+    assert node.output.count("'/set': the integer field camera_info.width got the float 1.5") == 1
+    assert node.output.count("'/count': the integer field map.info.width got the float 2.5") == 1
 
 
 VALUES = [

@@ -171,8 +171,6 @@ def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
 
 
 def test_names_that_there_are_not_are_told_with_those_that_come_near() -> None:
-    with pytest.raises(
-        AttributeError, match=r"sample has no numbr; did you mean sample\.number\?; `bubblesim api` lists"
-    ):
+    with pytest.raises(AttributeError, match=r"sample has no numbr; did you mean sample\.number\?$"):
         Sample().numbr  # type: ignore[attr-defined]  # noqa: B018
     assert not hasattr(Sample(), "createCollection")

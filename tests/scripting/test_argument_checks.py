@@ -139,4 +139,4 @@ def test_lua(tmp_path: Path) -> None:
     printed = run(tmp_path, "script.lua", "\n".join([*code, "end"]).replace("\n  (", "\n  ;("))
     printed = [line for line in printed if not line.startswith("plugin ")]
     for number, ((call, told), line) in enumerate(zip(calls, printed, strict=True), start=3):
-        assert line.startswith(f"script.lua:{number}: {told}"), f"{call}\n{line}"
+        assert line.startswith(f"{tmp_path}/script.lua:{number}: {told}"), f"{call}\n{line}"

@@ -28,12 +28,20 @@ def test_traceback_is_printed_once_with_place_and_object(tmp_path: Path, phase: 
     assert traceback[-1] == "ZeroDivisionError: division by zero"
     assert run.stderr.count("ZeroDivisionError") == 1
     assert "bubblesim/scripting" not in run.stderr
-    assert run.returncode == 0
 
 
+@pytest.mark.parametrize("options", [[], ["--strict"]], ids=["", "strict"])
 @pytest.mark.parametrize("phase", FAILURES)
-def test_strict_exits_with_3(tmp_path: Path, phase: str) -> None:
-    assert run_script(tmp_path, FAILURES[phase], "--strict").returncode == 3
+def test_a_run_whose_script_failed_exits_with_3(tmp_path: Path, phase: str, options: list[str]) -> None:
+    assert run_script(tmp_path, FAILURES[phase], *options).returncode == 3
+
+
+def test_without_strict_the_run_goes_on_to_its_end(tmp_path: Path) -> None:
+    code = "def sysCall_init(): 1 / 0\n"
+    other = "def sysCall_init(): pass\ndef sysCall_cleanup(): print(round(sim.getSimulationTime(), 3))\n"
+    beside = ["--child-script", f"/Floor={write(tmp_path / 'other.py', other)}"]
+    run = run_script(tmp_path, code, *beside, until=1.0)
+    assert (run.returncode, run.stdout) == (3, "1.0\n"), run.stderr
 
 
 def test_strict_ends_as_soon_as_a_script_failed(tmp_path: Path) -> None:
@@ -139,7 +147,7 @@ def test_what_exhausts_the_machine_ends_only_the_script(tmp_path: Path, name: st
     bad = write(tmp_path / name, code)
     good = "def sysCall_init(): pass\ndef sysCall_cleanup(): print('ran on')\n"
     run = run_script(tmp_path, good, "--child-script", f"/Ramp={bad}")
-    assert (run.stdout, run.returncode) == ("ran on\n", 0)
+    assert (run.stdout, run.returncode) == ("ran on\n", 3)
     assert "child script of /Ramp failed in sysCall_init" in run.stderr
     assert told in run.stderr
     assert len(run.stderr) < 5000
@@ -148,7 +156,7 @@ def test_what_exhausts_the_machine_ends_only_the_script(tmp_path: Path, name: st
 def test_a_raised_keyboard_interrupt_ends_only_the_script(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_init(): raise KeyboardInterrupt\n")
     assert "child script of /Ball failed in sysCall_init" in run.stderr
-    assert run.returncode == 0
+    assert run.returncode == 3
 
 
 def test_a_thread_that_never_ends_does_not_keep_the_node(tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from lupa import lua54
 from bubblesim.scripting.lua_values import LuaFunction, LuaValues
 
 LUA = lua54.LuaRuntime(encoding=None, unpack_returned_tuples=True, register_eval=False, register_builtins=False)
-VALUES = LuaValues(LUA)
+VALUES = LuaValues(LUA, lambda chunk, line: f"{chunk.decode()}:{line}")
+VALUES.run_in_sandbox = LUA.eval(b"function(body, ...) return true, body(...) end")
 
 
 def to_python(expression: str) -> Any:

@@ -202,7 +202,7 @@ BAD_CALLS = {
     "sim.getObject('/Ball', {'noerror': 1})": "ValueError: getObject has no option 'noerror'",
     "sim.getObjectPosition('/Ball')": "expected the handle of an object, an integer, found str '/Ball'",
     "sim.getObjectPosition(999)": "NoSuchObject: no object has the handle 999",
-    "sim.getObjectPosition(-77)": "ValueError: -77 is no handle of an object",
+    "sim.getObjectPosition(-77)": "sim.getObjectPosition: argument 1, handle: -77 is no handle of an object",
     "sim.setObjectPosition(sim.handle_self, [1, 2])": "argument 2, position: expected 3 numbers, found 2",
     "sim.setObjectPosition(sim.handle_self, 'abc')": "argument 2, position: expected 3 numbers, found str 'abc'",
     "sim.setObjectPosition(sim.handle_self, [1, None, 2])": "position: expected 3 numbers, found list [1, None, 2]",

@@ -93,15 +93,16 @@ TEST(Depth, OfTheGroundFollowsThePinholesLaw) {
   }
 }
 
-TEST(Depth, TellsNothingFromTooClose) {
+TEST(Depth, IsThatOfWhatLiesBetweenTheNearAndTheFarPlane) {
   CameraDescription close = camera(false);
   close.near = 4;
-  EXPECT_EQ(Picture(with_camera(close, {thing("Wall", colored(Box{{1, 99, 99}}, {}), at(3.5, 0, 0))})).depth(0, 0),
-            -INFINITY);
+  const ModelDescription wall = thing("Wall", colored(Box{{1, 99, 99}}, {}), at(3.5, 0, 0));
+  const ModelDescription behind = thing("Behind", colored(Box{{1, 99, 99}}, {}), at(9.5, 0, 0));
+  EXPECT_EQ(Picture(with_camera(close, {wall})).depth(0, 0), INFINITY);
+  EXPECT_NEAR(Picture(with_camera(close, {wall, behind})).depth(0, 0), 9, kExact);
   close.far = 2.9;
   close.near = 0.1;
-  EXPECT_EQ(Picture(with_camera(close, {thing("Wall", colored(Box{{1, 99, 99}}, {}), at(3.5, 0, 0))})).depth(0, 0),
-            INFINITY);
+  EXPECT_EQ(Picture(with_camera(close, {wall})).depth(0, 0), INFINITY);
 }
 
 TEST(Picture, LeavesOutWhatIsNearerThanItsNearPlane) {

@@ -44,6 +44,28 @@ TEST(Lidar, MayGoRoundByARoundedTurn) {
   EXPECT_EQ(scene.models.at(0).links[0].sensors.size(), 1U);
 }
 
+TEST(Sensor, SaysWhereGzSimPublishesIt) {
+  ::testing::internal::CaptureStderr();
+  const SceneDescription scene = loaded(
+      in_world("<model name='m'><link name='l'><sensor name='camera' type='depth'><topic>depth</topic><gz_frame_id>eye"
+               "</gz_frame_id><camera><camera_info_topic>optics</camera_info_topic><optical_frame_id>optical"
+               "</optical_frame_id></camera></sensor><sensor name='imu' type='imu'><gz_frame_id>gyro</gz_frame_id>"
+               "<topic>__default_topic__</topic></sensor><sensor name='touch' type='contact'><contact>"
+               "<collision>c</collision><topic>bumps</topic></contact></sensor><collision name='c'><geometry><sphere>"
+               "<radius>1</radius></sphere></geometry></collision></link></model>"));
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(told.find("left out"), std::string::npos) << told;
+  const std::vector<SensorDescription>& sensors = scene.models.at(0).links.at(0).sensors;
+  ASSERT_EQ(sensors.size(), 3U);
+  EXPECT_EQ(sensors[0].type, "depth_camera");
+  EXPECT_EQ(sensors[0].gz.topic, "depth");
+  EXPECT_EQ(sensors[0].gz.info_topic, "optics");
+  EXPECT_EQ(sensors[0].gz.frame, "optical");
+  EXPECT_EQ(sensors[1].gz.topic, "");
+  EXPECT_EQ(sensors[1].gz.frame, "gyro");
+  EXPECT_EQ(sensors[2].gz.topic, "bumps");
+}
+
 TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
   const auto joint = [](const std::string& name, const std::string& child, const std::string& more) {
     return "<joint name='" + name + "' type='revolute'><parent>a</parent><child>" + child + "</child><axis><xyz>0 0 1" +

@@ -67,14 +67,25 @@ TEST(Lidar, TurnsWithItsRobot) {
   EXPECT_NEAR(scan->ranges[90], 4, kExact) << "to the right is the front wall";
 }
 
-TEST(Lidar, TellsNothingFromTooClose) {
-  LidarDescription lidar = turn_of(3);  // behind, ahead, behind
+TEST(Lidar, MeasuresFromItsLeastToItsGreatestRange) {
+  LidarDescription lidar = turn_of(3);
   lidar.horizontal = {3, -M_PI / 2, M_PI / 2};
   const Scan scan(with_lidar(lidar, {wall("Ahead", {1, 1, 1}, at(0.55, 0, 0)), wall("Far", {1, 1, 1}, at(0, 30.6, 0)),
                                      wall("Right", {1, 1, 1}, at(0, -1.5, 0))}));
   EXPECT_NEAR(scan->ranges[0], 1, kExact);
-  EXPECT_EQ(scan->ranges[1], -INFINITY) << "nearer than the minimal range (REP 117)";
+  EXPECT_EQ(scan->ranges[1], INFINITY) << "nearer than the minimal range, where the ray begins";
   EXPECT_EQ(scan->ranges[2], INFINITY) << "beyond the maximal range (REP 117)";
+}
+
+TEST(Lidar, SeesPastWhatIsNearerThanItsMinimalRange) {
+  SceneDescription described = with_lidar(turn_of(361), room());
+  VisualDescription housing;  // its outside faces the lidar
+  housing.geometry = Box{{0.02, 1, 1}};
+  housing.pose = at(0.06, 0, 0);
+  described.models.back().links[0].visuals.push_back(housing);
+  EXPECT_NEAR(Scan(described)->ranges[180], 4, kExact) << "the housing, at 0.05 m, is nearer than 0.1 m";
+  described.models.back().links[0].visuals[0].pose = at(0.2, 0, 0);
+  EXPECT_NEAR(Scan(described)->ranges[180], 0.19, kExact);
 }
 
 TEST(Lidar, HasItsRingsFromTheLowestUp) {

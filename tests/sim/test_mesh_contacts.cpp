@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "bubblesim/world.hpp"
+#include "meshes/collision_mesh.hpp"
+#include "meshes/finish_mesh.hpp"
 #include "meshes/made_meshes.hpp"
 #include "scenes.hpp"
 #include "surfaces.hpp"
@@ -51,6 +53,47 @@ TEST(MeshContact, ABoxOfTrianglesRestsAsABoxDoes) {
     expect_at_rest(after_two_seconds(box_mesh({0.4, 0.3, 0.2}), at(0, 0, 0.12), ground), 0.1);
     expect_at_rest(after_two_seconds(Box{{0.4, 0.3, 0.2}}, at(0, 0, 0.12), ground), 0.1);
   }
+}
+
+/// A square of a metre about the origin, of 2 n^2 triangles; `height` says how high it is where.
+template <class Height>
+std::shared_ptr<const TriangleMesh> fine_ground(std::uint32_t n, const Height& height) {
+  TriangleMesh mesh;
+  for (std::uint32_t row = 0; row <= n; ++row) {
+    for (std::uint32_t column = 0; column <= n; ++column) {
+      const float x = static_cast<float>(column) / static_cast<float>(n) - 0.5F;
+      const float y = static_cast<float>(row) / static_cast<float>(n) - 0.5F;
+      mesh.vertices.push_back({x, y, height(x, y)});
+      if (row == n || column == n) continue;
+      const std::uint32_t a = row * (n + 1) + column;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, a + 1, a + n + 2}, {a, a + n + 2, a + n + 1}});
+    }
+  }
+  return finish_mesh(std::move(mesh));
+}
+
+TEST(MeshContact, AThingRestsOnASurfaceThatIsTooFineToCollideWith) {
+  const auto flat = fine_ground(300, [](float, float) { return 0.0F; });
+  expect_at_rest(after_two_seconds(Box{{0.4, 0.3, 0.2}}, at(0, 0, 0.12), still(model("Fine", link_with(Mesh{flat})))),
+                 0.1);
+}
+
+TEST(MeshContact, ASurfaceThatIsTooFineIsSimplifiedWithinAMillimetre) {
+  const auto wave = [](float x, float y) { return 0.05F * std::sin(6 * x) * std::cos(5 * y); };
+  const auto coarse = collision_mesh(fine_ground(300, wave));
+  EXPECT_LE(coarse->indices.size(), 3U * 4 * 3000) << "four cells of a metre meet at the origin";
+  EXPECT_NE(coarse->remark.find("180000 triangles"), std::string::npos) << coarse->remark;
+  for (std::size_t i = 0; i < coarse->indices.size(); i += 3) {
+    Vector3 middle;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const double* place = &coarse->coordinates[3 * coarse->indices[i + corner]];
+      middle += Vector3(place[0], place[1], place[2]) / 3;
+    }
+    EXPECT_NEAR(middle.Z(), wave(static_cast<float>(middle.X()), static_cast<float>(middle.Y())), 0.001);
+  }
+  const auto fine_enough = collision_mesh(fine_ground(60, wave));
+  EXPECT_EQ(fine_enough->indices.size(), 3U * 2 * 60 * 60);
+  EXPECT_EQ(fine_enough->remark, "");
 }
 
 TEST(MeshContact, EveryShapeRestsOnTriangles) {

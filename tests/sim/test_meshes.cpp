@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces read from files and made from outlines and pictures.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "meshes/convex_hull.hpp"
@@ -28,6 +30,11 @@ Vector3 size(const TriangleMesh& mesh) { return mesh.high - mesh.low; }
 
 void expect_near(const Vector3& found, const Vector3& expected, double tolerance = 1e-6) {
   EXPECT_LT(found.Distance(expected), tolerance) << found << " instead of " << expected;
+}
+
+std::shared_ptr<const TriangleMesh> load(const MeshRequest& request) {
+  MeshReader reader;
+  return load_mesh(request, reader);
 }
 
 template <class Call>
@@ -112,7 +119,7 @@ const char* const kDae = R"(<?xml version="1.0"?>
 
 TEST(MeshFile, OfStlIsFlatAndWoundOutwards) {
   const TemporaryFile file("corner.stl", kStl);
-  const auto mesh = load_mesh({file.path()});
+  const auto mesh = load({file.path()});
   EXPECT_EQ(mesh->triangles.size(), 4U);
   EXPECT_TRUE(mesh->normals.empty());
   EXPECT_NEAR(volume(*mesh), 1.0 / 6, 1e-6);
@@ -122,18 +129,18 @@ TEST(MeshFile, OfStlIsFlatAndWoundOutwards) {
 
 TEST(MeshFile, IsScaledAlongItsAxes) {
   const TemporaryFile file("corner.stl", kStl);
-  expect_near(load_mesh({file.path(), {2, 3, 4}})->high, {2, 3, 4});
+  expect_near(load({file.path(), {2, 3, 4}})->high, {2, 3, 4});
 }
 
 TEST(MeshFile, MirroredByItsScaleStaysWoundOutwards) {
   const TemporaryFile file("corner.stl", kStl);
-  EXPECT_NEAR(volume(*load_mesh({file.path(), {-1, 1, 1}})), 1.0 / 6, 1e-6);
+  EXPECT_NEAR(volume(*load({file.path(), {-1, 1, 1}})), 1.0 / 6, 1e-6);
 }
 
 TEST(MeshFile, OfObjHasTheColorsOfItsMaterials) {
   const TemporaryFile materials("colors.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
   const TemporaryFile file("parts.obj", kObj);
-  const auto mesh = load_mesh({file.path()});
+  const auto mesh = load({file.path()});
   ASSERT_EQ(mesh->material_of.size(), 2U);
   EXPECT_EQ(mesh->materials[mesh->material_of[0]].diffuse.r, 1);
   EXPECT_EQ(mesh->materials[mesh->material_of[1]].diffuse.b, 1);
@@ -141,12 +148,12 @@ TEST(MeshFile, OfObjHasTheColorsOfItsMaterials) {
 
 TEST(MeshFile, GivesASubmeshByName) {
   const TemporaryFile file("parts.obj", kObj);
-  expect_near(load_mesh({file.path(), Vector3::One, "large"})->low, {10, 0, 0});
+  expect_near(load({file.path(), Vector3::One, "large"})->low, {10, 0, 0});
 }
 
 TEST(MeshFile, CentersASubmeshIfAsked) {
   const TemporaryFile file("parts.obj", kObj);
-  const auto mesh = load_mesh({file.path(), Vector3::One, "large", true});
+  const auto mesh = load({file.path(), Vector3::One, "large", true});
   expect_near(mesh->low, {-1, -2, 0});
   expect_near(mesh->high, {1, 2, 0});
 }
@@ -154,14 +161,14 @@ TEST(MeshFile, CentersASubmeshIfAsked) {
 TEST(MeshFile, WithoutTheSubmeshAskedForTellsASimilarOne) {
   const TemporaryFile file("parts.obj", kObj);
   EXPECT_EQ(complaint([&] {
-              load_mesh({file.path(), Vector3::One, "lage"});
+              load({file.path(), Vector3::One, "lage"});
             }),
             "has no submesh 'lage'; did you mean large?");
 }
 
 TEST(MeshFile, OfColladaIsInMetersWithItsAxesAsTheyAre) {
   const TemporaryFile file("tri.dae", kDae);
-  const auto mesh = load_mesh({file.path()});
+  const auto mesh = load({file.path()});
   expect_near(mesh->low, {0.254, 0, 0});
   expect_near(mesh->high, {0.2794, 0, 0.0254});
   ASSERT_EQ(mesh->materials.size(), 1U);
@@ -171,23 +178,74 @@ TEST(MeshFile, OfColladaIsInMetersWithItsAxesAsTheyAre) {
 TEST(MeshFile, OfColladaKnowsASubmeshByTheNameAndTheIdOfItsNodeAndGeometry) {
   const TemporaryFile file("tri.dae", kDae);
   for (const char* name : {"Part", "node-id", "tri", "tri-id"}) {
-    EXPECT_EQ(load_mesh({file.path(), Vector3::One, name})->triangles.size(), 1U) << name;
+    EXPECT_EQ(load({file.path(), Vector3::One, name})->triangles.size(), 1U) << name;
   }
 }
 
 TEST(MeshFile, IsReadOnceAndSharedWhileAnybodyUsesIt) {
   const TemporaryFile file("corner.stl", kStl);
-  const auto mesh = load_mesh({file.path()});
-  EXPECT_EQ(load_mesh({file.path()}), mesh);
-  EXPECT_NE(load_mesh({file.path(), {1, 1, 2}}), mesh);
+  const auto mesh = load({file.path()});
+  EXPECT_EQ(load({file.path()}), mesh);
+  EXPECT_NE(load({file.path(), {1, 1, 2}}), mesh);
 }
 
 TEST(MeshFile, ThatCannotBeReadTellsWhy) {
   const TemporaryFile broken("broken.dae", "<COLLADA");
-  EXPECT_NE(complaint([&] { load_mesh({broken.path()}); }).find("cannot be read as a mesh"), std::string::npos);
+  EXPECT_NE(complaint([&] { load({broken.path()}); }).find("cannot be read as a mesh"), std::string::npos);
   const TemporaryFile empty("empty.stl", "solid nothing\nendsolid nothing\n");
-  EXPECT_NE(complaint([&] { load_mesh({empty.path()}); }), "");
-  EXPECT_EQ(complaint([&] { load_mesh({"/nowhere/at_all.stl"}); }), "is no file");
+  EXPECT_NE(complaint([&] { load({empty.path()}); }), "");
+  EXPECT_EQ(complaint([&] { load({"/nowhere/at_all.stl"}); }), "is no file");
+}
+
+// What they do in assimp: a token that is no number takes memory without end, and so many nodes overflow its stack.
+TEST(MeshFile, ThatItsReaderDoesNotSurviveIsAnErrorAndTheNextOneIsRead) {
+  std::string endless = kDae;
+  endless.replace(endless.find("<p>0 1 2</p>"), 12, "<p>0 x 2</p>");
+  const TemporaryFile runs_away("endless.dae", endless);
+  std::string deep = kDae;
+  const std::size_t node = deep.find("<node ");
+  for (const auto& [place, text] : {std::pair(deep.find("</visual_scene>"), "</node>"), std::pair(node, "<node>")}) {
+    std::string nodes;
+    for (int i = 0; i < 200'000; ++i) nodes += text;
+    deep.insert(place, nodes);
+  }
+  const TemporaryFile crashes("deep.dae", deep);
+  const TemporaryFile fine("corner.stl", kStl);
+  MeshReader reader;
+  for (const std::string& file : {runs_away.path(), crashes.path()}) {
+    const std::string told = complaint([&] { load_mesh({file}, reader); });
+    EXPECT_EQ(told.find("cannot be read as a mesh"), 0U) << told;
+    EXPECT_EQ(load_mesh({fine.path()}, reader)->triangles.size(), 4U);
+  }
+}
+
+TEST(MeshFile, OfWhichPartsAreTakenIsReadForEach) {
+  const TemporaryFile file("two.obj", kObj);
+  MeshReader reader;
+  for (int i = 0; i < 2; ++i) {
+    expect_near(load_mesh({file.path(), Vector3::One, "large"}, reader)->low, {10, 0, 0});
+    expect_near(load_mesh({file.path(), Vector3::One, "small"}, reader)->high, {1, 1, 0});
+  }
+}
+
+TEST(MeshFile, IsKnownByItsContent) {
+  const TemporaryFile file("corner.stl", kStl);
+  const auto mesh = load({file.path()});
+  fs::last_write_time(file.path(), fs::last_write_time(file.path()) + std::chrono::hours(1));
+  EXPECT_EQ(load({file.path()}), mesh);
+  const auto time = fs::last_write_time(file.path());
+  std::string wider = kStl;
+  for (std::size_t at = 0; (at = wider.find("vertex 1", at)) != std::string::npos; ++at) wider[at + 7] = '2';
+  std::ofstream(file.path()) << wider;
+  fs::last_write_time(file.path(), time);
+  expect_near(load({file.path()})->high, {2, 1, 1});
+}
+
+TEST(MeshFile, ThatIsAFifoIsAnError) {
+  const TemporaryFile beside("corner.stl", kStl);
+  const std::string fifo = beside.folder() + "/fifo.stl";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(complaint([&] { load({fifo}); }), "is no regular file");
 }
 
 TEST(Surface, LosesTrianglesWithoutAnArea) {

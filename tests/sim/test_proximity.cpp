@@ -48,6 +48,21 @@ TEST_P(AnyVolume, EndsAtItsMaximalRange) {
   EXPECT_FALSE(sees(GetParam(), {kReach + 0.11, 0, 0}));
 }
 
+TEST_P(AnyVolume, SeesPastWhatIsNearerThanItsMinimalRange) {
+  ModelDescription eye = still(model("Eye", link("link")));
+  SensorDescription sensor;
+  sensor.name = "Sensor";
+  SonarDescription kind{0.05, kReach, kHalfAngle};
+  kind.volume = GetParam();
+  sensor.kind = kind;
+  eye.links[0].sensors.push_back(sensor);
+  const auto plate = [](const std::string& name, double x) {
+    return still(model(name, link_with(Box{{0.01, 9, 9}}), at(x, 0, 0)));
+  };
+  Simulation simulation(scene({eye, plate("Close", 0.03), plate("Wall", 1.5)}));
+  EXPECT_NEAR(simulation.read_proximity(simulation.world().tree().find("/Sensor")).distance, 1.495, kExact);
+}
+
 TEST_P(AnyVolume, LooksAheadOnly) {
   EXPECT_FALSE(sees(GetParam(), {-1, 0, 0}));
   EXPECT_FALSE(sees(GetParam(), {0, 1, 0}));

@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import os
 import sys
 from collections.abc import Sequence
 
 from bubblesim.running.processes import RunError
 
 _COMMANDS = ("run", "scenes", "new-scene", "check", "api", "test", "doctor")
-_FINE, _FAILED, _BAD_INPUT = 0, 1, 2
+_FAILED, _BAD_INPUT = 1, 2
 
 _DESCRIPTION = """\
 Runs robot scenes and helps to write them. Begin with:
@@ -25,7 +24,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim test test_mine.py            test a controller in the simulator
   bubblesim doctor                       why ROS or Python will not work"""
 _EPILOG = """\
-exit codes: 0 fine, 1 a check or a run failed, 2 bad input; `run` ends with those of the node.
+exit codes: 0 fine, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` has those of the node.
 Data goes to stdout, everything else to stderr. NO_COLOR=1 switches colours off."""
 
 
@@ -50,14 +49,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options.all_arguments = given
     try:
         code: int = options.command(options)
-        sys.stdout.flush()
     except ValueError as error:  # those about scenes among them
         print(f"error: {error}", file=sys.stderr)
         return _BAD_INPUT
     except RunError as error:
         print(f"error: {error}", file=sys.stderr)
         return _FAILED
-    except BrokenPipeError:  # the reader has seen enough, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return _FINE
     return code

@@ -25,6 +25,7 @@ after the scene's name; they are listed below.
   bubblesim run tricycle                               beside a roscore of yours
   bubblesim run tricycle --roscore --speed 2           with one of its own, twice as fast as real time
   bubblesim run ./mine.sdf --no-ros --until 10         a scene of your own, 10 s, without ROS
+  bubblesim run robot.xacro wheels:=4 --roscore        with an argument for xacro
   bubblesim run tricycle --roscore --controller "rosrun bubblesim tricycle_avoid.py" --until 60 --plot path.png"""
 
 

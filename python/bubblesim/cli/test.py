@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -42,7 +43,11 @@ def add_parser(commands: Any) -> None:
 
 def _test(options: argparse.Namespace) -> int:
     command = [_python(), "-m", "pytest", "-p", "bubblesim.testing.plugin", *options.files, *options.other_options]
-    code = subprocess.run(command, check=False).returncode
+    process = subprocess.Popen(command)
+    # Ctrl-C and a closed terminal reach pytest, too, which ends what it has started: that is waited for.
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    code = process.wait()
     return code if code in (_PASSED, _FAILED) else _BAD_INPUT
 
 

@@ -23,6 +23,18 @@ def telling_errors(answer: Callable[[Message], Message]) -> Callable[[Message], 
     return guarded
 
 
+def failing(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
+    """Have the call fail with what is wrong: an answer would hide it among values that mean nothing."""
+
+    def guarded(request: Message) -> Message:
+        try:
+            return answer(request)
+        except (LookupError, ValueError, RuntimeError) as error:
+            raise _core.ServiceError(str(error)) from None
+
+    return guarded
+
+
 def answering_empty(action: Callable[[], None]) -> Callable[[object], None]:
     """Make the answer of a std_srvs/Empty, which has no place to report errors in: the call fails then."""
 

@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import genpy
-import rosbag
 
 from bubblesim import _core
+from bubblesim.control.bag_file import BagFile
+from bubblesim.scripting.output import write_line
 
 _CLOCK = "rosgraph_msgs/Clock"
 
@@ -35,7 +39,8 @@ class BagRecorder:
 
         :raises OSError: when that cannot be done.
         """
-        self._bag = rosbag.Bag(str(file), "w")
+        self._bag: BagFile | None = BagFile(file)
+        self._file = file
         self._bridge = bridge
         self._definitions: dict[str, _Definition] = {}
         self._heard: list[tuple[str, str, bytes]] = []
@@ -49,17 +54,38 @@ class BagRecorder:
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
         """Keep it until the pass is over."""
+        if self._bag is None:
+            return
         self._published.append((topic, message_type, _core.messages.encode(message_type, message), self._now()))
 
     def heard(self, topic: str, message_type: str, message: Any) -> None:
         """Keep it until the pass is over."""
-        self._heard.append((topic, message_type, _core.messages.encode(message_type, message)))
+        if self._bag is not None:
+            self._heard.append((topic, message_type, _core.messages.encode(message_type, message)))
 
     def drained(self) -> None:
         """Nothing to write."""
 
     def pass_done(self) -> None:
         """Write all of the pass, and the time that it had."""
+        if self._bag is not None:
+            with self._ending_at_an_error():
+                self._write_pass(self._bag)
+        self._heard.clear()
+        self._published.clear()
+
+    @contextlib.contextmanager
+    def _ending_at_an_error(self) -> Iterator[None]:
+        """The simulation goes on without a bag when there is no room for it."""
+        try:
+            yield
+        except OSError as error:
+            bag, self._bag = self._bag, None
+            kept = bag is not None and bag.close_at_last_chunk()
+            state = "what was written before can be read" if kept else "it cannot be read"
+            write_line(sys.stderr, f"error: the recording ends: {self._file}: {error.strerror}; {state}")
+
+    def _write_pass(self, bag: BagFile) -> None:
         sec, nanosec = self._bridge.now()
         clock = _core.messages.encode(_CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
         self._heard.sort(key=lambda message: message[0])
@@ -67,9 +93,7 @@ class BagRecorder:
         of_now = [(*message, now) for message in [("/clock", _CLOCK, clock), *self._heard]]
         for topic, message_type, data, time in [*of_now, *self._published]:
             definition = self._definition(message_type)
-            self._bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
-        self._heard.clear()
-        self._published.clear()
+            bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
 
     def _now(self) -> genpy.Time:
         sec, nanosec = self._bridge.now()
@@ -77,7 +101,9 @@ class BagRecorder:
 
     def close(self) -> None:
         """Write the bag's index, without which it cannot be read."""
-        self._bag.close()
+        if self._bag is not None:
+            with self._ending_at_an_error():
+                self._bag.close()
 
     def _definition(self, message_type: str) -> _Definition:
         if message_type not in self._definitions:

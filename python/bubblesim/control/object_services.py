@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.control.answers import Message, telling_errors
+from bubblesim.control.answers import Message, failing, telling_errors
 from bubblesim.control.frames import pose_message, pose_values, state_in, vector_message
 from bubblesim.control.names import find_object
 
@@ -19,10 +19,10 @@ class ObjectServices:
         self._simulation = simulation
         self._world = simulation.world
         for name, service_type, answer in (
-            ("~set_object_pose", "bubblesim_msgs/SetObjectPose", self._set_pose),
-            ("~get_object_state", "bubblesim_msgs/GetObjectState", self._get_state),
+            ("~set_object_pose", "bubblesim_msgs/SetObjectPose", telling_errors(self._set_pose)),
+            ("~get_object_state", "bubblesim_msgs/GetObjectState", failing(self._get_state)),
         ):
-            bridge.advertise_service(name, service_type, telling_errors(answer), _core.messages.TimeForm.FLOAT)
+            bridge.advertise_service(name, service_type, answer, _core.messages.TimeForm.FLOAT)
 
     def _set_pose(self, request: Message) -> Message:
         handle = find_object(self._world, request["object"])
@@ -38,6 +38,7 @@ class ObjectServices:
         reference = find_object(self._world, request["reference"]) if request["reference"] else None
         pose, linear, angular = state_in(self._world, handle, reference)
         return {
+            "success": True,
             "header": {"stamp": self._simulation.time, "frame_id": request["reference"]},
             "pose": pose_message(pose),
             "twist": {"linear": vector_message(linear), "angular": vector_message(angular)},

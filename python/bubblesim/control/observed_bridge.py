@@ -58,11 +58,12 @@ class ObservedBridge:
             observer.advertised(publisher)
         return publisher
 
-    def publish(self, publisher: int, message: Any) -> None:
+    def publish(self, publisher: int, message: Any) -> Any:
         """Publish, and tell of it."""
-        self._bridge.publish(publisher, message)
+        truncations = self._bridge.publish(publisher, message)
         for observer in self.observers:
             observer.published(*self._published[publisher], message)
+        return truncations
 
     def subscribe(
         self, topic: str, message_type: str, callback: Callable[[Any], object], *arguments: Any, **named: Any

@@ -6,7 +6,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import Any
 
-from bubblesim._core import read_camera
+from bubblesim._core import camera_optics, read_camera
 from bubblesim.devices.camera_info import CameraInfo
 from bubblesim.devices.device import Device, Message, Place
 from bubblesim.devices.readings import NewReadings
@@ -37,8 +37,7 @@ class Camera(Device):
         if find_spec("cv2") is not None:  # Debian's python3-opencv, which compresses
             self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
         self.infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
-        pictures = [self._image] if self._compressed is None else [self._image, self._compressed]
-        self._publishers = [*pictures, *self.infos]
+        self._pictures = [self._image] if self._compressed is None else [self._image, self._compressed]
 
     def below_camera(self, name: str) -> str:
         """A topic in the namespace that the camera's name makes."""
@@ -48,25 +47,35 @@ class Camera(Device):
     def advertise_more(self, topic: str, message_type: str) -> int:
         """A further topic of the same camera, listeners to which have it measure."""
         publisher = self.advertise(self.below_camera(topic), message_type, _QUEUE_SIZE)
-        self._publishers.append(publisher)
+        self._pictures.append(publisher)
         return publisher
 
     def advertise_more_infos(self, topic: str) -> None:
         """A further topic that tells of the optics."""
-        self.infos.append(self.advertise_more(topic, "sensor_msgs/CameraInfo"))
+        self.infos.append(self.advertise(self.below_camera(topic), "sensor_msgs/CameraInfo", _QUEUE_SIZE))
 
     def reset(self) -> None:
         """Start over."""
         self._images.reset()
 
     def publish(self) -> None:
-        """Tell a new picture, and with it the optics."""
-        if any(map(self.wanted, self._publishers)) and (image := self._images.take()):
-            self.tell(image, self.header(self.frame_id))
+        """Publish a new picture, and with it the optics; the optics alone do not have the camera measure."""
+        pictures, infos = (any(map(self.wanted, topics)) for topics in (self._pictures, self.infos))
+        if not (pictures or infos) or not self._images.due():
+            return
+        header = self.header(self.frame_id)
+        if pictures:
+            self.tell(read_camera(self.simulation, self.place.owner), header)
+        if infos:
+            self._publish_infos(header)
+
+    def _publish_infos(self, header: Message) -> None:
+        info = {"header": header, **self.info.message(*camera_optics(self.simulation, self.place.owner))}
+        for publisher in filter(self.wanted, self.infos):
+            self.bridge.publish(publisher, info)
 
     def tell(self, image: Any, header: Message) -> None:
-        """Publish what somebody listens to."""
-        height, width = image.depth.shape
+        """Publish of the picture what somebody listens to."""
         if image.rgb is not None:
             if self.wanted(self._image):
                 self.bridge.publish(self._image, {"header": header, **image_message(image.rgb, "rgb8")})
@@ -74,11 +83,6 @@ class Camera(Device):
                 data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
                 message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
                 self.bridge.publish(self._compressed, message)
-        listening = [publisher for publisher in self.infos if self.wanted(publisher)]
-        if listening:
-            info = {"header": header, **self.info.message(width, height, image.horizontal_fov)}
-            for publisher in listening:
-                self.bridge.publish(publisher, info)
 
 
 def image_message(pixels: Any, encoding: str) -> Message:

@@ -36,7 +36,7 @@ class DepthCamera(Camera):
         self._depth = self.advertise_more(p.text("depthImageTopicName", "depth/image_raw"), "sensor_msgs/Image")
         self.advertise_more_infos(p.text("depthImageCameraInfoTopicName", "depth/camera_info"))
         self._points = self.advertise_more(p.text("pointCloudTopicName", "points"), "sensor_msgs/PointCloud2")
-        self._rays: tuple[Array, Array] | None = None  # x and y of a point at a depth of 1 m, of columns and rows
+        self._cloud = DepthCloud(optical=True)
 
     def tell(self, image: Any, header: Message) -> None:
         """Publish what somebody listens to."""
@@ -48,18 +48,37 @@ class DepthCamera(Camera):
         if self.wanted(self._depth):
             self.bridge.publish(self._depth, {"header": header, **image_message(depth, "32FC1")})
         if self.wanted(self._points):
-            self.bridge.publish(self._points, {"header": header, **self._cloud(image, depth)})
+            self.bridge.publish(self._points, {"header": header, **self._cloud.message(image, depth)})
 
-    def _cloud(self, image: Any, depth: Array) -> Message:
+
+class OpenniKinect(DepthCamera):
+    """As a Kinect sees: not beyond 5 m."""
+
+    farthest = 5.0
+
+
+class DepthCloud:
+    """Makes clouds of points from the depths of one camera."""
+
+    def __init__(self, *, optical: bool) -> None:
+        """``optical``: in axes with z forward and x to the right; else with x forward and y to the left."""
+        self._optical = optical
+        self._rays: tuple[Array, Array] | None = None  # to the right and down at a depth of 1 m, of columns and rows
+
+    def message(self, image: Any, depth: Array) -> Message:
+        """A sensor_msgs/PointCloud2 without its header, of depths in metres that may be not a number."""
         height, width = depth.shape
         if self._rays is None:
             half = np.tan(image.horizontal_fov / 2) * 2 / width
             columns, rows = ((np.arange(n) - (n - 1) / 2) * half for n in (width, height))
             self._rays = columns.astype(np.float32), rows.astype(np.float32)[:, None]
         points = np.zeros((height, width, _POINT // 4), np.float32)
-        np.multiply(depth, self._rays[0], out=points[:, :, 0])
-        np.multiply(depth, self._rays[1], out=points[:, :, 1])
-        points[:, :, 2] = depth
+        right, down, forward = (0, 1, 2) if self._optical else (1, 2, 0)
+        np.multiply(depth, self._rays[0], out=points[:, :, right])
+        np.multiply(depth, self._rays[1], out=points[:, :, down])
+        if not self._optical:
+            np.negative(points[:, :, 1:3], out=points[:, :, 1:3])
+        points[:, :, forward] = depth
         if image.rgb is not None:
             points.view(np.uint8)[:, :, 16:19] = image.rgb[:, :, ::-1]
         return {
@@ -72,9 +91,3 @@ class DepthCamera(Camera):
             "data": points.view(np.uint8),
             "is_dense": not bool(np.isnan(depth).any()),
         }
-
-
-class OpenniKinect(DepthCamera):
-    """As a Kinect sees: not beyond 5 m."""
-
-    farthest = 5.0

@@ -142,13 +142,14 @@ class Device:
 
     def joint_named(self, name: str, parameter: str) -> int:
         """The handle of one of the model's joints."""
-        return self._part(name, parameter, "joint")
+        return self.part_named(name, parameter, "joint")
 
     def link(self, parameter: str, default: str) -> int:
         """The handle of the link that a parameter names, also as model::link."""
-        return self._part(self.parameters.text(parameter, default).rpartition("::")[2], parameter, "link")
+        return self.part_named(self.parameters.text(parameter, default).rpartition("::")[2], parameter, "link")
 
-    def _part(self, name: str, parameter: str, kind: str) -> int:
+    def part_named(self, name: str, parameter: str, kind: str) -> int:
+        """The handle of one of the model's links, joints or sensors."""
         parts = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == kind}
         if name in parts:
             return int(parts[name])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_diff_drive: two driven wheels, commanded by a Twist."""
+"""gazebo_ros_diff_drive: pairs of driven wheels, commanded by a Twist."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.devices.device import FASTEST, Device, Place
 from bubblesim.devices.odometry import SOURCES, Odometry, covariance
 from bubblesim.devices.rate import Rate
-from bubblesim.devices.two_sided_drive import TwoSidedDrive
+from bubblesim.devices.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.devices.wheels import WheelTopics
 
 
 class DiffDrive(Device):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs in ROS Kinetic to Noetic.
 
-    Joints that are named as in ROS 2, <left_joint>, make it the plugin of ROS 2, which has no legacyMode.
+    Joints that are named as in ROS 2, <left_joint>, make it the plugin of ROS 2, which has no legacyMode and takes
+    several pairs of wheels: <num_wheel_pairs> of them, each joint, separation and diameter in an element of its own.
     """
 
     def __init__(self, place: Place) -> None:
@@ -22,7 +23,8 @@ class DiffDrive(Device):
         super().__init__(place)
         p = self.parameters
         self.enter_namespace(of_model=True)
-        left, right = self.joint("leftJoint", "left_joint"), self.joint("rightJoint", "right_joint")
+        left, right = (self._joints(f"{side}Joint", f"{side}_joint") for side in ("left", "right"))
+        pairs = self._count_pairs(left, right)
         is_of_ros2 = any(parameter.name in ("left_joint", "ros") for parameter in p.plugin.parameters)
         # In its first years the plugin took one wheel for the other, and in ROS 1 it still does unless told not to.
         if p.flag("legacyMode", default=not is_of_ros2):
@@ -34,12 +36,16 @@ class DiffDrive(Device):
             left, right = right, left
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
         self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
-        geometry = DifferentialDrive(p.length("wheelDiameter", 0.15) / 2, p.length("wheelSeparation", 0.34), FASTEST)
+        diameters, separations = p.lengths("wheelDiameter", 0.15, pairs), p.lengths("wheelSeparation", 0.34, pairs)
         torque = p.number("wheelTorque", p.number("max_wheel_torque", 5.0, least=0.0), least=0.0)
         acceleration = p.number("wheelAcceleration", p.number("max_wheel_acceleration", 0.0, least=0.0), least=0.0)
         tells_odometry = p.flag("publish_odom", default=False) if is_of_ros2 else p.flag("publishTf", default=True)
         p.check()
-        self._drive = TwoSidedDrive(self, geometry, [left], [right], torque=torque, acceleration=acceleration)
+        groups = [
+            WheelGroup(DifferentialDrive(diameter / 2, separation, FASTEST), [left_one], [right_one])
+            for diameter, separation, left_one, right_one in zip(diameters, separations, left, right, strict=True)
+        ]
+        self._drive = TwoSidedDrive(self, *groups, torque=torque, acceleration=acceleration)
         self._odometry = Odometry(
             self,
             topic=p.text("odometryTopic", "odom"),
@@ -49,8 +55,21 @@ class DiffDrive(Device):
             pose_covariance=covariance(1e-5, 1e-5, 1e-3),
         )
         self._tells_odometry = tells_odometry
-        self._wheels = WheelTopics(self, (right, left))
+        self._wheels = WheelTopics(self, [joint for pair in zip(right, left, strict=True) for joint in pair])
         self._drive.hear(p.text("commandTopic", "cmd_vel"))
+
+    def _joints(self, parameter: str, default: str) -> list[int]:
+        return [self.joint_named(name, parameter) for name in self.parameters.names(parameter) or [default]]
+
+    def _count_pairs(self, left: list[int], right: list[int]) -> int:
+        p = self.parameters
+        pairs = p.number("num_wheel_pairs", len(left), least=1.0)
+        for side, joints in (("left", left), ("right", right)):
+            if len(joints) != pairs:
+                raise p.fail(
+                    f"{side}Joint", f"stands there {len(joints)} times, it must be {pairs:g} times: once for each pair"
+                )
+        return len(left)
 
     def reset(self) -> None:
         """Stand still."""

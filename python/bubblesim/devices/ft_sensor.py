@@ -24,7 +24,7 @@ class FtSensor(Device):
             raise p.fail("jointName", "names a joint without a <sensor type='force_torque'>: only those are measured")
         self._sensor = sensors[0]
         self._frame = self.world.name(self.world.joint_links(joint)[1])
-        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
         p.check()
         self._publisher = self.advertise(p.text("topicName", "wrench"), "geometry_msgs/WrenchStamped", 1)

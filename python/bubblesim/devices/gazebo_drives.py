@@ -11,7 +11,7 @@ import math
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.devices.device import FASTEST, Device, Place
-from bubblesim.devices.two_sided_drive import TwoSidedDrive
+from bubblesim.devices.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.devices.wheels import wheel_radius
 
 
@@ -33,7 +33,8 @@ class GazeboDiffDrive(Device):
             raise p.fail(self.left[0], "names a joint whose wheel is neither a sphere nor a cylinder")
         torque = p.number("MaxForce", p.number("torque", math.inf, least=0.0), least=0.0)
         p.check()
-        self._drive = TwoSidedDrive(self, DifferentialDrive(radius, apart, FASTEST), left, right, torque=torque)
+        group = WheelGroup(DifferentialDrive(radius, apart, FASTEST), left, right)
+        self._drive = TwoSidedDrive(self, group, torque=torque)
         self._drive.hear("cmd_vel")
 
     def reset(self) -> None:

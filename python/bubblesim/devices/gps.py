@@ -29,7 +29,7 @@ class Gps(HectorSensor):
         self._altitude = p.number("referenceAltitude", 0.0)
         self._heading = math.radians(p.number("referenceHeading", 0.0))
         self._status = {"status": int(p.number("status", 0)), "service": int(p.number("service", 1))}
-        self._velocity_noise = Noise(self, p.number("velocityGaussianNoise", 0.0, least=0.0))
+        self._velocity_noise = Noise(self, *p.deviations("velocityGaussianNoise"))
         p.ignore("velocityOffset", "velocityDrift", "velocityDriftFrequency")
         p.check()
         self._fix = self.advertise(p.text("topicName", "fix"), "sensor_msgs/NavSatFix", 10)

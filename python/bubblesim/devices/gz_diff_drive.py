@@ -11,7 +11,7 @@ from bubblesim.controllers.speed_ramp import approached
 from bubblesim.devices.device import FASTEST, Device, Place
 from bubblesim.devices.gz_odometry import drive_odometry
 from bubblesim.devices.rate import Rate
-from bubblesim.devices.two_sided_drive import TwoSidedDrive
+from bubblesim.devices.two_sided_drive import TwoSidedDrive, WheelGroup
 
 
 class GzDiffDrive(Device):
@@ -29,7 +29,7 @@ class GzDiffDrive(Device):
         self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
         p.ignore("tf_topic", "min_jerk", "max_jerk", "min_linear_jerk", "max_linear_jerk")
         p.check()
-        self._drive = TwoSidedDrive(self, geometry, self._left, self._right)
+        self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._left, self._right))
         self._velocity = Velocity(0.0, 0.0)
         self._odometry = drive_odometry(self)
         self._drive.hear(p.text("topic", f"/model/{model}/cmd_vel"))

@@ -20,7 +20,7 @@ class HectorSensor(Device):
         self.enter_namespace()
         self._link = self.link("bodyName", self.world.name(self.first_link()))
         self._frame = p.text("frameId", self.world.name(self._link))
-        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
         p.ignore("offset", "drift", "driftFrequency")
         self._rate = Rate(p.number("updateRate", self.default_rate, least=0.0), self.simulation.time_step)
 

@@ -27,7 +27,7 @@ class ImuSensor(Device):
         self._frame = p.text("frameName", "")
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
-        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
         self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
         p.check()
         self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
@@ -64,7 +64,7 @@ class LinkImu(Device):
         self._frame = p.text(self.frame_parameter, self.world.name(self._link))
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "imu")
-        noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        noise = Noise(self, *p.deviations("gaussianNoise"))
         self.noises = noise, noise  # of the angular velocity and of the acceleration
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
         service = self.topic(p.text("serviceName", self.default_service))
@@ -115,9 +115,8 @@ class HectorImu(LinkImu):
         return str(self.world.name(self.first_link()))
 
     def _noise(self, parameter: str) -> Noise:
-        """By a deviation, or by one for each axis, of which the greatest counts."""
-        count = len(self.parameters.text(parameter, "0").split())
-        return Noise(self, max(map(abs, self.parameters.numbers(parameter, (0.0,) * count)), default=0.0))
+        """By a deviation, or by one for each axis."""
+        return Noise(self, *self.parameters.deviations(parameter))
 
 
 def imu_message(

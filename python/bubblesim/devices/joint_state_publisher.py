@@ -48,5 +48,5 @@ class GzJointStatePublisher(JointStatePublisher):
 
     def default_topic(self) -> str:
         """As it is in Gazebo's transport."""
-        default = f"/world/{self.simulation.scene_name}/model/{self.world.name(self.place.model)}/joint_state"
+        default = f"/world/{self.simulation.world_name}/model/{self.world.name(self.place.model)}/joint_state"
         return "/" + self.parameters.text("topic", default).lstrip("/")

@@ -11,7 +11,7 @@ from bubblesim.devices.readings import NewReadings
 
 
 class Laser(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs; ranges out of range are infinite (REP 117)."""
+    """Parameters and defaults are those of gazebo_ros_pkgs; ranges beyond the greatest are infinite (REP 117)."""
 
     def __init__(self, place: Place) -> None:
         """Read the parameters."""
@@ -34,14 +34,14 @@ class Laser(Device):
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), **laser_scan(scan)})
 
 
-def laser_scan(scan: Any) -> Message:
-    """A sensor_msgs/LaserScan without its header; all rings one after another, as Gazebo has them."""
+def laser_scan(scan: Any, rings: slice = slice(None)) -> Message:
+    """A sensor_msgs/LaserScan without its header; all rings one after another, as Gazebo has them, or some."""
     return {
         "angle_min": scan.angle_min,
         "angle_max": scan.angle_max,
         "angle_increment": scan.angle_increment,
         "range_min": scan.min_range,
         "range_max": scan.max_range,
-        "ranges": scan.ranges.reshape(-1),
-        "intensities": scan.intensities.reshape(-1),
+        "ranges": scan.ranges[rings].reshape(-1),
+        "intensities": scan.intensities[rings].reshape(-1),
     }

@@ -25,7 +25,7 @@ class P3D(Device):
         self._reference = None if self._frame in _WORLD else self.link("frameName", "")
         self._offset = p.numbers("xyzOffset", p.numbers("xyzOffsets", (0.0, 0.0, 0.0)))
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", p.numbers("rpyOffsets", (0.0, 0.0, 0.0))))
-        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
         p.check()
         self._publisher = self.advertise(p.text("topicName", "odom"), "nav_msgs/Odometry", 1)

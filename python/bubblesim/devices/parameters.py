@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from bubblesim.messages.names import did_you_mean, nearest_names
@@ -49,25 +49,23 @@ class Parameters:
 
     def number(self, name: str, default: float, least: float = -math.inf) -> float:
         """A finite number, ``least`` or more."""
-        wanted = {-math.inf: "a number", math.ulp(0.0): "a number above 0"}.get(
-            least, f"a number of at least {least:g}"
-        )
-
-        def read(text: str) -> float:
-            number = float(text)
-            if not (math.isfinite(number) and number >= least):
-                raise ValueError
-            return number
-
-        return self._converted(name, read, default, wanted)
+        return self._converted(name, *_number_of_at_least(least), default)
 
     def length(self, name: str, default: float) -> float:
         """A number above 0."""
         return self.number(name, default, least=math.ulp(0.0))
 
+    def lengths(self, name: str, default: float, count: int) -> list[float]:
+        """Numbers above 0, of ``count`` elements of that name; if there are fewer, the last one counts for the rest."""
+        self._asked.add(_key(name))
+        elements = [each for each in self.plugin.parameters if _key(each.name) == _key(name)][:count]
+        found = [self._value(name, each, *_number_of_at_least(math.ulp(0.0)), default) for each in elements]
+        found = found or [default]
+        return found + found[-1:] * (count - len(found))
+
     def flag(self, name: str, default: bool) -> bool:  # a default, as in the other readers
         """True or false; 1 and 0 will do."""
-        return self._converted(name, lambda text: _FLAGS[text.lower()], default, "true or false")
+        return self._converted(name, lambda text: _FLAGS[text.lower()], "true or false", default)
 
     def numbers(self, name: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """As many finite numbers as the default has."""
@@ -78,11 +76,22 @@ class Parameters:
                 raise ValueError
             return numbers
 
-        return self._converted(name, read, default, f"{len(default)} numbers")
+        return self._converted(name, read, f"{len(default)} numbers", default)
+
+    def deviations(self, name: str) -> tuple[float, ...]:
+        """Standard deviations: one for all axes, or three along x, y and z."""
+
+        def read(text: str) -> tuple[float, ...]:
+            numbers = tuple(map(float, text.split()))
+            if len(numbers) not in (1, 3) or not all(math.isfinite(number) and number >= 0.0 for number in numbers):
+                raise ValueError
+            return numbers
+
+        return self._converted(name, read, "one number or three (x, y and z) of at least 0", (0.0,))
 
     def choice(self, name: str, default: str, options: Mapping[str, _Value]) -> _Value:
         """One of some words; what stands for it."""
-        return self._converted(name, options.__getitem__, options[default], " or ".join(options))
+        return self._converted(name, options.__getitem__, " or ".join(options), options[default])
 
     def names(self, name: str) -> list[str]:
         """The words of all elements of that name; commas and spaces part them."""
@@ -127,28 +136,41 @@ class Parameters:
         self._asked.add(_key(name))
         return self._found.get(_key(name))
 
-    def _converted(self, name: str, convert: Any, default: _Value, wanted: str) -> _Value:
-        text = self.given(name)
-        if text is None:
-            return default
+    def _converted(self, name: str, convert: Callable[[str], _Value], expected: str, default: _Value) -> _Value:
+        parameter = self._take(name)
+        return default if parameter is None else self._value(name, parameter, convert, expected, default)
+
+    def _value(
+        self, name: str, parameter: Any, convert: Callable[[str], _Value], expected: str, default: _Value
+    ) -> _Value:
+        text = parameter.text.strip()
         try:
-            value: _Value = convert(text)
+            return convert(text)
         except (KeyError, ValueError):
-            self._refuse(name, wanted)
+            self._note(name, f"is '{text}', it must be {expected}", parameter)
             return default
-        return value
 
-    def _refuse(self, name: str, wanted: str) -> None:
-        self._note(name, f"is '{self.given(name)}', it must be {wanted}")
-
-    def _note(self, name: str, problem: str) -> None:
-        found = self._found.get(_key(name), self.plugin)
+    def _note(self, name: str, problem: str, parameter: Any = None) -> None:
+        found = parameter or self._found.get(_key(name), self.plugin)
         self._problems.append(f"{where(found)}: plugin '{self.plugin.name}': <{name}> {problem}")
 
 
 def where(described: Any) -> str:
     """file:line of what a file describes; the line only when it is known."""
     return f"{described.file}:{described.line}" if described.line else str(described.file)
+
+
+def _number_of_at_least(least: float) -> tuple[Callable[[str], float], str]:
+    """What reads such a number, and what to call it."""
+
+    def read(text: str) -> float:
+        number = float(text)
+        if not (math.isfinite(number) and number >= least):
+            raise ValueError
+        return number
+
+    expected = {-math.inf: "a number", math.ulp(0.0): "a number above 0"}
+    return read, expected.get(least, f"a number of at least {least:g}")
 
 
 def _key(name: str) -> str:

@@ -29,7 +29,7 @@ class Range(Device):
         self._frame = p.text(self.frame_parameter, self.default_frame).lstrip("/")
         self._radiation = p.choice("radiation", "ultrasound", _RADIATIONS)
         self._fov = self.default_fov if p.given("fov") is None else p.number("fov", 0.0, least=0.0)
-        self._noise = Noise(self, p.number("gaussianNoise", 0.0, least=0.0))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
         self._scans = NewReadings(self, read_lidar, p.number("updateRate", 0.0, least=0.0))
         p.check()
         self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Range", 1)

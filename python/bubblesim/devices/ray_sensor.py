@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from bubblesim._core import read_lidar
 from bubblesim.devices.block_laser import cloud_of_returns, directions
-from bubblesim.devices.device import Device, Place
+from bubblesim.devices.device import Device, Message, Place
 from bubblesim.devices.laser import laser_scan
 from bubblesim.devices.readings import NewReadings
 
-_OUTPUTS = {
+_OUTPUTS: dict[str, Callable[[Any], Message]] = {
     "sensor_msgs/PointCloud2": lambda scan: cloud_of_returns(scan, directions(scan)),
     "sensor_msgs/LaserScan": laser_scan,
 }

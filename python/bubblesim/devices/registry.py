@@ -24,6 +24,7 @@ from bubblesim.devices.gz_odometry_publisher import GzOdometryPublisher
 from bubblesim.devices.imu import HectorImu, ImuSensor, LinkImu
 from bubblesim.devices.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.devices.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.devices.kobuki import Kobuki
 from bubblesim.devices.laser import Laser
 from bubblesim.devices.magnetic import Magnetic
 from bubblesim.devices.multi_camera import MultiCamera
@@ -51,6 +52,7 @@ DEVICES: dict[str, type[Device]] = {
     "gazebo_ros_imu_sensor": ImuSensor,
     "gazebo_ros_joint_pose_trajectory": JointPoseTrajectory,
     "gazebo_ros_joint_state_publisher": JointStatePublisher,
+    "gazebo_ros_kobuki": Kobuki,
     "gazebo_ros_laser": Laser,
     "gazebo_ros_multicamera": MultiCamera,
     "gazebo_ros_openni_kinect": OpenniKinect,

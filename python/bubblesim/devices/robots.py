@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.devices.device import Device, PassTime, Place
-from bubblesim.devices.parameters import ParameterError, Parameters, where
-from bubblesim.devices.registry import DEVICES, NOT_NEEDED, library, why_unknown
+from bubblesim.devices.gz_sensor import GzSensor, publishes_as_gz
+from bubblesim.devices.parameters import ParameterError, Parameters
+from bubblesim.devices.registry import DEVICES, library
 from bubblesim.devices.sensor_topic import OwnTopic, SensorTopic
 from bubblesim.devices.transforms import Transforms
+from bubblesim.devices.unknown_plugins import UnknownPlugins, plugins_below
 from bubblesim.scripting.output import write_line
 
 
@@ -25,23 +27,35 @@ class Devices:
         self._pass_time = PassTime(bridge)
         self._transforms = Transforms(bridge)
         self._devices: list[Device] = []
-        self._warned: set[tuple[str, str, int]] = set()  # of several like models one is told of
+        self._unknown = UnknownPlugins()
         for plugin in simulation.plugins:
-            self._look_for_device(plugin)
+            self._unknown.report(plugin)
+        self._systems = {library(plugin.filename) for plugin in simulation.plugins}
         # A robot's file on its own is taken as gazebo_ros spawns it, with its topics at the root.
         namespace = "" if simulation.is_model_file else None
         for model in simulation.world.models:
             self.add_model(model, namespace)
 
     def add_model(self, model: int, namespace: str | None = None) -> None:
-        """Make the devices of a model that has come into the world, in a namespace if not each has its own."""
-        for owner, plugin in self._plugins_below(model):
-            kind = self._look_for_device(plugin)
-            if kind is not None:
+        """Make the devices of a model that has come into the world, in a namespace if not each has its own.
+
+        Without a bridge there are none; what has none is reported all the same.
+        """
+        world = self._simulation.world
+        with_device: set[int] = set()
+        systems = set(self._systems)
+        for owner, plugin in plugins_below(world, model):
+            systems.add(library(plugin.filename))
+            self._unknown.report(plugin)
+            kind = DEVICES.get(library(plugin.filename))
+            if kind is not None and self._bridge is not None:
+                with_device.add(owner)
                 self._make(kind, plugin, owner, model, namespace)
-        for sensor in self._sensors_below(model):
-            if self._simulation.world.sensor_topic(sensor)[0]:
-                self._make(SensorTopic, OwnTopic(self._simulation.world.path(sensor)), sensor, model, namespace)
+        for sensor in self._sensors_below(model) if self._bridge is not None else ():
+            if world.sensor_topic(sensor)[0]:
+                self._make(SensorTopic, OwnTopic(world.path(sensor)), sensor, model, namespace)
+            elif sensor not in with_device and publishes_as_gz(world, sensor, systems):
+                self._make(GzSensor, OwnTopic(world.path(sensor), "topic"), sensor, model, namespace)
 
     def remove_model(self, model: int) -> None:
         """Close the devices of a model that is about to leave the world."""
@@ -66,23 +80,11 @@ class Devices:
         self._each("publish")
         self._transforms.publish()
 
-    def _plugins_below(self, handle: int) -> Iterator[tuple[int, Any]]:
-        for plugin in self._simulation.world.plugins(handle):
-            yield handle, plugin
-        for child in self._simulation.world.children(handle):
-            yield from self._plugins_below(child)
-
     def _sensors_below(self, handle: int) -> Iterator[int]:
         if self._simulation.world.kind(handle) == "sensor":
             yield handle
         for child in self._simulation.world.children(handle):
             yield from self._sensors_below(child)
-
-    def _look_for_device(self, plugin: Any) -> type[Device] | None:
-        name = library(plugin.filename)
-        if name not in DEVICES and name not in NOT_NEEDED:
-            self._warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}): {why_unknown(name)}")
-        return DEVICES.get(name)
 
     def _make(self, kind: type[Device], plugin: Any, owner: int, model: int, namespace: str | None) -> None:
         parameters = Parameters(plugin)
@@ -100,13 +102,8 @@ class Devices:
         for hint in parameters.hints:
             write_line(sys.stderr, f"warning: {hint}")
         if unused := parameters.unused():
-            self._warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}) has no parameters {', '.join(unused)}")
-
-    def _warn(self, plugin: Any, text: str) -> None:
-        key = (text, plugin.file, plugin.line)
-        if key not in self._warned:
-            self._warned.add(key)
-            write_line(sys.stderr, f"warning: {where(plugin)}: {text}")
+            text = f"plugin '{plugin.name}' ({plugin.filename}) has no parameters {', '.join(unused)}"
+            self._unknown.warn(plugin, text)
 
     def _each(self, phase: str) -> None:
         for device in list(self._devices):

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors that say themselves, by <bubblesim:topic>, where they are published."""
+"""Sensors that are published without a plugin, by their <bubblesim:topic>."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from bubblesim._core import CameraImage, read_sensor
+from bubblesim._core import CameraImage, camera_optics, read_sensor, reading_time
 from bubblesim.control.frames import vector_message
 from bubblesim.devices.block_laser import cloud_of_returns, directions
 from bubblesim.devices.bumper import contact_state
@@ -20,14 +20,16 @@ from bubblesim.devices.imu import imu_message
 from bubblesim.devices.laser import laser_scan
 from bubblesim.devices.noise import Noise
 
+MakeMessage = Callable[[Any], Message]  # of a reading; without its header
+
 
 @dataclass(frozen=True)
 class OwnTopic:
     """Stands where a plugin stands for other devices: there is none."""
 
     file: str  # the sensor's path
-    line: int = 0
     name: str = "bubblesim:topic"
+    line: int = 0
     filename: str = "no plugin"
     parameters: list[Any] = field(default_factory=list)
 
@@ -42,40 +44,55 @@ class SensorTopic(Device):
     """
 
     def __init__(self, place: Place) -> None:
-        """Advertise the topic."""
+        """Advertise the topics."""
         super().__init__(place)
-        topic, frame, _ = self.world.sensor_topic(place.owner)
-        self._frame = frame or self.world.name(self.world.parent(place.owner))
+        self._topic, self._frame = self.place_of_topic()
         self._time: float | None = None
         self._info = CameraInfo(self.parameters)
         _, reading = read_sensor(self.simulation, place.owner)
-        message_type, self._message = self._form(reading)
-        self._publishers = [self.advertise(topic, message_type, 1)]
+        self._outputs = [
+            (self.advertise(topic, message_type, 1), message)
+            for topic, message_type, message in self.outputs(self._topic, reading)
+        ]
+
+    def place_of_topic(self) -> tuple[str, str]:
+        """The sensor's topic and frame."""
+        topic, frame, _ = self.world.sensor_topic(self.place.owner)
+        return topic, frame or self.world.name(self.world.parent(self.place.owner))
+
+    def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
+        """What is published of a kind of reading: topic, type and what makes the message."""
+        yield topic, *self.form(reading)
         if isinstance(reading, CameraImage):
-            self._publishers.append(self.advertise(_beside(topic, "camera_info"), "sensor_msgs/CameraInfo", 1))
+            yield self.info_output(beside(topic, "camera_info"))
+
+    def info_output(self, topic: str) -> tuple[str, str, MakeMessage]:
+        """The optics of a camera."""
+        return topic, "sensor_msgs/CameraInfo", self._optics
 
     def reset(self) -> None:
         """Time may start again."""
         self._time = None
 
     def publish(self) -> None:
-        """Tell a new measurement."""
-        if not any(map(self.wanted, self._publishers)):
+        """Publish a new measurement; a camera's optics alone do not have it measure."""
+        wanted = [output for output in self._outputs if self.wanted(output[0])]
+        if not wanted:
             return
-        time, reading = read_sensor(self.simulation, self.place.owner)
+        time = reading_time(self.simulation, self.place.owner)
         if time == self._time:
             return
         self._time = time
         header = self.header(self._frame)
-        topic, *infos = self._publishers
-        if self.wanted(topic):
-            self.bridge.publish(topic, {"header": header, **self._message(reading)})
-        for info in infos:
-            height, width = reading.depth.shape
-            message = {"header": header, **self._info.message(width, height, reading.horizontal_fov)}
-            self.bridge.publish(info, message)
+        optics_alone = all(message == self._optics for _, message in wanted)
+        reading = None if optics_alone else read_sensor(self.simulation, self.place.owner)[1]
+        for publisher, message in wanted:
+            self.bridge.publish(publisher, {"header": header, **message(reading)})
 
-    def _form(self, reading: Any) -> tuple[str, Callable[[Any], Message]]:
+    def _optics(self, _: Any) -> Message:
+        return self._info.message(*camera_optics(self.simulation, self.place.owner))
+
+    def form(self, reading: Any) -> tuple[str, MakeMessage]:
         """The type of the message, and what makes it."""
         match type(reading).__name__:
             case "ProximityReading":
@@ -86,7 +103,7 @@ class SensorTopic(Device):
                 rays = directions(reading)
                 return "sensor_msgs/PointCloud2", lambda scan: cloud_of_returns(scan, rays)
             case "CameraImage":
-                return "sensor_msgs/Image", _picture
+                return "sensor_msgs/Image", picture
             case "ImuReading":
                 exact = Noise(self, 0.0)
                 return "sensor_msgs/Imu", lambda imu: imu_message(
@@ -122,7 +139,8 @@ class SensorTopic(Device):
         }
 
 
-def _picture(image: Any) -> Message:
+def picture(image: Any) -> Message:
+    """A sensor_msgs/Image of colours, or of depths in metres when there are none."""
     return image_message(image.depth, "32FC1") if image.rgb is None else image_message(image.rgb, "rgb8")
 
 
@@ -140,7 +158,7 @@ def _wrench(reading: Any) -> Message:
     return {"wrench": {name: vector_message(vector.tolist()) for name, vector in parts.items()}}
 
 
-def _beside(topic: str, name: str) -> str:
+def beside(topic: str, name: str) -> str:
     """Another topic in the namespace of one."""
     space, slash, _ = topic.rpartition("/")
     return f"{space}{slash}{name}"

@@ -7,7 +7,7 @@ from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.devices.device import FASTEST, Device, Place
 from bubblesim.devices.odometry import Odometry, covariance
 from bubblesim.devices.rate import Rate
-from bubblesim.devices.two_sided_drive import TwoSidedDrive
+from bubblesim.devices.two_sided_drive import TwoSidedDrive, WheelGroup
 
 
 class SkidSteerDrive(Device):
@@ -21,7 +21,8 @@ class SkidSteerDrive(Device):
         left = [self.joint(f"left{row}Joint", f"left_{row.lower()}_joint") for row in ("Front", "Rear")]
         right = [self.joint(f"right{row}Joint", f"right_{row.lower()}_joint") for row in ("Front", "Rear")]
         geometry = DifferentialDrive(p.length("wheelDiameter", 0.15) / 2, p.length("wheelSeparation", 0.4), FASTEST)
-        self._drive = TwoSidedDrive(self, geometry, left, right, torque=p.number("torque", 5.0, least=0.0))
+        torque = p.number("torque", 5.0, least=0.0)
+        self._drive = TwoSidedDrive(self, WheelGroup(geometry, left, right), torque=torque)
         self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
         variances = (p.number("covariance_x", 1e-4), p.number("covariance_y", 1e-4), p.number("covariance_yaw", 1e-2))
         p.check()

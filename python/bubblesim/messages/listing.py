@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import fnmatch
-import os
 import sys
 from collections.abc import Iterator
 
@@ -28,12 +27,8 @@ def main(arguments: list[str]) -> int:
         return 1
     rows = list(_rows(chosen, kind, specs))
     widths = [max((len(row[column]) for row in rows), default=0) for column in range(3)]
-    try:
-        for row in rows:
-            print(*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[3], sep="  ")
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader has seen enough, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    for row in rows:
+        print(*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[3], sep="  ")
     return 0
 
 

@@ -17,8 +17,8 @@ class Entry:
     name: str  # "geometry_msgs/Twist"
 
 
-def read_list(path: Path, shown_as: str, problems: list[str]) -> list[Entry]:
-    """The entries of messages.txt or services.txt; malformed and repeated lines go to `problems`."""
+def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str]) -> list[Entry]:
+    """The entries of messages.txt or services.txt; malformed lines go to `problems`, repeated ones to `warnings`."""
     entries: dict[str, Entry] = {}
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         text = _content(line)
@@ -29,7 +29,7 @@ def read_list(path: Path, shown_as: str, problems: list[str]) -> list[Entry]:
         if name is None:
             problems.append(f"{place}: '{text}' is no type name, expected package/Type such as geometry_msgs/Twist")
         elif name in entries:
-            problems.append(f"{place}: {name} is listed twice, first at {entries[name].place}; remove one")
+            warnings.append(f"{place}: {name} is listed twice, first at {entries[name].place}; the first line counts")
         else:
             entries[name] = Entry(place, name)
     return list(entries.values())

@@ -94,10 +94,11 @@ def _unknown(specs: Specs, name: str, kind: str) -> str:
     what, other = ("message", "service") if kind == "msg" else ("service", "message")
     if specs.index.find(name, "srv" if kind == "msg" else "msg"):
         return f"{name} is a {other} type, expected a {what} type"
-    hint = did_you_mean(_similar(specs, name, kind))
+    unknown = f"{name} is not among the {what} types of this build, and this machine has no definition of it"
+    if hint := did_you_mean(_similar(specs, name, kind)):
+        return unknown + hint  # a cure for a type that there is would only distract
     return (
-        f"{name} is not among the {what} types of this build, and this machine has no definition of it"
-        f"{hint or ';'} to add it, install its package or put it into the workspace, and list it in "
+        f"{unknown}; to add it, install its package or put it into the workspace, and list it in "
         f"meta/{what}s.txt: rosrun bubblesim add_message {name}"
     )
 

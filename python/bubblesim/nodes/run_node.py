@@ -5,10 +5,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+import threading
 from collections.abc import Callable
 from typing import TypeVar
 
 import rospy
+
+from bubblesim.program import run_program
 
 Node = TypeVar("Node")
 
@@ -30,3 +33,24 @@ def run_node(
         return 2
     run(node)
     return 0
+
+
+def run_ros_program(main: Callable[[], int]) -> int:
+    """Run the program of a node; its exit code. Ctrl-C shows no traceback, also while it waits for a master."""
+    report = threading.excepthook
+
+    def report_unless_ending(arguments: threading.ExceptHookArgs) -> None:
+        if not (rospy.is_shutdown() and isinstance(arguments.exc_value, rospy.ROSException)):
+            report(arguments)
+
+    threading.excepthook = report_unless_ending
+
+    def run() -> int:
+        try:
+            return main()
+        except rospy.ROSException:  # what waits in rospy ends by one
+            if rospy.is_shutdown():
+                return 0
+            raise
+
+    return run_program(run)

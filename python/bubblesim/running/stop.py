@@ -14,13 +14,14 @@ _STARTING_PATIENCE = 30.0  # s
 
 
 class Stop:
-    """Becomes true at the first SIGINT or SIGTERM."""
+    """Becomes true at the first SIGINT, SIGTERM or SIGHUP; a SIGHUP that is ignored, as by nohup, stays so."""
 
     def __init__(self) -> None:
-        """Takes both signals over."""
+        """Takes the signals over."""
         self.requested = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._request)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self._request)
 
     def _request(self, number: int, frame: object) -> None:
         self.requested = True

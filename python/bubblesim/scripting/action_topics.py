@@ -37,12 +37,16 @@ class GoalStatus(IntEnum):
 class ActionTopics:
     """One side's publishers and subscribers of one action."""
 
-    def __init__(self, bridge: Any, name: str, action_type: str) -> None:
-        """Open nothing yet; raises MessageError when the type is unknown."""
+    def __init__(self, bridge: Any, name: str, action_type: str, note_truncations: Callable[[str, Any], None]) -> None:
+        """Open nothing yet; raises MessageError when the type is unknown.
+
+        :param note_truncations: gets what ``check`` finds, with the action's name in quotes.
+        """
         self.name = name
         self.closed = False
         self._type = _known_type(action_type)
         self._bridge = bridge
+        self._note_truncations = note_truncations
         self._opened = ExitStack()
         self._publishers: list[int] = []
         self._subscribers: list[int] = []
@@ -91,7 +95,7 @@ class ActionTopics:
 
     def check(self, publisher: int, message: Message) -> None:
         """Raise the MessageError of a message that cannot be published, whether or not somebody listens."""
-        self._bridge.check(publisher, message)
+        self._note_truncations(f"'{self.name}'", self._bridge.check(publisher, message))
 
     def publish(self, publisher: int, message: Message) -> None:
         """Publish a message."""

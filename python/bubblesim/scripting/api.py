@@ -7,7 +7,6 @@ takes and its docstring what it does. Lua, the reference pages and `help` all re
 
 from __future__ import annotations
 
-import difflib
 import functools
 import inspect
 import operator
@@ -16,8 +15,8 @@ from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from typing import Any, SupportsIndex, TypeVar
 
-from bubblesim.messages.names import did_you_mean
-from bubblesim.scripting.kinds import PLAIN, Kind, MismatchError, shown
+from bubblesim.scripting.kinds import HANDLE, PLAIN, HandleError, Kind, MismatchError, shown
+from bubblesim.scripting.missing_names import explain
 from bubblesim.scripting.script_thread import by_ident, current
 
 Module = TypeVar("Module", bound=type)
@@ -94,12 +93,10 @@ def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
 
 
 def _no_such(name: str, module: type) -> Callable[[object, str], Any]:
-    """What tells of names that a module does not have."""
+    """What reports names that a module does not have."""
 
     def refuse(self: object, wanted: str) -> Any:
-        near = difflib.get_close_matches(wanted, [known for known in dir(module) if not known.startswith("_")], n=2)
-        hint = did_you_mean([f"{name}.{known}" for known in near])
-        raise AttributeError(f"{name} has no {wanted}{hint}; `bubblesim api` lists all functions that there are")
+        raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
 
     return refuse
 
@@ -166,10 +163,13 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
         if named or tuple(map(type, arguments)) not in plain:
             arguments = converted(arguments, named)
-        if by_ident and not at_any_time and (thread := current()):
-            with thread.turn():
-                return function(self, *arguments)
-        return function(self, *arguments)
+        try:
+            if by_ident and not at_any_time and (thread := current()):
+                with thread.turn():
+                    return function(self, *arguments)
+            return function(self, *arguments)
+        except HandleError as error:
+            raise _located(full_name, signature, kinds, arguments, error) from None
 
     return call
 
@@ -210,6 +210,20 @@ def _bound(
     if named:  # those left out in between
         bound.apply_defaults()
     return bound.args
+
+
+def _located(
+    full_name: str,
+    signature: inspect.Signature,
+    kinds: list[Kind | None],
+    arguments: tuple[Any, ...],
+    error: HandleError,
+) -> HandleError:
+    """The error with the function that the script called, and the argument that was no handle."""
+    for number, (name, kind, value) in enumerate(zip(signature.parameters, kinds, arguments), start=1):  # noqa: B905
+        if kind is HANDLE and value == error.handle:
+            return HandleError(error.handle, f"{full_name}: argument {number}, {name}: ")
+    return HandleError(error.handle, f"{full_name}: ")
 
 
 def _argument_error(

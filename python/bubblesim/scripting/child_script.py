@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption, script_output, script_sockets
+from bubblesim.scripting import interruption, process_calls, script_output, script_sockets
+from bubblesim.scripting.callback_names import HOOKS, PAUSE_HOOKS, looks_like_callback, never_called
 from bubblesim.scripting.file_stamps import FileStamps
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.programs import Program, end_programs
@@ -21,10 +22,6 @@ if TYPE_CHECKING:
     from bubblesim.scripting.host import ScriptHost
 
 Hook = Callable[[], object]
-
-# The phases that a script may take part in, by the names it gives them.
-PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
-HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup", *PAUSE_HOOKS)
 
 
 class ChildScript:
@@ -38,6 +35,7 @@ class ChildScript:
         self.file = file
         self.alive = True
         self.failed = False
+        self.failure = ""  # the error with which it failed, in one line
         self.follows_pauses = False
         self.running = False  # its code is on the call stack
         self.doing = "loading"  # what it was called for last
@@ -72,11 +70,25 @@ class ChildScript:
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
+        self._warn_of_unknown_callbacks()
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
                 "sysCall_thread; a script needs one of these functions"
             )
+
+    def _warn_of_unknown_callbacks(self) -> None:
+        for name, place in sorted(self._code.functions_by_name().items()):
+            if looks_like_callback(name) and name not in HOOKS:
+                write_line(
+                    sys.stderr,
+                    f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
+                )
+
+    @property
+    def is_confined(self) -> bool:
+        """Whether it must not reach files and processes of its own choice."""
+        return self._code.is_confined
 
     def actuate(self) -> None:
         """Run sysCall_actuation, and sysCall_init before the first time."""
@@ -153,6 +165,7 @@ class ChildScript:
                 host.calls += 1
                 action()
             finally:
+                process_calls.end_if_forked()
                 interruption.allowed, self.running, self.doing, host.running_script = outer
                 script_sockets.note_in(sockets)
         except SystemExit:
@@ -169,6 +182,7 @@ class ChildScript:
         broken_off = (for_stop or interruption.requested) and self._code.broken_off(error)
         place = (self.stuck_at if broken_off and for_stop else "") or self._code.place(error)
         where = f"{what} ({place})" if place else what
+        self.failure = self._code.reason(error)
         if not broken_off:
             self._fail(
                 f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
@@ -210,7 +224,8 @@ class ChildScript:
                 results.append(result)
 
             if not self.alive or not self.run(what, answer):
-                raise _core.ServiceError(f"the child script of {self.object_path} failed or ended")
+                why = f"{self.failure}; " if self.failure else ""
+                raise _core.ServiceError(f"{why}the child script of {self.object_path} failed or ended")
             return results[0]
 
         return guarded

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bubblesim.scripting.constants import SimConstants
+from bubblesim.scripting.kinds import HandleError
 
 if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
@@ -37,4 +38,4 @@ class ApiContext(SimConstants):
             return self._script.object_handle
         if handle == self.handle_parent:
             return int(self._world.parent(self._script.object_handle))
-        raise ValueError(f"{handle} is no handle of an object")
+        raise HandleError(handle)

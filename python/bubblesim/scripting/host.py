@@ -7,13 +7,14 @@ import gc
 import math
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting import interruption, script_output, script_sockets, script_thread, watchdog
+from bubblesim.scripting import interruption, process_calls, script_output, script_sockets, script_thread, watchdog
 from bubblesim.scripting.child_script import ChildScript
+from bubblesim.scripting.no_ros import NoRos
 from bubblesim.scripting.output import write_line
 from bubblesim.scripting.programs import end_programs
 from bubblesim.scripting.ros_api import SimRos, SimRos2
@@ -33,26 +34,31 @@ class ScriptHost:
         search_paths: list[Path],
         *,
         lua_unsafe: bool = False,
+        allowed_programs: Sequence[str] = (),
         watch: bool = False,
     ) -> None:
         """Note the scripts; ``start`` loads them.
 
         :param simulation: a ``bubblesim.Simulation``.
-        :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is None in scripts.
+        :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is a ``NoRos`` in scripts.
         :param scripts: pairs of object path and file.
         :param search_paths: where ``include`` looks after the script's own folder.
         :param lua_unsafe: let scripts in Lua reach files and processes.
+        :param allowed_programs: programs, and folders of programs, that scripts in Lua may start beside those of ROS
+            packages.
         :param watch: load a script again as soon as its file changes.
         """
         self.simulation = simulation
         self.bridge = bridge
         self.search_paths = search_paths
         self.lua_unsafe = lua_unsafe
+        self.allowed_programs = [str(each) for each in allowed_programs]
         self.failures = 0
         self.disabled = 0  # of the scripts that are loaded now, how many have failed
         self.calls = 0  # of scripts, so far
         self.running_script: ChildScript | None = None
         self.signals: dict[tuple[type, str], Any] = {}  # by kind and name; shared by all scripts
+        self.cleared_scans: dict[str, float] = {}  # when lidars measured what was cleared from their signals
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
@@ -62,6 +68,7 @@ class ScriptHost:
         script_sockets.install()
         script_thread.install()
         script_output.install()
+        process_calls.install()
         watchdog.start(self)
 
     def start(self) -> None:
@@ -81,6 +88,7 @@ class ScriptHost:
         self.finish()
         self._keep([])
         self.signals.clear()
+        self.cleared_scans.clear()
         gc.collect()  # the globals and functions of a script refer to each other
 
     def add_script(self, path: str, file: Path) -> None:
@@ -115,7 +123,7 @@ class ScriptHost:
         """The modules that a script finds among its globals."""
         sim = SimApi(self.simulation, script)
         if self.bridge is None:
-            return {"sim": sim, "simROS": None, "simROS2": None}
+            return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
         return {
             "sim": sim,
             "simROS": SimRos(self.bridge, self.simulation, script),

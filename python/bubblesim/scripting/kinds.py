@@ -23,6 +23,16 @@ class MismatchError(ValueError):
     """Says itself what was found, where the value as a whole would not show it."""
 
 
+class HandleError(ValueError):
+    """A number that is no handle."""
+
+    def __init__(self, handle: int, where: str = "") -> None:
+        """:param where: what the text begins with."""
+        none = "; it is what sim.getObject returns with noError when it finds nothing" if handle == -1 else ""
+        super().__init__(f"{where}{handle} is no handle of an object{none}")
+        self.handle = handle
+
+
 def _number(value: Any) -> float:
     if isinstance(value, str):  # float('1') would take it
         raise TypeError
@@ -96,7 +106,9 @@ INTEGER = Kind("an integer", _integer, int)
 TEXT = Kind("a text", _text, str)
 FLAG = Kind("true or false", _flag, bool)
 
-Handle = Annotated[int, Kind("the handle of an object, an integer", _integer, int)]
+HANDLE = Kind("the handle of an object, an integer", _integer, int)
+
+Handle = Annotated[int, HANDLE]
 Vector3 = Annotated[list[float], numbers(3)]
 Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]

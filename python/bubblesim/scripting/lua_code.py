@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import threading
 from collections.abc import Callable
@@ -11,15 +12,20 @@ from typing import Any
 
 from lupa import lua54
 
-from bubblesim.scripting.api import functions
+from bubblesim.scripting import no_ros
+from bubblesim.scripting.api import MODULES, functions
 from bubblesim.scripting.lua_thread import LuaThread
-from bubblesim.scripting.lua_values import BROKEN_OFF, LuaFunction, LuaValues
+from bubblesim.scripting.lua_values import LuaFunction, LuaScriptError, LuaValues
+from bubblesim.scripting.missing_names import explain
 from bubblesim.scripting.script_output import print_line
 from bubblesim.scripting.source import ScriptSourceError, find_file, read_text
 
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
+_SHOWN_VALUES = Path(__file__).with_name("shown_values.lua")
 _SECONDS_TO_TELL = 0.3
 _MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough memory"
+_LONGEST_NAME = 50  # of a chunk: Lua cuts those of more than 59 characters
+_PLAIN_NAME = re.compile(r"[\w.+-]+", re.ASCII)
 
 
 class LuaCode:
@@ -57,13 +63,13 @@ class LuaCode:
             attribute_filter=_no_attributes,
             max_memory=_MOST_MEMORY,
         )
-        self._values = LuaValues(self._runtime)
-        self._furnish(modules, unsafe=unsafe)
-        source = _as_lua(text)
-        try:
-            self._body = self._runtime.compile(source, name=self._chunk_name(file), mode=b"t")
-        except lua54.LuaError as error:
-            raise ScriptSourceError(self._with_whole_paths(_message(error))) from error
+        self.is_confined = not unsafe
+        self._values = LuaValues(self._runtime, self._place_of)
+        self._sandbox = self._furnish(modules, unsafe=unsafe)
+        self._values.run_in_sandbox = self._sandbox[b"run"]
+        self._body, problem = _pair(self._sandbox[b"compile"](_as_lua(text), self._chunk_name(file)))
+        if self._body is None:
+            raise ScriptSourceError(self._with_whole_paths(problem.decode(errors="backslashreplace")))
 
     @property
     def files(self) -> set[Path]:
@@ -72,22 +78,30 @@ class LuaCode:
 
     def run(self) -> None:
         """Run the body of the script."""
-        self._body()
+        self._values.run(self._body)
 
     def function(self, name: str) -> Callable[..., Any] | None:
         """Find a global function of the script."""
-        value = self._runtime.globals()[name.encode()]
+        value = self._sandbox[b"global"](name.encode())
         return LuaFunction(self._values, value, name) if lua54.lua_type(value) == "function" else None
+
+    def functions_by_name(self) -> dict[str, str]:
+        """The global functions of the script, and FILE:LINE of each."""
+        return {
+            name.decode(errors="backslashreplace"): self._with_whole_paths(place.decode(errors="backslashreplace"))
+            for name, place in self._sandbox[b"functions"]().items()
+        }
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> LuaThread:
         """Make a coroutine that runs ``body``, a function of the script."""
         assert isinstance(body, LuaFunction)
-        self._thread = LuaThread(self._new_thread(body.in_lua))
+        resume = self._sandbox[b"make_thread"](body.in_lua)
+        self._thread = LuaThread(lambda: bool(self._values.run(resume)[0]))
         return self._thread
 
     def broken_off(self, error: BaseException) -> bool:
         """Whether the script failed for it was interrupted."""
-        return isinstance(error, KeyboardInterrupt) or BROKEN_OFF.decode() in _message(error).partition("\n")[0]
+        return isinstance(error, KeyboardInterrupt) or (isinstance(error, LuaScriptError) and error.broken_off)
 
     def where_now(self, thread: int) -> str:
         """FILE:LINE where the script is that runs in another thread, or nothing."""
@@ -97,8 +111,11 @@ class LuaCode:
 
     def _tell_place(self, chunk: bytes, line: int) -> None:
         self._place_wanted = False
-        self._place = self._with_whole_paths(f"{chunk.decode(errors='replace')}:{line}:").removesuffix(":")
+        self._place = self._place_of(chunk, line)
         self._place_told.set()
+
+    def _place_of(self, chunk: bytes, line: int) -> str:
+        return self._with_whole_paths(f"{chunk.decode(errors='replace')}:{line}")
 
     def place(self, error: BaseException) -> str:
         """FILE:LINE where the script failed, or nothing."""
@@ -107,21 +124,35 @@ class LuaCode:
 
     def report(self, error: BaseException) -> str:
         """What went wrong, and the calls that led there, the last one first."""
-        lines = self._with_whole_paths(_message(error)).splitlines()
-        return "\n".join(line for line in lines if "[C]:" not in line and "[sandbox]" not in line)
+        text, begins, calls = self._with_whole_paths(_message(error)).partition("\nstack traceback:\n")
+        others = ("[C]:", "[sandbox]", "(...tail calls...)", "stack traceback:")
+        of_script = [line for line in calls.splitlines() if not any(other in line for other in others)]
+        return "\n".join([text + (begins.rstrip() if of_script else ""), *of_script])
 
-    def _furnish(self, modules: dict[str, Any], *, unsafe: bool) -> None:
+    def reason(self, error: BaseException) -> str:
+        """What went wrong, in one line."""
+        return self.report(error).partition("\n")[0]
+
+    def _furnish(self, modules: dict[str, Any], *, unsafe: bool) -> Any:
         to_lua, callable_from_lua = self._values.to_lua, self._values.callable_from_lua
         host = self._runtime.table()
         host[b"modules"] = self._runtime.table_from(
-            {name.encode(): self._module(module) for name, module in modules.items() if module is not None}
+            {name.encode(): self._module(module) for name, module in modules.items() if module}
         )
-        host[b"write"] = lambda line: print_line(self._prefix(), line.decode(errors="backslashreplace"))
+        host[b"absent"] = to_lua({name: no_ros.reason(name) for name, module in modules.items() if not module})
+        host[b"write"] = callable_from_lua(self._write)
         host[b"find_source"] = callable_from_lua(self._find_source)
+        host[b"explain"] = callable_from_lua(lambda module, name: explain(module, name, MODULES))
+        host[b"whole"] = callable_from_lua(lambda text: self._with_whole_paths(_decoded(text)))
+        host[b"shown"] = self._runtime.execute(_SHOWN_VALUES.read_bytes(), name=b"=[sandbox]")
+        host[b"is_interruption"] = lambda problem: isinstance(problem, KeyboardInterrupt)
         host[b"pulse"] = self._pulse
         host[b"tell_place"] = self._tell_place
         host[b"unsafe"] = to_lua(unsafe)
-        self._new_thread = self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+        return self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+
+    def _write(self, line: str | bytes) -> None:
+        print_line(self._prefix(), _decoded(line))
 
     def _turn_is_over(self) -> bool:
         return self._thread is not None and self._thread.turn_is_over()
@@ -156,27 +187,36 @@ class LuaCode:
         return _as_lua(read_text(file)), self._chunk_name(file)
 
     def _chunk_name(self, file: Path) -> bytes:
-        """Lua cuts long names: it gets those of files without their folders."""
-        self._files[file.name] = file
-        return b"@" + file.name.encode()
+        """A short name of its own for a file, for Lua cuts long ones; see _with_whole_paths."""
+        name = file.name
+        if len(name) > _LONGEST_NAME or not _PLAIN_NAME.fullmatch(name) or self._files.get(name, file) != file:
+            name = next(each for n in itertools.count(1) if (each := f"file{n}.lua") not in self._files)
+        self._files[name] = file
+        return b"@" + name.encode()
 
     def _with_whole_paths(self, text: str) -> str:
-        for name, file in self._files.items():
-            text = re.sub(rf"(?<![\w/.-]){re.escape(name)}(?=:\d+:)", str(file).replace("\\", r"\\"), text)
-        return text
+        names = "|".join(map(re.escape, self._files))
+        return re.sub(rf"(?<![\w/.+-])({names})(?=:\d)", lambda match: str(self._files[match[1]]), text)
 
 
 def _as_lua(text: str) -> bytes:
     return (f"--{text}" if text.startswith("#") else text).encode()  # the header
 
 
+def _pair(results: Any) -> tuple[Any, Any]:
+    """A function of Lua returned one or two values."""
+    return results if isinstance(results, tuple) else (results, None)
+
+
+def _decoded(text: str | bytes) -> str:
+    return text.decode(errors="backslashreplace") if isinstance(text, bytes) else text
+
+
 def _message(error: BaseException) -> str:
-    if isinstance(error, lua54.LuaMemoryError):
+    text = str(error)
+    if isinstance(error, lua54.LuaMemoryError) or text.startswith("not enough memory"):
         return f"not enough memory: a script in Lua may take {_MOST_MEMORY >> 20} MB"
-    text = error.args[0] if error.args else ""
-    if isinstance(text, bytes):
-        text = text.decode(errors="backslashreplace")
-    return str(text).removeprefix("error loading code: ") or "an error that is not a text"
+    return text or type(error).__name__
 
 
 def _no_attributes(_object: Any, name: Any, _setting: bool) -> Any:

@@ -13,6 +13,15 @@ _DEEPEST = 100  # tables in tables; more is a table that holds itself
 _INT64 = range(-(2**63), 2**63)
 
 
+class LuaScriptError(Exception):
+    """A script in Lua failed; the text is its report, with the calls that led there."""
+
+    def __init__(self, report: bytes, *, broken_off: bool) -> None:
+        """Take what the sandbox returned."""
+        super().__init__(report.decode(errors="backslashreplace"))
+        self.broken_off = broken_off
+
+
 class LuaFunction:
     """A function of a Lua script that Python can call with values of Python."""
 
@@ -23,20 +32,35 @@ class LuaFunction:
         self._values = values
 
     def __call__(self, *arguments: object) -> Any:
-        """Several results come as a tuple."""
-        results = self.in_lua(*map(self._values.to_lua, arguments))
-        if isinstance(results, tuple):
-            return tuple(map(self._values.to_python, results))
-        return self._values.to_python(results)
+        """Several results come as a tuple; raises LuaScriptError."""
+        results = self._values.run(self.in_lua, *map(self._values.to_lua, arguments))
+        if len(results) == 1:
+            return self._values.to_python(results[0])
+        return tuple(map(self._values.to_python, results)) or None
 
 
 class LuaValues:
     """Converts the values of one Lua state."""
 
-    def __init__(self, runtime: lua54.LuaRuntime) -> None:
-        """To be made before anything is taken away from the state's globals."""
+    def __init__(self, runtime: lua54.LuaRuntime, place_of: Callable[[bytes, int], str]) -> None:
+        """To be made before anything is taken away from the state's globals.
+
+        :param place_of: FILE:LINE of a chunk, by the name that Lua has for it, and a line.
+        """
+        self.run_in_sandbox: Callable[..., Any] | None = None  # the sandbox's function `run`
         self._new_table = runtime.table_from
         self._about = runtime.globals()[b"debug"][b"getinfo"]
+        self._place_of = place_of
+
+    def run(self, function: Any, *arguments: Any) -> tuple[Any, ...]:
+        """Call a function of Lua with values of Lua, and return its results as they are; raises LuaScriptError."""
+        assert self.run_in_sandbox is not None
+        results = self.run_in_sandbox(function, *arguments)
+        if results is True:
+            return ()
+        if results[0]:
+            return tuple(results[1:])
+        raise LuaScriptError(results[2], broken_off=results[1])
 
     def to_python(self, value: Any, depth: int = 0) -> Any:
         """Turn a value of Lua into one of Python.
@@ -85,7 +109,7 @@ class LuaValues:
         """Let Lua call a function of Python.
 
         It returns true, whether the thread that called has to give its turn back, and the results; or false and what
-        went wrong.
+        went wrong; or false when the script is to be broken off.
         """
 
         def call(*arguments: Any) -> tuple[Any, ...]:
@@ -97,8 +121,8 @@ class LuaValues:
                 if not isinstance(results, tuple):
                     results = (results,)
                 return (True, turn_is_over(), *map(self.to_lua, results))
-            except KeyboardInterrupt:  # Lua is to unwind as from any error
-                return False, BROKEN_OFF
+            except KeyboardInterrupt:
+                return False, None
             except Exception as error:
                 return False, (str(error) or type(error).__name__).encode(errors="backslashreplace")
 
@@ -115,10 +139,7 @@ class LuaValues:
 
     def _name(self, function: Any) -> str:
         about = self._about(function, b"S")
-        return f"at {about[b'short_src'].decode(errors='replace')}:{about[b'linedefined']}"
-
-
-BROKEN_OFF = b"broken off"
+        return f"at {self._place_of(about[b'short_src'], about[b'linedefined'])}"
 
 
 def _text_or_bytes(value: bytes) -> str | bytes:

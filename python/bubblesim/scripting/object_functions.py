@@ -44,7 +44,10 @@ class ObjectFunctions(ApiContext):
         return self._resolve(script)
 
     def getObjectAlias(self, handle: Handle, option: int = -1) -> str:
-        """Name of an object: -1 bare, 0 with index, 1 short unique path, 2 full path, 3 and 4 with handle, 5 path."""
+        """Name of an object: -1 bare, 0 with index, 1 short unique path, 2 full path, 5 path.
+
+        3 bare, but as 'name__handle__' when other objects have the name, too; 4 always as 'name__handle__'.
+        """
         handle = self._resolve(handle)
         name = str(self._world.name(handle))
         full = str(self._world.path(handle))

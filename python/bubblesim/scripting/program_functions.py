@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 import shlex
-import shutil
 import subprocess
 import sys
-from pathlib import Path
 
+from bubblesim.scripting.allowed_programs import find_program, is_allowed
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.output import write_line
 
@@ -19,9 +18,15 @@ class ProgramFunctions(ApiContext):
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
         """Start a program of this package or on PATH; ``arguments`` is split as a shell would.
 
-        Returns its process id.
+        Returns its process id. A script in Lua may start programs of ROS packages, and those that the node's option
+        --allow-programs names: a PermissionError for others.
         """
-        program = _find_program(file)
+        program = find_program(file)
+        if self._script.is_confined and not is_allowed(program, self._script.host.allowed_programs):
+            raise PermissionError(
+                f"a script in Lua may not start {program}, which belongs to no ROS package of the workspace; "
+                f"allow it with the node's option --allow-programs {program}"
+            )
         process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
         self._script.programs.append(process)
         return process.pid
@@ -48,18 +53,3 @@ class ProgramFunctions(ApiContext):
     def addStatusbarMessage(self, text: object) -> None:
         """Write a message."""
         self.addLog(self.verbosity_scriptinfos, text)
-
-
-def _find_program(file: str) -> Path:
-    # In a development or an install space, beside the simulator's own program; from Python, in the source tree.
-    folders = [Path("/proc/self/exe").resolve().parent, Path(__file__).resolve().parents[3] / "scripts"]
-    for folder in folders:
-        if (folder / file).is_file():
-            return folder / file
-    on_path = shutil.which(file)
-    if on_path is None:
-        raise FileNotFoundError(
-            f"there is no program '{file}' in {' or '.join(map(str, folders))} or on PATH; "
-            "give the name of an installed program or an absolute path"
-        )
-    return Path(on_path)

@@ -55,6 +55,11 @@ class PythonCode:
         """What the script was read from."""
         return self._files
 
+    @property
+    def is_confined(self) -> bool:
+        """Whether its language keeps it from files and processes."""
+        return False
+
     def run(self) -> None:
         """Run the included files and then the script's own code."""
         for part in self._parts:
@@ -63,6 +68,10 @@ class PythonCode:
     def function(self, name: str) -> Callable[..., Any] | None:
         """Find a global of the script."""
         return self._globals.get(name)
+
+    def functions_by_name(self) -> dict[str, str]:
+        """The global functions of the script, and FILE:LINE of each, or nothing where that is not known."""
+        return {name: _place_of(value) for name, value in self._globals.items() if callable(value)}
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> ScriptThread:
         """Make a thread of the operating system that runs ``body``, a function of the script, after ``prepare``."""
@@ -93,6 +102,10 @@ class PythonCode:
         """What went wrong, and the calls that led there."""
         return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format()).rstrip()
 
+    def reason(self, error: BaseException) -> str:
+        """What went wrong, in one line."""
+        return traceback.format_exception_only(error)[-1].strip()
+
     def _require(self, name: str) -> Any:
         """Return the module `sim`, `simROS` or `simROS2`; a version such as in 'sim-1' does not matter."""
         bare = name.partition("-")[0]
@@ -120,6 +133,11 @@ class PythonCode:
                 break  # the header ends where the code starts
         parts.append(_compiled("".join(lines), file))
         return parts
+
+
+def _place_of(function: object) -> str:
+    code = getattr(function, "__code__", None)
+    return f"{code.co_filename}:{code.co_firstlineno}" if isinstance(code, CodeType) else ""
 
 
 def _compiled(text: str, file: Path) -> CodeType:

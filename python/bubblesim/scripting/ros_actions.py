@@ -55,7 +55,7 @@ class RosActions(RosContext):
         2's numbers, and _unknown (0) for a goal that the server does not know any more.
         """
         callbacks = map(self._script.callback, (goal_response_callback, feedback_callback, result_callback))
-        topics = ActionTopics(self._bridge, name, action_type)
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
         with topics.closed_on_error():
             client = ActionClient(topics, *callbacks)
         self._action_clients[client.handle] = client
@@ -96,7 +96,7 @@ class RosActions(RosContext):
         handle_goal = self._script.answering_callback(handle_goal_callback, _check_goal_response)
         handle_cancel = self._script.answering_callback(handle_cancel_callback, _check_cancel_response)
         handle_accepted = self._script.callback(handle_accepted_callback)
-        topics = ActionTopics(self._bridge, name, action_type)
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
         with topics.closed_on_error():
             server = ActionServer(topics, handle_goal, handle_cancel, handle_accepted)
         self._action_servers[server.handle] = server

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from bubblesim import _core
@@ -24,10 +25,23 @@ class RosContext:
         self._bridge = bridge
         self._simulation = simulation
         self._script = script
-        self._warned: set[str] = set()
+        self._warned: set[object] = set()
 
     def _warn(self, text: str) -> None:
         """Warn in the script's name, once of the same."""
         if text not in self._warned:
             self._warned.add(text)
             write_line(sys.stderr, f"warning: child script of {self._script.object_path}: {text}")
+
+    def _warn_of_truncation(self, where: str, truncations: Iterable[tuple[str, float]] | None) -> None:
+        """Warn once of each integer field that was given a float with a fraction.
+
+        :param where: the topic, service or action whose messages these are.
+        :param truncations: field and float, as ``_core.Bridge.check`` returns them.
+        """
+        for field, value in truncations or ():
+            if (where, field) not in self._warned:
+                self._warned.add((where, field))
+                self._warn(
+                    f"{where}: the integer field {field} got the float {value!r}, which is truncated to {int(value)}"
+                )

@@ -25,13 +25,16 @@ class RosServices(RosContext):
     def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, script)
-        self._clients: dict[int, str] = {}  # the services that they call
+        self._clients: dict[int, tuple[str, str]] = {}  # name and request's type of the services that they call
 
     def call(self, client: RosHandle, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
         """Call a service, one's own included, and return its response as a dict.
 
         Raises a RuntimeError when nobody offers the service, it fails, or does not answer within ``timeout`` seconds.
         """
+        if client in self._clients and request:
+            name, request_type = self._clients[client]
+            self._warn_of_truncation(f"'{name}'", _core.messages.truncations(request_type, request))
         response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
         return response
 
@@ -41,17 +44,23 @@ class RosServices(RosContext):
             return bool(self._bridge.wait_for_service(service, timeout))
         if service not in self._clients:
             raise ValueError(f"invalid object handle {service}: no such service client, or it was shut down")
-        return bool(self._bridge.wait_for_service(self._clients[service], timeout))
+        return bool(self._bridge.wait_for_service(self._clients[service][0], timeout))
 
     def _client(self, name: str, service_type: str) -> int:
         client = int(self._bridge.service_client(name, service_type))
-        self._clients[client] = name
+        self._clients[client] = name, _core.messages.service_halves(service_type)[0]
         self._script.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
         return client
 
     def _server(self, name: str, service_type: str, callback: ServiceCallback) -> int:
         _, response_type = _core.messages.service_halves(service_type)
-        answer = self._script.answering_callback(callback, lambda response: _check(response_type, response))
+
+        def check(response: object) -> None:
+            """Let a response that does not fit its type be the callback's error, not the bridge's."""
+            if response is not None:
+                self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response))
+
+        answer = self._script.answering_callback(callback, check)
         server = int(self._bridge.advertise_service(name, service_type, answer, self._time_form))
         self._script.at_end["server", server] = lambda: self._bridge.shutdown_service_server(server)
         return server
@@ -64,9 +73,3 @@ class RosServices(RosContext):
     def _shutdown_server(self, server: int) -> None:
         self._bridge.shutdown_service_server(server)
         self._script.at_end.pop(("server", server), None)
-
-
-def _check(response_type: str, response: object) -> None:
-    """Let a response that does not fit its type be the callback's error, not the bridge's."""
-    if response is not None:
-        _core.messages.encode(response_type, response)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bubblesim.scripting.child_script import ChildScript
 
 _CLOCK_TOLERANCE = 1.0  # s
+_BETWEEN_CHECKS = 1.0  # s of simulation time
 
 Callback = Callable[[dict[str, Any]], object] | str
 
@@ -27,17 +28,22 @@ class RosTopics(RosContext):
     def __init__(self, bridge: Any, simulation: Any, script: ChildScript) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, script)
-        self._unchecked: dict[int, str] = {}  # topics of publishers that have published nothing yet
+        self._topics: dict[int, str] = {}  # by publisher
+        self._checked: set[int] = set()  # publishers of which a message was checked lately
+        self._first_checked: set[int] = set()  # publishers of which a message was checked at all
+        self._next_checks = 0.0  # simulation time
 
     @checked_on_failure
     def publish(self, publisher: RosHandle, message: Message) -> None:
-        """Publish a message given as a dict; fields left out have their defaults."""
-        if publisher in self._unchecked:
-            # Messages are converted only while somebody listens. A first message that is wrong should be told at
-            # once, not when somebody listens at last.
-            self._bridge.check(publisher, message)
-            self._warn_of_another_clock(self._unchecked.pop(publisher), message)
-        self._bridge.publish(publisher, message)
+        """Publish a message given as a dict; fields left out have their defaults.
+
+        Floats in integer fields are truncated toward zero, with one warning for each field.
+        """
+        if publisher not in self._checked:
+            self._check(publisher, message)
+        truncations = self._bridge.publish(publisher, message)
+        if truncations is not None:
+            self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
 
     def wantsMessages(self, publisher: RosHandle) -> bool:
         """Whether somebody listens, so that a message is worth making; always for a latched topic."""
@@ -46,7 +52,9 @@ class RosTopics(RosContext):
     def shutdownPublisher(self, publisher: RosHandle) -> None:
         """Stop publishing; the handle cannot be used any more."""
         self._bridge.shutdown_publisher(publisher)
-        self._unchecked.pop(publisher, None)
+        self._topics.pop(publisher, None)
+        self._checked.discard(publisher)
+        self._first_checked.discard(publisher)
         self._script.at_end.pop(("publisher", publisher), None)
 
     def publisherTreatUInt8ArrayAsString(self, publisher: RosHandle) -> None:
@@ -58,8 +66,27 @@ class RosTopics(RosContext):
     def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
         self._script.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
-        self._unchecked[publisher] = topic
+        self._topics[publisher] = topic
+        self._script.in_each_pass["checks of messages"] = self._renew_checks
         return publisher
+
+    def _check(self, publisher: int, message: Message) -> None:
+        """Check a message that may have no subscriber.
+
+        Messages are converted only for subscribers. An error should not wait until there is one: the first message is
+        checked, and then one a second.
+        """
+        truncations = self._bridge.check(publisher, message)
+        self._checked.add(publisher)
+        self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
+        if publisher not in self._first_checked:
+            self._first_checked.add(publisher)
+            self._warn_of_another_clock(self._topics[publisher], message)
+
+    def _renew_checks(self) -> None:
+        if self._simulation.time >= self._next_checks:
+            self._next_checks = self._simulation.time + _BETWEEN_CHECKS
+            self._checked.clear()
 
     def _listen(
         self,

@@ -19,11 +19,18 @@ class ScriptCode(Protocol):
     def files(self) -> set[Path]:
         """What it was read from so far."""
 
+    @property
+    def is_confined(self) -> bool:
+        """Whether its language keeps it from files and processes."""
+
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
 
     def function(self, name: str) -> Callable[..., Any] | None:
         """Find what the script has under a global name."""
+
+    def functions_by_name(self) -> dict[str, str]:
+        """The global functions of the script, and FILE:LINE of each, or nothing where that is not known."""
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> AnyThread:
         """Make the thread that runs ``body``, a function of the script, after ``prepare``, which is none."""
@@ -39,6 +46,9 @@ class ScriptCode(Protocol):
 
     def report(self, error: BaseException) -> str:
         """What went wrong, and the calls that led there."""
+
+    def reason(self, error: BaseException) -> str:
+        """What went wrong, in one line."""
 
 
 def load_code(

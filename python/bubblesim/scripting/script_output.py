@@ -4,16 +4,20 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import Any, TextIO
 
-from bubblesim.scripting.output import encodable
+from bubblesim.scripting.output import encodable, write_line
 
 prefixes: dict[str, Callable[[], str]] = {}
 """What the lines of a script begin with, by the name of the module that it is in Python."""
+
+lost = False
+"""Whether something that a script printed to stdout could not be written."""
 
 
 class ScriptStream:
@@ -37,13 +41,18 @@ class ScriptStream:
         prefix = _prefix(sys._getframe(1))
         return self.plain.write(text) if prefix is None else self.write_of(prefix, text)
 
+    def flush(self) -> None:
+        """Nothing waits: what could be written is, and what could not was reported."""
+        with contextlib.suppress(OSError, ValueError):
+            self.plain.flush()
+
     def writelines(self, lines: list[str]) -> None:
         """Write one after the other."""
         self.write("".join(lines))
 
     def write_of(self, prefix: str, text: str) -> int:
         """Write what somebody wants to say whose lines begin with ``prefix``."""
-        with self._lock, contextlib.suppress(OSError, ValueError):  # nobody listens any more
+        with self._lock, self._reported_losses():
             begun = self._unfinished
             if begun and begun.partition(" ")[0] != prefix.partition(" ")[0]:
                 self.plain.write("\n")
@@ -53,6 +62,19 @@ class ScriptStream:
             if lines:
                 self._unfinished = "" if lines[-1].endswith("\n") else prefix
         return len(text)
+
+    @contextlib.contextmanager
+    def _reported_losses(self) -> Iterator[None]:
+        """A script goes on when nobody reads what it prints; the run does not succeed then."""
+        global lost
+        try:
+            yield
+        except (OSError, ValueError) as error:
+            # A closed terminal and a reader that has seen enough lose nothing that anybody wants.
+            if self.plain is sys.__stdout__ and getattr(error, "errno", None) not in (errno.EIO, errno.EPIPE):
+                if not lost:
+                    write_line(sys.stderr, f"error: cannot write what scripts print to stdout: {error}")
+                lost = True
 
 
 def print_line(prefix: str, line: str) -> None:

@@ -47,7 +47,7 @@ class SensorFunctions(ApiContext):
         return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
 
     def getReadingTime(self, sensor: Handle) -> float:
-        """Simulated seconds at which the sensor measured what it is read as now."""
+        """Simulated seconds at which the sensor was last due: another time, another reading. It measures nothing."""
         return float(reading_time(self._simulation, self._resolve(sensor)))
 
     def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bubblesim._core import read_lidar, reading_time
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Handle, TextOrBytes
 
@@ -19,13 +20,18 @@ class SignalFunctions(ApiContext):
         self._set(str, name, value)
 
     def getStringSignal(self, name: str) -> str | bytes | None:
-        """What was last set, a text as text and bytes as bytes; None (nil) when there is nothing."""
-        value: str | bytes | None = self._get(str, name)
-        return value
+        """What was last set, a text as text and bytes as bytes; None (nil) when there is nothing.
+
+        A lidar with this name as its <bubblesim:signal> sets it whenever it measures: x, y, z of all points as packed
+        floats, in metres in the lidar's frame.
+        """
+        return self._get_text(name)
 
     def clearStringSignal(self, name: str) -> None:
-        """Forget a text."""
+        """Forget a text; a lidar sets its signal again when it measures again."""
         self._clear(str, name)
+        if name and (lidar := self._world.find_signal(name)) >= 0:
+            self._script.host.cleared_scans[name] = float(reading_time(self._simulation, lidar))
 
     def setFloatSignal(self, name: str, value: float) -> None:
         """Set a number."""
@@ -61,8 +67,7 @@ class SignalFunctions(ApiContext):
 
     def getStringProperty(self, target: Handle, name: str) -> str | bytes | None:
         """The text 'signal.NAME' of the scene."""
-        value: str | bytes | None = self._get(str, self._signal(target, name))
-        return value
+        return self._get_text(self._signal(target, name))
 
     def setFloatProperty(self, target: Handle, name: str, value: float) -> None:
         """Set the number 'signal.NAME' of the scene (newer name of setFloatSignal)."""
@@ -88,6 +93,21 @@ class SignalFunctions(ApiContext):
                 f"there is no property '{name}' of {target}; there are signals: sim.handle_scene and 'signal.NAME'"
             )
         return name.removeprefix(_PREFIX)
+
+    def _get_text(self, name: str) -> str | bytes | None:
+        value: str | bytes | None = self._get(str, name)
+        return self._scan(name) if value is None and name else value
+
+    def _scan(self, name: str) -> bytes | None:
+        """The points of the lidar that has this signal: made here, for most of the time nobody reads them."""
+        lidar = self._world.find_signal(name)
+        if lidar < 0:
+            return None
+        scan = read_lidar(self._simulation, lidar)
+        if self._script.host.cleared_scans.get(name) == reading_time(self._simulation, lidar):
+            return None
+        points: bytes = scan.points.tobytes()
+        return points
 
     def _set(self, kind: type, name: str, value: object) -> None:
         self._script.host.signals[kind, name] = value

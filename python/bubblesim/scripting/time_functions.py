@@ -16,13 +16,10 @@ _STATES = {
     RunState.STOPPING: SimConstants.simulation_advancing_lastbeforestop,
 }
 
-_started: float | None = None
+_started = time.monotonic()  # this is read when the simulator starts, long before a script calls anything
 
 
-def _seconds_since_first_call() -> float:
-    global _started
-    if _started is None:
-        _started = time.monotonic()
+def _seconds_since_start() -> float:
     return time.monotonic() - _started
 
 
@@ -45,14 +42,14 @@ class TimeFunctions(ApiContext):
         self._simulation.set_time_step(seconds)
 
     def getSystemTime(self) -> float:
-        """Seconds of the machine's clock since the first call."""
-        return _seconds_since_first_call()
+        """Seconds of the machine's clock since the start of the node."""
+        return _seconds_since_start()
 
     def getSystemTimeInMs(self, previous: int = -1) -> int:
-        """Milliseconds since the first call (-1) or the epoch (-2), or passed since ``previous``."""
+        """Milliseconds since the start of the node (-1) or the epoch (-2), or passed since ``previous``."""
         if previous == -2:
             return time.time_ns() // 1_000_000
-        now = int(_seconds_since_first_call() * 1000)
+        now = int(_seconds_since_start() * 1000)
         return now if previous == -1 else now - previous
 
     def getSimulationState(self) -> int:

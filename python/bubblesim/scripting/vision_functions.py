@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim._core import measure_camera, read_camera, read_lidar, show_picture
+from bubblesim._core import camera_optics, measure_camera, read_camera, read_lidar, show_picture
 from bubblesim.scripting.context import ApiContext
 from bubblesim.scripting.kinds import Bytes, Handle, Integers
 
@@ -86,12 +86,12 @@ class VisionFunctions(ApiContext):
 
     def getVisionSensorRes(self, sensor: Handle) -> list[int]:
         """[width, height] in pixels."""
-        rows, columns = read_camera(self._simulation, self._resolve(sensor)).depth.shape
+        columns, rows, _ = self._optics(sensor)
         return [columns, rows]
 
     def getVisionSensorFieldOfView(self, sensor: Handle) -> float:
         """Across, in radians."""
-        return float(read_camera(self._simulation, self._resolve(sensor)).horizontal_fov)
+        return self._optics(sensor)[2]
 
     def getVisionSensorArray(self, sensor: Handle) -> Array:
         """The picture as an array of height x width x 3 that is not copied, from the top row down."""
@@ -128,7 +128,7 @@ class VisionFunctions(ApiContext):
         return pixels.tobytes()
 
     def readLidar(self, sensor: Handle) -> Array:
-        """Ranges in metres, rings x samples, as an array that is not copied: inf for nothing, -inf for too close."""
+        """Ranges in metres, rings x samples, as an array that is not copied: inf for nothing in range."""
         ranges: Array = read_lidar(self._simulation, self._resolve(sensor)).ranges
         return ranges
 
@@ -136,6 +136,11 @@ class VisionFunctions(ApiContext):
         """What the lidar met, as an array of count x 3 of float32: x, y, z in metres in the sensor's frame."""
         points: Array = read_lidar(self._simulation, self._resolve(sensor)).points
         return points
+
+    def _optics(self, sensor: int) -> tuple[int, int, float]:
+        """Width and height in pixels, and the field of view across, rad; without looking through the camera."""
+        optics: tuple[int, int, float] = camera_optics(self._simulation, self._resolve(sensor))
+        return optics
 
     def _picture(self, image: Any, sensor: int) -> Array:
         if image.rgb is None:

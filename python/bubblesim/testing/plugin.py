@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import os
 import shlex
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,6 +18,13 @@ import pytest
 from bubblesim.running.processes import Program, Programs
 from bubblesim.testing.master import Master, start_master
 from bubblesim.testing.simulator import Simulator
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """A closed terminal ends the tests as Ctrl-C does, with all that they have started."""
+    if signal.getsignal(signal.SIGHUP) == signal.SIG_DFL:
+        signal.signal(signal.SIGHUP, signal.default_int_handler)
+
 
 StartController = Callable[..., Program]
 StartSimulator = Callable[..., Simulator]

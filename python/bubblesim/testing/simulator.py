@@ -110,10 +110,10 @@ class Simulator:
         self._node.stop()
 
     def _ask(self, path: str) -> dict[str, Any]:
-        answer = self._state.call(object=path)
-        if not answer["success"]:
-            raise LookupError(answer["status_message"])
-        return answer
+        try:
+            return self._state.call(object=path)
+        except RuntimeError as error:  # what the service says
+            raise LookupError(str(error)) from None
 
     def _client(self, name: str, service_type: str) -> ServiceClient:
         from bubblesim.testing.service_client import ServiceClient  # takes its time, and so does the node meanwhile

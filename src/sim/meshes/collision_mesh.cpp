@@ -2,16 +2,23 @@
 #include "meshes/collision_mesh.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <mutex>
+#include <string>
 
 #include "meshes/convex_hull.hpp"
+#include "meshes/simplify.hpp"
 
 namespace bubblesim {
 namespace {
 
 // A mesh that fills its hull up to this part is convex; files round their corners.
 constexpr double kConvex = 0.001;
+// ODE takes ten microseconds for each that a body may touch, each time that it looks: with so many in a cubic metre, a
+// tenth of a second and more. Of fewer than the second number a body takes some hundredths.
+constexpr std::size_t kTooManyInCubicMetre = 10'000;
+constexpr std::size_t kFewInCubicMetre = 3'000;
 
 /// Corners that lie in the same place become one: files repeat them, and each would make contacts of its own.
 void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
@@ -45,6 +52,22 @@ bool is_convex(const TriangleMesh& mesh, const Hull& hull) {
   return full > 0 && std::abs(std::abs(own) / full - 1) < kConvex;
 }
 
+/// Leaves the corners that nothing needs any more where they are: ODE looks at triangles only.
+void make_coarser(CollisionMesh& mesh) {
+  const std::vector<float> coordinates(mesh.coordinates.begin(), mesh.coordinates.end());
+  CornerIndices triangles(mesh.indices.begin(), mesh.indices.end());
+  const std::size_t fullest = most_in_cubic_metre(coordinates, triangles);
+  if (fullest <= kTooManyInCubicMetre) return;
+  const std::size_t before = triangles.size() / 3;
+  const double moved = simplify(coordinates, triangles, kFewInCubicMetre);
+  mesh.indices.assign(triangles.begin(), triangles.end());
+  char millimetres[32];
+  std::snprintf(millimetres, sizeof millimetres, "%.2g", 1000 * moved);
+  mesh.remark = "is too fine to collide with (" + std::to_string(before) + " triangles, " + std::to_string(fullest) +
+                " of them within a cubic metre): it collides as a surface of " + std::to_string(triangles.size() / 3) +
+                " triangles that is up to about " + millimetres + " mm off; give the collision a simpler mesh";
+}
+
 std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
   auto result = std::make_shared<CollisionMesh>();
   const Hull hull = convex_hull(mesh);
@@ -53,6 +76,7 @@ std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
   } else {
     take_surface(mesh, *result);
   }
+  make_coarser(*result);
   result->data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildDouble(result->data.get(), result->coordinates.data(), 3 * sizeof(double),
                               static_cast<int>(result->coordinates.size() / 3), result->indices.data(),

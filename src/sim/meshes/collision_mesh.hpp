@@ -5,6 +5,7 @@
 #include <ode/ode.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bubblesim/triangle_mesh.hpp"
@@ -17,10 +18,11 @@ struct CollisionMesh {
   std::vector<double> coordinates;  // of the corners
   std::vector<dTriIndex> indices;
   ode::TriMeshDataHandle data;
+  std::string remark;  // on what was changed beyond what rounding does; or empty
 };
 
 /// Each mesh is prepared once and shared as long as anybody uses it. One that is convex is simplified: corners amid its
-/// faces would only yield contacts that hold nothing.
+/// faces would only yield contacts that hold nothing. One with very many triangles is simplified, with a remark.
 std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh);
 
 }  // namespace bubblesim

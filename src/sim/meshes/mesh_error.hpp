@@ -10,4 +10,9 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The file that it is in is not there.
+struct MissingFile : MeshError {
+  using MeshError::MeshError;
+};
+
 }  // namespace bubblesim

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bubblesim/triangle_mesh.hpp"
+#include "meshes/mesh_reader.hpp"
 
 namespace bubblesim {
 
@@ -17,7 +18,7 @@ struct MeshRequest {
   bool center = false;    ///< moves the middle of the box around that part to the origin
 };
 
-/// A mesh is read once and shared as long as anybody uses it. Throws MeshError.
-std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request);
+/// What is in a file is read once and shared as long as anybody uses it. Throws MeshError.
+std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshReader& reader);
 
 }  // namespace bubblesim

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshes/mesh_materials.hpp"
 
-#include <assimp/material.h>
-#include <assimp/scene.h>
-#include <assimp/texture.h>
-
-#include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "meshes/mesh_error.hpp"
 #include "meshes/picture.hpp"
@@ -16,12 +12,6 @@ namespace bubblesim {
 namespace {
 
 namespace fs = std::filesystem;
-
-Color to_color(const aiColor4D& color) {
-  const auto part = [](float value) { return std::clamp(value, 0.0F, 1.0F); };  // takes NaN to NaN
-  const Color read{part(color.r), part(color.g), part(color.b)};
-  return read.r + read.g + read.b >= 0 ? read : Color{};
-}
 
 /// `%20` is a space, as in each URI.
 std::string decoded(const std::string& uri) {
@@ -52,24 +42,18 @@ fs::path find_texture(const std::string& uri, const fs::path& mesh_file) {
   return {};
 }
 
-std::shared_ptr<const Texture> embedded_texture(const aiTexture& texture) {
-  if (texture.mHeight == 0) {  // a whole file of mWidth bytes
-    return decode_texture(reinterpret_cast<const unsigned char*>(texture.pcData), texture.mWidth);
-  }
-  Texture pixels{static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight), {}};
-  for (unsigned i = 0; i < texture.mWidth * texture.mHeight; ++i) {
-    const aiTexel& texel = texture.pcData[i];
-    pixels.rgb.insert(pixels.rgb.end(), {texel.r, texel.g, texel.b});
-  }
-  return std::make_shared<const Texture>(std::move(pixels));
+std::shared_ptr<const Texture> embedded_texture(const FileMaterial& material) {
+  const auto [width, height] = std::pair(material.numbers.texture_width, material.numbers.texture_height);
+  if (width == 0) return decode_texture(material.texture.data(), material.texture.size());
+  const bool whole = width > 0 && height > 0 && material.texture.size() == 3ULL * width * height;
+  return whole ? std::make_shared<const Texture>(Texture{width, height, material.texture}) : nullptr;
 }
 
-std::shared_ptr<const Texture> texture_of(const aiScene& scene, const aiMaterial& material, const fs::path& file) {
-  aiString uri;
-  if (material.GetTexture(aiTextureType_DIFFUSE, 0, &uri) != aiReturn_SUCCESS) return nullptr;
+std::shared_ptr<const Texture> texture_of(const FileMaterial& material, const fs::path& file) {
   try {
-    if (const aiTexture* embedded = scene.GetEmbeddedTexture(uri.C_Str())) return embedded_texture(*embedded);
-    const fs::path found = find_texture(uri.C_Str(), file);
+    if (!material.texture.empty()) return embedded_texture(material);
+    if (material.texture_uri.empty()) return nullptr;
+    const fs::path found = find_texture(material.texture_uri, file);
     return found.empty() ? nullptr : read_texture(found);
   } catch (const MeshError&) {
     return nullptr;
@@ -78,31 +62,25 @@ std::shared_ptr<const Texture> texture_of(const aiScene& scene, const aiMaterial
 
 }  // namespace
 
-std::vector<Material> mesh_materials(const aiScene& scene, const fs::path& file) {
-  std::vector<Material> materials;
+std::vector<Material> mesh_materials(const std::vector<FileMaterial>& materials, const fs::path& file) {
+  std::vector<Material> found;
   bool any = false;
-  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
-    const aiMaterial& read = *scene.mMaterials[i];
+  for (const FileMaterial& read : materials) {
     Material material;
-    aiColor4D color;
-    aiString name;
-    // Assimp's own, of files without any.
-    const bool made_up =
-        read.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS && name == aiString(AI_DEFAULT_MATERIAL_NAME);
-    if (!made_up && read.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-      material.diffuse = to_color(color);
+    if (read.numbers.has_diffuse) {
+      material.diffuse = read.numbers.diffuse;
       any = true;
     }
-    if (read.Get(AI_MATKEY_COLOR_EMISSIVE, color) == aiReturn_SUCCESS) material.emissive = to_color(color);
-    material.texture = texture_of(scene, read, file);
+    material.emissive = read.numbers.emissive;
+    material.texture = texture_of(read, file);
     if (material.texture != nullptr) {
       material.diffuse = mean_color(*material.texture);
       any = true;
     }
-    materials.push_back(std::move(material));
+    found.push_back(std::move(material));
   }
-  if (!any) materials.clear();
-  return materials;
+  if (!any) found.clear();
+  return found;
 }
 
 }  // namespace bubblesim

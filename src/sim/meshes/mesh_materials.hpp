@@ -5,13 +5,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "bubblesim/scene.hpp"
-
-struct aiScene;
+#include "meshes/mesh_content.hpp"
 
 namespace bubblesim {
 
-/// In the order of the file. A texture that cannot be found or read leaves its material's colour.
-std::vector<Material> mesh_materials(const aiScene& scene, const std::filesystem::path& file);
+/// In the order of the file; none when it has neither a colour nor a texture. A texture that cannot be found or read
+/// leaves its material's colour.
+std::vector<Material> mesh_materials(const std::vector<FileMaterial>& materials, const std::filesystem::path& file);
 
 }  // namespace bubblesim

@@ -4,6 +4,7 @@
 #include <stb_image.h>
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -23,6 +24,22 @@ struct Free {
                   "); png, jpg, bmp, tga and gif are known");
 }
 
+// A picture of a few bytes may say that it is as large as it likes.
+constexpr std::int64_t kMostPixels = 8192LL * 8192;
+
+void check_pixels(bool known, int width, int height) {
+  if (!known || std::int64_t{width} * height <= kMostPixels) return;  // what is not known fails when it is read
+  throw MeshError("is a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
+                  std::to_string(kMostPixels) + " are read");
+}
+
+void check_pixels(const std::filesystem::path& file) {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  check_pixels(stbi_info(file.c_str(), &width, &height, &channels) != 0, width, height);
+}
+
 /// Takes the pixels over.
 std::shared_ptr<const Texture> to_texture(stbi_uc* pixels, int width, int height) {
   if (pixels == nullptr) fail();
@@ -34,6 +51,7 @@ std::shared_ptr<const Texture> to_texture(stbi_uc* pixels, int width, int height
 }  // namespace
 
 Heights read_heights(const std::filesystem::path& file) {
+  check_pixels(file);
   int width = 0;
   int height = 0;
   int channels = 0;
@@ -53,6 +71,7 @@ std::shared_ptr<const Texture> read_texture(const std::filesystem::path& file) {
   const std::scoped_lock lock(mutex);
   std::weak_ptr<const Texture>& shared = known[file.string()];
   if (std::shared_ptr<const Texture> texture = shared.lock()) return texture;
+  check_pixels(file);
   int width = 0;
   int height = 0;
   int channels = 0;
@@ -67,6 +86,8 @@ std::shared_ptr<const Texture> decode_texture(const unsigned char* bytes, std::s
   int width = 0;
   int height = 0;
   int channels = 0;
+  const bool known = stbi_info_from_memory(bytes, static_cast<int>(size), &width, &height, &channels) != 0;
+  check_pixels(known, width, height);
   stbi_uc* const pixels = stbi_load_from_memory(bytes, static_cast<int>(size), &width, &height, &channels, 3);
   return to_texture(pixels, width, height);
 }

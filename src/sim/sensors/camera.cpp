@@ -15,7 +15,7 @@
 namespace bubblesim {
 namespace {
 
-constexpr float kNothing = std::numeric_limits<float>::infinity();
+constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 /// Where in its pixel a ray passes, from the pixel's upper left corner.
 struct SubPixel {
@@ -90,9 +90,8 @@ class Camera final : public Sensor {
   /// Directions have length 1 along the camera's axis: distances are depths.
   void aim(rays::RayPacket& packet, const Pose& sensor, const ignition::math::Matrix3d& turn, std::size_t column,
            std::size_t row, const SubPixel& part, std::size_t count) const {
-    // A picture leaves out what is nearer than its near plane; a depth camera tells that there is something.
-    packet.start(sensor.Pos(), description_.color ? static_cast<float>(description_.near) : 0,
-                 static_cast<float>(description_.far), count);
+    // What is nearer than the near plane is left out, as by a graphics card.
+    packet.start(sensor.Pos(), static_cast<float>(description_.near), static_cast<float>(description_.far), count);
     RTCRay16& ray = packet.data.ray;
     const double up = (description_.height / 2.0 - (static_cast<double>(row) + part.row)) / focal_;
     const double base[3] = {turn(0, 0) + up * turn(0, 2), turn(1, 0) + up * turn(1, 2), turn(2, 0) + up * turn(2, 2)};
@@ -106,13 +105,11 @@ class Camera final : public Sensor {
     }
   }
 
-  void measure_depth(const RayScene& scene, const rays::RayPacket& packet, std::size_t count, float* depth,
-                     ObjectId* objects) const {
-    const auto near = static_cast<float>(description_.near);
+  static void measure_depth(const RayScene& scene, const rays::RayPacket& packet, std::size_t count, float* depth,
+                            ObjectId* objects) {
     for (std::size_t i = 0; i < count; ++i) {
       const bool hit = packet.hit(i);
-      const float distance = packet.data.ray.tfar[i];
-      depth[i] = !hit ? kNothing : distance < near ? -kNothing : distance;
+      depth[i] = hit ? packet.data.ray.tfar[i] : kNoDepth;
       objects[i] = hit ? scene.shape(packet, i).link : kNoObject;
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lidar: ranges along a fan of rays, in one ring or several.
+// Lidar: ranges along a fan of rays, in one ring or several. Rays begin at the minimal range, as Gazebo's do: what is
+// nearer, such as the robot's own housing, does not hide what lies behind it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace bubblesim {
 namespace {
 
-constexpr float kNothing = std::numeric_limits<float>::infinity();
+constexpr float kNoRange = std::numeric_limits<float>::infinity();
 
 class Lidar final : public Sensor {
  public:
@@ -40,7 +41,7 @@ class Lidar final : public Sensor {
     LidarScan scan{description.horizontal, description.vertical, description.min_range, description.max_range, {}, {}};
     const auto rays = static_cast<std::size_t>(description.horizontal.samples) *
                       static_cast<std::size_t>(description.vertical.samples);
-    scan.ranges.assign(rays, kNothing);
+    scan.ranges.assign(rays, kNoRange);
     scan.intensities.assign(rays, 0);
     return scan;
   }
@@ -51,16 +52,16 @@ class Lidar final : public Sensor {
     const Pose sensor = moment.world.pose(id_);
     const ignition::math::Matrix3d turn(sensor.Rot());
     const auto min_range = static_cast<float>(description_.min_range);
+    const auto max_range = static_cast<float>(description_.max_range);
     rays::RayPacket packet;
     for (std::size_t first = 0; first < count_; first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, count_ - first);
-      packet.start(sensor.Pos(), 0, static_cast<float>(description_.max_range), count);
+      packet.start(sensor.Pos(), min_range, max_range, count);
       aim(packet, first, turn);
       moment.rays.trace(packet, true);
       for (std::size_t i = 0; i < count; ++i) {
-        const float range = packet.data.ray.tfar[i];
         const bool hit = packet.hit(i);
-        scan.ranges[first + i] = !hit ? kNothing : range < min_range ? -kNothing : range;
+        scan.ranges[first + i] = hit ? packet.data.ray.tfar[i] : kNoRange;
         scan.intensities[first + i] = hit ? moment.rays.shape(packet, i).laser_retro : 0;
       }
     }

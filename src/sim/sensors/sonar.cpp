@@ -83,7 +83,8 @@ class Sonar final : public Sensor {
     rays::RayPacket packet;
     for (std::size_t first = 0; first < rays_.size(); first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, rays_.size() - first);
-      packet.start(sensor.Pos(), 0, static_cast<float>(nearest.distance), count);
+      packet.start(sensor.Pos(), static_cast<float>(description_.min_range), static_cast<float>(nearest.distance),
+                   count);
       for (std::size_t i = 0; i < rays::kPacket; ++i) {
         const VolumeRay& ray = rays_[first + std::min(i, count - 1)];
         rays::aim(packet.data.ray, i, sensor.CoordPositionAdd(ray.start), sensor.Rot().RotateVector(ray.direction));
@@ -91,7 +92,7 @@ class Sonar final : public Sensor {
       moment.rays.trace(packet, false, model_);
       for (std::size_t i = 0; i < count; ++i) {
         const double distance = packet.data.ray.tfar[i];
-        if (!packet.hit(i) || distance < description_.min_range || distance > nearest.distance) continue;
+        if (!packet.hit(i) || distance > nearest.distance) continue;
         const VolumeRay& ray = rays_[first + i];
         nearest = {true, distance, ray.start + ray.direction * distance,
                    sensor.Rot().RotateVectorReverse(moment.rays.normal(packet, i)), moment.rays.shape(packet, i).link};

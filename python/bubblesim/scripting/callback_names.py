@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The callbacks that a child script may define, by the names it gives them."""
+
+from __future__ import annotations
+
+import difflib
+
+from bubblesim.messages.names import did_you_mean
+
+PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
+HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup", *PAUSE_HOOKS)
+
+_PREFIX = "sysCall_"
+# CoppeliaSim's callbacks of other kinds of scripts, and of events that do not exist here: what does the same.
+_IN_PLACE_OF = {
+    "sysCall_afterSimulation": "sysCall_cleanup",
+    "sysCall_beforeSimulation": "sysCall_init",
+    "sysCall_contact": "sysCall_sensing",
+    "sysCall_contactCallback": "sysCall_sensing",
+    "sysCall_dyn": "sysCall_actuation",
+    "sysCall_dynCallback": "sysCall_actuation",
+    "sysCall_joint": "sysCall_actuation",
+    "sysCall_jointCallback": "sysCall_actuation",
+    "sysCall_trigger": "sysCall_sensing",
+    "sysCall_vision": "sysCall_sensing",
+}
+
+
+def looks_like_callback(name: str) -> bool:
+    """Whether a global function has the name of a callback."""
+    return name.startswith(_PREFIX)
+
+
+def never_called(name: str) -> str:
+    """The text of a warning about a function that looks like a callback and is none."""
+    if name in _IN_PLACE_OF:
+        return f"{name} is never called; {_IN_PLACE_OF[name]} can do what it does"
+    bare = [hook.removeprefix(_PREFIX) for hook in HOOKS]
+    near = difflib.get_close_matches(name.removeprefix(_PREFIX), bare, n=1)
+    hint = did_you_mean([_PREFIX + each for each in near]) or f"; the callbacks are {', '.join(HOOKS)}"
+    return f"{name} is never called{hint}"

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bound functions that have their simulation to themselves while they run: Python threads may call them beside step().
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <utility>
+
+#include "bubblesim/access_lock.hpp"
+#include "bubblesim/simulation.hpp"
+#include "object_view.hpp"
+
+namespace bubblesim::bindings {
+
+inline AccessLock& lock_of(const World& world) { return world.access(); }
+inline AccessLock& lock_of(const Simulation& simulation) { return simulation.world().access(); }
+inline AccessLock& lock_of(const ObjectView& view) { return view.world().access(); }
+inline AccessLock& lock_of(const pybind11::object& simulation) { return lock_of(simulation.cast<Simulation&>()); }
+
+/// AccessLock::Hold for a thread that has the GIL. While it waits it lets go of the GIL, which the thread that has the
+/// simulation may need.
+class HoldWithGil {
+ public:
+  explicit HoldWithGil(AccessLock& lock) : lock_(lock.is_mine() ? nullptr : &lock) {
+    if (lock_ == nullptr || lock_->try_take()) return;
+    const pybind11::gil_scoped_release others_may_run;
+    lock_->take();
+  }
+  ~HoldWithGil() {
+    if (lock_ != nullptr) lock_->release();
+  }
+  HoldWithGil(const HoldWithGil&) = delete;
+  HoldWithGil& operator=(const HoldWithGil&) = delete;
+
+ private:
+  AccessLock* lock_;
+};
+
+/// A function whose first parameter leads to a simulation, made one that holds it.
+template <class Function, class Return, class First, class... Rest>
+auto holding(Function function, Return (*)(First, Rest...)) {
+  return [function](First first, Rest... rest) -> Return {
+    const HoldWithGil hold(lock_of(first));
+    return function(std::forward<First>(first), std::forward<Rest>(rest)...);
+  };
+}
+
+template <class Function>
+auto holding(Function function) {
+  return holding(function, static_cast<pybind11::detail::function_signature_t<Function>*>(nullptr));
+}
+
+template <class Class, class Return, class... Rest>
+auto holding(Return (Class::*method)(Rest...)) {
+  return holding([method](Class& self, Rest... rest) -> Return { return (self.*method)(std::forward<Rest>(rest)...); });
+}
+
+template <class Class, class Return, class... Rest>
+auto holding(Return (Class::*method)(Rest...) const) {
+  return holding(
+      [method](const Class& self, Rest... rest) -> Return { return (self.*method)(std::forward<Rest>(rest)...); });
+}
+
+/// Adds functions to a class or module of pybind11, each of which holds its simulation.
+template <class Scope>
+class Guarded {
+ public:
+  explicit Guarded(Scope& scope) : scope_(scope) {}
+
+  template <class Function, class... Extra>
+  Guarded& def(const char* name, Function function, const Extra&... extra) {
+    scope_.def(name, holding(function), extra...);
+    return *this;
+  }
+  template <class Getter, class... Extra>
+  Guarded& def_property_readonly(const char* name, Getter getter, const Extra&... extra) {
+    scope_.def_property_readonly(name, holding(getter), extra...);
+    return *this;
+  }
+  template <class Getter, class Setter, class... Extra>
+  Guarded& def_property(const char* name, Getter getter, Setter setter, const Extra&... extra) {
+    scope_.def_property(name, holding(getter), holding(setter), extra...);
+    return *this;
+  }
+
+ private:
+  Scope& scope_;
+};
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why a text is not well-formed XML.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace bubblesim {
+
+struct XmlFault {
+  int line = 0;
+  std::string message;  ///< such as: <link> is opened here, and the end tag found for it is </model> in line 9
+};
+
+/// The first fault of a text; nothing when it is well-formed. libxml2 names the elements, tinyxml2 does not.
+std::optional<XmlFault> find_xml_fault(const std::string& text);
+
+}  // namespace bubblesim
