@@ -8,6 +8,6 @@ setup(
     **generate_distutils_setup(
         packages=find_packages("python"),
         package_dir={"": "python"},
-        package_data={"bubblesim.scripting": ["*.lua"], "bubblesim.cli": ["templates/*.in"]},
+        package_data={"bubblesim.scripting.language": ["*.lua"], "bubblesim.cli": ["templates/*.in"]},
     )
 )

@@ -6,9 +6,9 @@
 import random
 
 from bubblesim import ros_messages
-from bubblesim.control.frames import into
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
+from bubblesim.geometry.frames import into
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33, max_speed=12.5)
 PATIENCE = 0.6  # s without a command, after which it stops

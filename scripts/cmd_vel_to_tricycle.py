@@ -20,8 +20,9 @@ from geometry_msgs.msg import Quaternion, TransformStamped, Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Float32
 
-from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved, quaternion_of_heading
+from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
 from bubblesim.controllers.tricycle_drive import FrontWheel, Tricycle, front_wheel, velocity
+from bubblesim.geometry.rotations import quaternion_of_heading
 from bubblesim.nodes.run_node import run_node, run_ros_program
 
 RATE = 20.0  # Hz, of the odometry

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The layers: which part may know which. Debian keeps ROS headers in /usr/include, so no compiler flag holds this."""
 
+import ast
 import re
 import subprocess
 from pathlib import Path
@@ -19,10 +20,11 @@ PYTHON = re.compile(r"^(pybind11/|Python\.h|numpy/)")
 FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
-    "src/messages": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
+    "src/codec": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
     "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],
     "src/nodes": [PYTHON, re.compile(r"^bubblesim/")],
-    "src/ros_bridge": [PYTHON, re.compile(r"^bubblesim/child_scripts")],
+    "src/ros1": [PYTHON, re.compile(r"^bubblesim/child_scripts")],
+    "src/python_codec": [ROS, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
     "src/bindings": [ROS, re.compile(r"^bubblesim/(ros_bridge|child_scripts)")],
     "src/scripting": [ROS, re.compile(r"^bubblesim/ros_bridge")],
 }
@@ -70,3 +72,70 @@ def test_core_builds_alone(tmp_path: Path) -> None:
     subprocess.run(["cmake", "-S", REPOSITORY, "-B", tmp_path, *options], check=True)
     subprocess.run(["cmake", "--build", tmp_path, "--parallel", "2"], check=True)
     assert list(tmp_path.rglob("libbubblesim.so"))
+
+
+# What each Python package may import of the others; nothing imports `cli`, `demo` and `testing`.
+PYTHON_LAYERS = [
+    {"program", "output", "geometry", "messages"},
+    {"controllers"},
+    {"ros_messages", "navigation", "nodes"},
+    {"running"},
+    {"scripting.caller", "scripting.allowed_programs", "scripting.threads"},
+    {"scripting.api"},
+    {"scripting.language"},
+    {"scripting.host"},
+    {"gazebo_plugins", "observers"},
+    {"checking", "services"},
+    {"doctor"},
+    {"cli", "demo", "testing"},
+]
+
+
+def modules() -> dict[str, Path]:
+    """All modules of the package by their names without `bubblesim.`."""
+    package = REPOSITORY / "python" / "bubblesim"
+    files = [file for file in package.rglob("*.py") if file != package / "__init__.py"]
+    return {".".join(file.relative_to(package).with_suffix("").parts).removesuffix(".__init__"): file for file in files}
+
+
+def imports(file: Path, known: dict[str, Path]) -> set[str]:
+    """The modules of ours that a file imports, also those that only its annotations need."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names.update(f"{node.module}.{alias.name}" for alias in node.names)
+            names.add(node.module)
+    ours = {name.removeprefix("bubblesim.") for name in names if name.startswith("bubblesim.")}
+    return {name for name in ours if name in known and known[name].name != "__init__.py"}
+
+
+def layer(module: str) -> int:
+    found = [
+        number
+        for number, names in enumerate(PYTHON_LAYERS)
+        if any(module == name or module.startswith(f"{name}.") for name in names)
+    ]
+    assert len(found) == 1 or module == "scripting", f"{module} belongs to no layer"
+    return found[0] if found else -1
+
+
+def test_python_packages_import_one_way() -> None:
+    known = modules()
+    strays = [
+        f"{module} imports {name}"
+        for module, file in sorted(known.items())
+        for name in sorted(imports(file, known))
+        if layer(name) > layer(module)
+    ]
+    assert not strays
+
+
+def test_no_python_modules_import_each_other_in_a_circle() -> None:
+    known = modules()
+    waiting = {module: imports(file, known) - {module} for module, file in known.items()}
+    while ready := [module for module, needed in waiting.items() if not needed & waiting.keys()]:
+        for module in ready:
+            del waiting[module]
+    assert not waiting

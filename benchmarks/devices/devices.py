@@ -13,9 +13,9 @@ import numpy as np
 
 import bubblesim
 from bubblesim import _core
-from bubblesim.devices.block_laser import cloud_of_returns, directions
-from bubblesim.devices.camera import image_message
-from bubblesim.devices.laser import laser_scan
+from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
+from bubblesim.gazebo_plugins.sensors.camera import image_message
+from bubblesim.gazebo_plugins.sensors.laser import laser_scan
 
 ROUNDS, REPEATS = 15, 40
 HEADER = {"stamp": {"secs": 1, "nsecs": 2}, "frame_id": "sensor"}

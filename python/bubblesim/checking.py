@@ -8,7 +8,7 @@ import sys
 from collections.abc import Mapping, Sequence
 
 import bubblesim
-from bubblesim.devices.unknown_plugins import report_unknown_plugins
+from bubblesim.gazebo_plugins.unknown_plugins import report_unknown_plugins
 
 DESCRIPTION = """\
 Loads scenes and models (SDFormat, URDF, xacro), runs each for a second of simulated time and prints all that is wrong,

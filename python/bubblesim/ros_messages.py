@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.control.frames import pose_message, vector_message
-from bubblesim.controllers.planar_motion import Pose2D, Velocity, quaternion_of_heading
+from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.geometry.rotations import quaternion_of_heading
 
 Message = dict[str, Any]
 
@@ -21,6 +21,34 @@ _FLOAT32 = 7  # sensor_msgs/PointField.FLOAT32
 _FIX, _GPS = 0, 1  # sensor_msgs/NavSatStatus.STATUS_FIX, SERVICE_GPS
 _DIAGONAL_KNOWN = 2  # sensor_msgs/NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
 _UNKNOWN = 1e6  # variance of what is not measured: large, for a zero would mean that it is certain
+
+
+def pose_values(message: Message) -> list[float]:
+    """A geometry_msgs/Pose as seven numbers."""
+    return [*vector_values(message["position"]), *(message["orientation"][axis] for axis in "xyzw")]
+
+
+def pose_message(pose: Sequence[float]) -> Message:
+    """Seven numbers as a geometry_msgs/Pose."""
+    return {
+        "position": vector_message(pose[:3]),
+        "orientation": dict(zip("xyzw", pose[3:], strict=True)),
+    }
+
+
+def vector_values(message: Message) -> list[float]:
+    """A geometry_msgs/Vector3 or Point as three numbers."""
+    return [message[axis] for axis in "xyz"]
+
+
+def vector_message(vector: Sequence[float]) -> dict[str, float]:
+    """Three numbers as a geometry_msgs/Vector3 or Point."""
+    return dict(zip("xyz", vector, strict=True))
+
+
+def twist_message(linear: Sequence[float], angular: Sequence[float]) -> Message:
+    """geometry_msgs/Twist, from m/s and rad/s."""
+    return {"linear": vector_message(linear), "angular": vector_message(angular)}
 
 
 def header(stamp: float, frame: str) -> Message:
@@ -81,7 +109,7 @@ def odometry(
         "child_frame_id": child,
         "pose": {"pose": pose_message(pose), "covariance": covariance},
         "twist": {
-            "twist": {"linear": vector_message(linear), "angular": vector_message(angular)},
+            "twist": twist_message(linear, angular),
             "covariance": covariance,
         },
     }

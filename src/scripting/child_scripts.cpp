@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries the phases of a pass over to the Python object that keeps the scripts (bubblesim.scripting.host.ScriptHost).
+// Carries the phases of a pass over to the Python object that keeps the scripts
+// (bubblesim.scripting.host.host.ScriptHost).
 #include "bubblesim/child_scripts.hpp"
 
 #include <pybind11/stl.h>
@@ -70,13 +71,13 @@ void ChildScripts::with_host(Action action) {
 ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options)
     : simulation_(simulation), python_(std::make_unique<Python>()) {
   with_python(simulation, [&] {
-    const py::object host_class = py::module_::import("bubblesim.scripting.host").attr("ScriptHost");
+    const py::object host_class = py::module_::import("bubblesim.scripting.host.host").attr("ScriptHost");
     const py::object py_simulation = py::cast(&simulation, py::return_value_policy::reference);
     py::object py_bridge = py::none();
     if (bridge != nullptr) {
       py_bridge = py::cast(bridge, py::return_value_policy::reference);
       if (!options.record.empty() || !options.lockstep.empty()) {
-        py_bridge = py::module_::import("bubblesim.control.observed_bridge")
+        py_bridge = py::module_::import("bubblesim.observers.observed_bridge")
                         .attr("observed")(py_bridge, py_simulation, options.record.string(), options.lockstep);
       }
     }
@@ -85,7 +86,7 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
                    py::arg("lua_unsafe") = options.lua_unsafe, py::arg("allowed_programs") = options.allowed_programs,
                    py::arg("watch") = options.watch);
     if (bridge != nullptr) {
-      const py::object control = py::module_::import("bubblesim.control.offered")
+      const py::object control = py::module_::import("bubblesim.services.offered")
                                      .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
       python_->host.attr("after_drain") = control.attr("drain");
       python_->publish = control.attr("publish");
@@ -152,7 +153,7 @@ void ChildScripts::finish() {
   with_host([&] {
     python_->finish();
     if (python_->close) python_->close();
-    output_lost_ = py::module_::import("bubblesim.scripting.script_output").attr("lost").cast<bool>();
+    output_lost_ = py::module_::import("bubblesim.scripting.language.script_output").attr("lost").cast<bool>();
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries the phases of a pass over to the Python object that keeps the devices (bubblesim.devices.robots.Devices).
+// Carries the phases of a pass over to the Python object that keeps the devices
+// (bubblesim.gazebo_plugins.robots.Devices).
 #include "bubblesim/devices.hpp"
 
 #include "child_scripts_python.hpp"
@@ -26,7 +27,7 @@ struct Devices::Python {
 Devices::Devices(Simulation& simulation, const ChildScripts& scripts)
     : simulation_(simulation), python_(std::make_unique<Python>()) {
   with_devices(simulation, [&] {
-    python_->devices = py::module_::import("bubblesim.devices.robots")
+    python_->devices = py::module_::import("bubblesim.gazebo_plugins.robots")
                            .attr("Devices")(py::cast(&simulation, py::return_value_policy::reference),
                                             scripts.python_->host.attr("bridge"));
     python_->actuate = python_->devices.attr("actuate");

@@ -40,7 +40,7 @@ std::atomic<bool> can_interrupt{false};
 void install_interruption() {
   struct sigaction own {};
   sigaction(SIGINT, nullptr, &own);
-  py::module_::import("bubblesim.scripting.interruption").attr("install")();
+  py::module_::import("bubblesim.scripting.host.interruption").attr("install")();
   sigaction(SIGINT, &own, nullptr);
   can_interrupt = true;
 }
@@ -71,7 +71,7 @@ Interpreter::Interpreter() {
   try {
     py::module_::import("sys").attr("path").attr("insert")(0, package_folder().string());
     add_packages_of_virtual_environment();
-    py::module_::import("bubblesim.scripting.host");
+    py::module_::import("bubblesim.scripting.host.host");
     install_interruption();
   } catch (const py::error_already_set& error) {
     throw std::runtime_error(std::string("the Python package bubblesim cannot be imported: ") + error.what() +
@@ -85,7 +85,7 @@ Interpreter::~Interpreter() {
   released_.reset();
   // Finalizing would wait for ever for a thread of a script that does not end.
   try {
-    if (py::module_::import("bubblesim.scripting.threads").attr("ended")().cast<bool>()) {
+    if (py::module_::import("bubblesim.scripting.threads.thread_registry").attr("ended")().cast<bool>()) {
       Py_FinalizeEx();
       return;
     }

@@ -21,7 +21,7 @@ class Interpreter {
   std::unique_ptr<pybind11::gil_scoped_release> released_;
 };
 
-/// Has Python run the handler that bubblesim.scripting.interruption installed. A signal
+/// Has Python run the handler that bubblesim.scripting.host.interruption installed. A signal
 /// handler may call it, on the thread that made the interpreter.
 void interrupt();
 

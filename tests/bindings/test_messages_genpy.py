@@ -10,6 +10,7 @@ import genpy.message
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
 from message_support import ALL_TYPES, HALVES, codec, genpy_bytes, genpy_class, messages, same
 
 quick = settings(

@@ -11,9 +11,9 @@ import genpy.dynamic
 import genpy.message
 import pytest
 from hypothesis import HealthCheck, given, settings
-from message_support import codec, genpy_bytes, genpy_class, messages, same
 
 from bubblesim.messages.packages import machine_index
+from message_support import codec, genpy_bytes, genpy_class, messages, same
 
 quick = settings(
     max_examples=20, deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from message_support import codec, genpy_bytes, same
 
 

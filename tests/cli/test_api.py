@@ -3,8 +3,9 @@
 
 import pytest
 
-from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
-from bubblesim.scripting.api import MODULES, functions
+from bubblesim.scripting.api.functions import MODULES, functions
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
 from cli_support import bubblesim
 
 

@@ -5,10 +5,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from workspace_support import Workspace
 
 from display_support import Display
 from ros_support import REPOSITORY, RosCore, start, stop, wait_until
+from workspace_support import Workspace
 
 PACKAGES = {
     "mouse_teleop": "mouse_teleop.py",

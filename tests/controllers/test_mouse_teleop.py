@@ -8,12 +8,9 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # for velocities.py
-
-from velocities import Velocities
-
 from display_support import Display
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+from velocities import Velocities
 
 NODE = [sys.executable, str(REPOSITORY / "scripts" / "mouse_teleop.py"), "_speed:=1.0", "_turn:=2.0", "_dead_zone:=0"]
 

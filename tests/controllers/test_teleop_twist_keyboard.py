@@ -12,11 +12,8 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # for velocities.py
-
-from velocities import Velocities
-
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+from velocities import Velocities
 
 NODE = [sys.executable, str(REPOSITORY / "scripts" / "teleop_twist_keyboard.py")]
 

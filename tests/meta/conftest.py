@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-import sys
 from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))  # for generator_support.py
 
 from generator_support import Generator
 

@@ -2,6 +2,7 @@
 import os
 
 import pytest
+
 from generator_support import Generator
 
 

@@ -5,6 +5,7 @@ from hashlib import md5
 from pathlib import Path
 
 import pytest
+
 from workspace_support import Workspace
 
 

@@ -5,7 +5,6 @@ import math
 from collections.abc import Callable
 
 import pytest
-from rooms import drawn
 
 from bubblesim.controllers.planar_motion import Pose2D, moved
 from bubblesim.navigation.driving import Driving, GaveUpError
@@ -13,6 +12,7 @@ from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_following import Driver
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, seen_from
+from rooms import drawn
 
 ROOM = drawn("#" * 60 + "\n" + ("#" + " " * 58 + "#\n") * 38 + "#" * 60, resolution=0.1)
 START = Pose2D(1.0, 2.0, 0.0)

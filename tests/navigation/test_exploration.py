@@ -2,10 +2,10 @@
 import math
 
 import pytest
-from rooms import drawn
 
 from bubblesim.navigation.exploration import Explorer, frontiers
 from bubblesim.navigation.path_planning import Footprint
+from rooms import drawn
 
 SLIM = Footprint(radius=0.1, comfort=0.1)
 HALF_KNOWN = """

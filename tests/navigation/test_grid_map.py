@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from rooms import drawn
 
 from bubblesim.navigation.grid_map import GridMap
+from rooms import drawn
 
 
 def test_cells_and_points_fit_together_in_a_turned_map() -> None:

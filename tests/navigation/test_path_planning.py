@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from rooms import drawn
 
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_planning import Footprint, NoPathError, plan
+from rooms import drawn
 
 SLIM = Footprint(radius=0.1, comfort=0.1)
 U_SHAPE = """

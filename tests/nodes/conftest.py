@@ -3,7 +3,6 @@
 
 import json
 import subprocess
-import sys
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,10 +10,7 @@ from typing import Any
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # for node_types.py
-
 from node_types import Ask, Start
-
 from ros_support import REPOSITORY, RosCore, built, start, stop
 
 PREAMBLE = """

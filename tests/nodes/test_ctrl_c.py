@@ -5,6 +5,7 @@ import os
 import pty
 import re
 import signal
+import socket
 import subprocess
 import time
 from collections.abc import Iterator
@@ -57,7 +58,10 @@ def running(program: str, arguments: list[str], env: dict[str, str], folder: Pat
 
 def ends_quietly(process: "subprocess.Popen[str]", log: Path) -> None:
     process.send_signal(signal.SIGINT)
-    code = process.wait(timeout=20)
+    try:
+        code = process.wait(timeout=20)
+    except subprocess.TimeoutExpired:
+        pytest.fail(f"it goes on; it printed:\n{log.read_text()}")
     assert code in (0, 1, 130, -signal.SIGINT)
     assert "Traceback" not in log.read_text()
     assert "Exception" not in log.read_text()
@@ -107,6 +111,17 @@ def test_of_a_node_whose_master_has_gone(tmp_path: Path, program: str) -> None:
             ends_quietly(process, tmp_path / "log")
     finally:
         stop(core.process)
+
+
+@pytest.mark.parametrize("program", ["tricycle_avoid.py", "go_to.py"])
+def test_of_a_node_whose_master_does_not_answer(tmp_path: Path, program: str) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        env = ros_environment(silent.getsockname()[1], tmp_path)
+        with running(program, NODES[program], env, tmp_path) as process:
+            silent.settimeout(20)
+            silent.accept()
+            time.sleep(0.2)
+            ends_quietly(process, tmp_path / "log")
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.5])

@@ -4,8 +4,8 @@
 import subprocess
 
 import pytest
-from node_types import Ask, Start
 
+from node_types import Ask, Start
 from ros_support import DEADLINE
 
 # Plays map, scan and robot: a room of 6 by 4 m with the robot at (1, 2). Arguments: namespace, "goal" to send one.

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from node_types import Ask, Start
 
 from bubblesim.navigation.map_files import read_map
+from node_types import Ask, Start
 from ros_support import DEADLINE
 
 LISTEN = """

@@ -5,9 +5,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from node_types import Ask, Start
 
 from bubblesim.navigation.map_files import read_map
+from node_types import Ask, Start
 from ros_support import DEADLINE, RosCore, wait_until
 
 # A robot that goes 2 m through a room of 8 x 6 m whose odometry tells 10 % more; it looks all round every 0.2 m.

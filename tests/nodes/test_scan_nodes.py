@@ -4,8 +4,8 @@
 import subprocess
 
 import pytest
-from node_types import Ask, Start
 
+from node_types import Ask, Start
 from ros_support import RosCore, wait_until
 
 CLOUD_SEEN_THROUGH_TF = """

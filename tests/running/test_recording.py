@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from bubblesim.controllers.planar_motion import heading_of
+from bubblesim.geometry.rotations import heading_of
 from bubblesim.running.recording import Pose, Recording, Sample
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import DEADLINE, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, SUPPORT, RosCore, start, stop, wait_until
 
 # Heights at which the frames are by the robots' measures, metres.
 FRAMES = {
@@ -47,7 +47,7 @@ def test_all_frames_of_a_robot_hang_together(roscore: RosCore, tmp_path: Path, r
     launched = start(["roslaunch", "bubblesim", f"{robot}.launch"], roscore.env, stdout=subprocess.DEVNULL)
     try:
         probe = subprocess.run(
-            [sys.executable, str(Path(__file__).with_name("frames_probe.py")), "map", *FRAMES[robot]],
+            [sys.executable, str(SUPPORT / "frames_probe.py"), "map", *FRAMES[robot]],
             env=roscore.env,
             stdout=subprocess.PIPE,
             text=True,

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from node_support import Node, run_script, told_by
-from ros_support import RosCore
+from ros_support import REPOSITORY, RosCore
 
 PROBE = """
 import json
@@ -82,7 +82,7 @@ def test_its_odometry_stays_with_it(tmp_path: Path) -> None:
         code,
         "--strict",
         "--script-path",
-        str(Path(__file__).parents[2] / "scenes"),
+        str(REPOSITORY / "scenes"),
         scene="tricycle",
         target="/Tricycle",
         until=6.0,

@@ -10,11 +10,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bubblesim.scripting import kinds
-from bubblesim.scripting.api import MODULES, ArgumentError, checked_on_failure, functions, script_module, value_first
-from bubblesim.scripting.reference import page
-from bubblesim.scripting.ros_api import SimRos, SimRos2
-from bubblesim.scripting.sim_api import SimApi
+from bubblesim.scripting.api import kinds
+from bubblesim.scripting.api.functions import (
+    MODULES,
+    ArgumentError,
+    checked_on_failure,
+    functions,
+    script_module,
+    value_first,
+)
+from bubblesim.scripting.api.reference import page
+from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
+from bubblesim.scripting.api.sim.sim_module import SimApi
 from node_support import run_script, run_sim, write
 from ros_support import REPOSITORY, free_port, ros_environment
 
@@ -124,8 +131,8 @@ def test_every_function_says_what_it_does(function: object) -> None:
 
 @pytest.mark.parametrize("name", MODULES)
 def test_the_reference_page_is_that_of_the_functions(name: str) -> None:
-    file = REPOSITORY / "docs" / "scripts" / f"{name}.md"
-    assert file.read_text() == page(name), f"write it anew: python -m bubblesim.scripting.reference {name} > {file}"
+    file = REPOSITORY / "docs" / "child_scripts" / f"{name}.md"
+    assert file.read_text() == page(name), f"write it anew: python -m bubblesim.scripting.api.reference {name} > {file}"
 
 
 SWEEP = """

@@ -5,15 +5,16 @@ told, in both languages, and nothing else happens."""
 from collections.abc import Iterator
 from pathlib import Path
 
-from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
-from bubblesim.scripting.api import MODULES, functions, kinds_of
-from bubblesim.scripting.kinds import Kind
+from bubblesim.scripting.api.functions import MODULES, functions, kinds_of
+from bubblesim.scripting.api.kinds import Kind
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
 from node_support import run_sim, write
 from ros_support import free_port, ros_environment
 
 IN_PYTHON = """
     from hypothesis import given, settings, strategies as st
-    from bubblesim.scripting.api import ArgumentError, functions, kinds_of
+    from bubblesim.scripting.api.functions import ArgumentError, functions, kinds_of
 
     ANYTHING = st.recursive(
         st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary() | st.just(print),

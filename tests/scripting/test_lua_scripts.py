@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from bubblesim.scripting.api import functions
-from bubblesim.scripting.sim_api import SimApi
+from bubblesim.scripting.api.functions import functions
+from bubblesim.scripting.api.sim.sim_module import SimApi
 from node_support import Node, built, clean_environment, run_script, write
 from ros_support import RosCore, wait_until
 

@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from bubblesim.scripting import script_thread
-from bubblesim.scripting.lua_thread import LuaThread
+from bubblesim.scripting.threads import script_thread
+from bubblesim.scripting.threads.lua_thread import LuaThread
 
 
 def test_what_python_does_for_it_may_sleep(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lupa import lua54
 
-from bubblesim.scripting.lua_values import LuaFunction, LuaValues
+from bubblesim.scripting.language.lua_values import LuaFunction, LuaValues
 
 LUA = lua54.LuaRuntime(encoding=None, unpack_returned_tuples=True, register_eval=False, register_builtins=False)
 VALUES = LuaValues(LUA, lambda chunk, line: f"{chunk.decode()}:{line}")

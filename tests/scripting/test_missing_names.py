@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
-from bubblesim.scripting.api import MODULES, functions
-from bubblesim.scripting.missing_names import explain
+from bubblesim.scripting.api.functions import MODULES, functions
+from bubblesim.scripting.api.missing_names import explain
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
 from node_support import run_script, write
 
 NO_ROS = "there is no ROS because the node was started with --no-ros; scripts for both cases test `if simROS`"

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from bubblesim.scripting.ros_qos import Qos, read_qos
+from bubblesim.scripting.api.ros.qos import Qos, read_qos
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from bubblesim.scripting.ros_transport import TransportHints, read_transport_hints
+from bubblesim.scripting.api.ros.transport import TransportHints, read_transport_hints
 
 
 @pytest.mark.parametrize(

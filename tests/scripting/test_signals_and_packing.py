@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bubblesim.scripting.sim_api import SimApi
+from bubblesim.scripting.api.sim.sim_module import SimApi
 from node_support import run_script, write
 
 SIM = SimApi.__new__(SimApi)  # packing needs neither a simulation nor a script

@@ -12,12 +12,9 @@ import cv2
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # for room_truth.py
-
-from room_truth import Comparison, compare, outlines, picture, truth_of
-
 from bubblesim.navigation.grid_map import GridMap
-from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+from room_truth import Comparison, compare, outlines, picture, truth_of
+from ros_support import DEADLINE, REPOSITORY, SUPPORT, RosCore, start, stop, wait_until
 
 HEIGHTS = (0.1, 0.36)  # m, as launch/pioneer_slam.launch sets them
 RADIUS = 0.3  # m, of the robot and a little
@@ -47,7 +44,7 @@ def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
             launched.append(start(command, roscore.env, stdout=output, stderr=subprocess.STDOUT))
         wait_until(lambda: "/explore" in roscore.nodes(), "the nodes", 3 * DEADLINE)
         first()
-        watch = [sys.executable, str(Path(__file__).with_name("watch_mapping.py")), str(seconds), str(tmp_path / "map")]
+        watch = [sys.executable, str(SUPPORT / "watch_mapping.py"), str(seconds), str(tmp_path / "map")]
         watched = subprocess.run(watch, env=roscore.env, capture_output=True, text=True, timeout=1000, check=False)
         assert watched.returncode == 0, watched.stderr + log.read_text()
         output = log.read_text() + watched.stderr  # before the work below takes the processor

@@ -11,9 +11,10 @@ import textwrap
 from typing import Any
 
 from bubblesim.cli.terminal import painted
-from bubblesim.scripting import ros_api, sim_api  # noqa: F401  # register their modules
-from bubblesim.scripting.api import MODULES, ScriptFunction, functions, kinds_of
-from bubblesim.scripting.reference import call, text
+from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions, kinds_of
+from bubblesim.scripting.api.reference import call, text
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
 
 _WIDTH = 100
 

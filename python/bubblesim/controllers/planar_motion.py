@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How what stands on a floor moves: its velocity, its pose, from the one to the other, and headings as quaternions."""
+"""How what stands on a floor moves: its velocity, its pose, from the one to the other."""
 
 from __future__ import annotations
 
@@ -27,16 +27,6 @@ class Pose2D:
     x: float = 0.0  # m
     y: float = 0.0  # m
     heading: float = 0.0  # rad
-
-
-def heading_of(x: float, y: float, z: float, w: float) -> float:
-    """Rotation about the vertical axis, rad, of a unit quaternion: the yaw of its roll, pitch and yaw."""
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
-def quaternion_of_heading(heading: float) -> list[float]:
-    """[x, y, z, w] of a turn about the vertical axis by so many rad."""
-    return [0.0, 0.0, math.sin(heading / 2), math.cos(heading / 2)]
 
 
 def moved(pose: Pose2D, velocity: Velocity, dt: float) -> Pose2D:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.controllers import planar_motion
 from bubblesim.controllers.planar_motion import Pose2D
+from bubblesim.geometry import rotations
 
 Point = tuple[float, float]
 """m"""
@@ -28,7 +28,7 @@ def placed(pose: Pose2D, seen: Point) -> Point:
 
 def heading_of(rotation: Any) -> float:
     """rad about z, of a geometry_msgs/Quaternion."""
-    return planar_motion.heading_of(rotation.x, rotation.y, rotation.z, rotation.w)
+    return rotations.heading_of(rotation.x, rotation.y, rotation.z, rotation.w)
 
 
 def pose_of(transform: Any) -> Pose2D:

@@ -4,16 +4,22 @@
 from __future__ import annotations
 
 import argparse
+import os
+import signal
+import socket
 import sys
 import threading
+import time
 from collections.abc import Callable
 from typing import TypeVar
 
 import rospy
 
-from bubblesim.program import run_program
+from bubblesim.program import BY_CTRL_C, run_program
 
 Node = TypeVar("Node")
+
+_GRACE = 5.0  # s, that rospy's shutdown may take after a signal
 
 
 def run_node(
@@ -37,6 +43,7 @@ def run_node(
 
 def run_ros_program(main: Callable[[], int]) -> int:
     """Run the program of a node; its exit code. Ctrl-C shows no traceback, also while it waits for a master."""
+    _bound_the_shutdown()
     report = threading.excepthook
 
     def report_unless_ending(arguments: threading.ExceptHookArgs) -> None:
@@ -54,3 +61,23 @@ def run_ros_program(main: Callable[[], int]) -> int:
             raise
 
     return run_program(run)
+
+
+def _bound_the_shutdown() -> None:
+    """End the process some seconds after SIGINT or SIGTERM at the latest.
+
+    rospy's handler of signals calls the master through a proxy whose lock is not reentrant, so a signal that comes
+    during another call of the master blocks it for ever. The wake-up descriptor is written before handlers run.
+    """
+    reader, writer = socket.socketpair()
+    writer.setblocking(False)
+    signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
+
+    def wait_for_signal() -> None:
+        with reader, writer:
+            while reader.recv(1)[0] not in (signal.SIGINT, signal.SIGTERM):
+                pass
+            time.sleep(_GRACE)
+            os._exit(BY_CTRL_C)
+
+    threading.Thread(target=wait_for_signal, name="end after a signal", daemon=True).start()

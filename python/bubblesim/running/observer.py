@@ -10,7 +10,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float32
 from tf2_msgs.msg import TFMessage
 
-from bubblesim.controllers.planar_motion import heading_of
+from bubblesim.geometry.rotations import heading_of
 from bubblesim.running.recording import Pose, Recording, Sample
 
 

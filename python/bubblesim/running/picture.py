@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bubblesim
+from bubblesim.geometry.rotations import matrix
 from bubblesim.running.recording import Pose, Recording
 
 mpl.use("Agg")  # no display needed
@@ -79,7 +80,7 @@ def outline(shape: bubblesim.CollisionShape) -> Points:
         radius, length = shape.size
         rim = radius * np.column_stack([np.cos(circle), np.sin(circle)])
         local = np.vstack([np.column_stack([rim, np.full(len(rim), end)]) for end in (-length / 2.0, length / 2.0)])
-    world = local @ rotation_matrix(shape.orientation).T + shape.position
+    world = local @ np.array(matrix(shape.orientation)).T + shape.position
     return convex_hull(world[:, :2])
 
 
@@ -89,18 +90,6 @@ def _unit_sphere() -> Points:
     )
     points = np.stack([np.cos(around) * np.cos(up), np.sin(around) * np.cos(up), np.sin(up)], axis=-1)
     return np.asarray(points.reshape(-1, 3))
-
-
-def rotation_matrix(quaternion: Sequence[float]) -> Points:
-    """3 x 3 matrix of a unit quaternion x, y, z, w."""
-    x, y, z, w = quaternion
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def convex_hull(points: Points) -> Points:

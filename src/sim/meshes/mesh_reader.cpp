@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "library_folder.hpp"
+#include "load/find/library_folder.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_limits.hpp"
 #include "meshes/mesh_stream.hpp"

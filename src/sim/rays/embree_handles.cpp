@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "embree_handles.hpp"
+#include "rays/embree_handles.hpp"
 
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ray_scene.hpp"
+#include "rays/ray_scene.hpp"
 
 #include <algorithm>
 #include <array>

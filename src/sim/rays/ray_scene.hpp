@@ -10,8 +10,8 @@
 
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
-#include "ray_packet.hpp"
-#include "ray_shape.hpp"
+#include "rays/ray_packet.hpp"
+#include "rays/ray_shape.hpp"
 
 namespace bubblesim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ray_shape.hpp"
+#include "rays/ray_shape.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "bubblesim/triangle_mesh.hpp"
-#include "ray_shapes.hpp"
+#include "rays/ray_shapes.hpp"
 
 namespace bubblesim::rays {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
-#include "embree_handles.hpp"
+#include "rays/embree_handles.hpp"
 
 namespace bubblesim::rays {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Altimeter: height above where it came into the world, and how fast it climbs.
-#include "kinds.hpp"
-#include "noise.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

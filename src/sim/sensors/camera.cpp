@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include "kinds.hpp"
-#include "noise.hpp"
 #include "rays/ray_scene.hpp"
-#include "shading.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
+#include "sensors/shading.hpp"
 
 namespace bubblesim {
 namespace {

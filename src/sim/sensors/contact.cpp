@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinds.hpp"
+#include "sensors/kinds.hpp"
 
 namespace bubblesim {
 namespace {

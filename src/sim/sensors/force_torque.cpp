@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Force-torque sensor: what a joint's child does to its parent, or the other way round.
-#include "kinds.hpp"
-#include "noise.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "kinds.hpp"
-#include "noise.hpp"
 #include "rays/ray_scene.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

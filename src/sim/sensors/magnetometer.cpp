@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Magnetometer: the magnetic field of the world, which is the same everywhere.
-#include "kinds.hpp"
-#include "noise.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

@@ -3,8 +3,8 @@
 // its origin; GeographicLib's LocalCartesian tells where its points are.
 #include <GeographicLib/LocalCartesian.hpp>
 
-#include "kinds.hpp"
-#include "noise.hpp"
+#include "sensors/kinds.hpp"
+#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

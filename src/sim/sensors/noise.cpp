@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "noise.hpp"
+#include "sensors/noise.hpp"
 
 #include <cmath>
 #include <cstring>
 
-#include "fnv1a.hpp"
+#include "scene/fnv1a.hpp"
 
 namespace bubblesim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which sensor kinds there are.
-#include "kinds.hpp"
+#include "sensors/kinds.hpp"
 
 namespace bubblesim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shading.hpp"
+#include "sensors/shading.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "kinds.hpp"
 #include "rays/ray_scene.hpp"
+#include "sensors/kinds.hpp"
 
 namespace bubblesim {
 namespace {

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gz-sim's OdometryPublisher: where a model really is."""
+
+from __future__ import annotations
+
+from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.rate import Rate
+
+
+class GzOdometryPublisher(Device):
+    """Names and defaults are those of its topics; the transform goes to /tf, whatever <tf_topic> says."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        model = self.world.name(place.model)
+        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
+        p.ignore("tf_topic", "dimensions", "odom_covariance_topic", "xyz_offset", "rpy_offset", "gaussian_noise")
+        p.check()
+        self._odometry = Odometry(
+            self,
+            topic=p.text("odom_topic", f"/model/{model}/odometry"),
+            frame=p.text("odom_frame", f"{model}/odom"),
+            base_frame=p.text("robot_base_frame", f"{model}/base_footprint"),
+            transform=True,
+            pose_covariance=covariance(0.0, 0.0, 0.0),
+        )
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+
+    def publish(self) -> None:
+        """Tell pose and velocity."""
+        if self._rate.due(self.simulation.time):
+            self._odometry.publish(motion_in_world(self.world, self.place.model))

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How drives tell where they are: nav_msgs/Odometry and the transform from its frame to the robot's."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.gazebo_plugins.device import Device
+from bubblesim.geometry.rotations import heading_of, quaternion_of_heading
+from bubblesim.ros_messages import pose_message
+
+UNKNOWN = 1e12  # the variance of what wheels cannot know: height, roll and pitch
+SOURCES = {"encoder": "encoder", "world": "world", "0": "encoder", "1": "world"}
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Pose in the odometry's frame, and velocity along the robot's own axes."""
+
+    pose: Sequence[float]  # x, y, z, qx, qy, qz, qw
+    forward: float  # m/s
+    leftward: float  # m/s
+    turning: float  # rad/s, to the left
+
+
+def motion_in_world(world: Any, model: int) -> Motion:
+    """How a model moves, exactly."""
+    pose = world.pose(model)
+    (x, y, _), (_, _, turning) = world.velocity(model)
+    yaw = heading_of(*pose[3:])
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return Motion(pose, cos * x + sin * y, cos * y - sin * x, turning)
+
+
+def motion_on_plane(pose: Pose2D, velocity: Velocity) -> Motion:
+    """How wheels say that a robot moves."""
+    return Motion([pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)], velocity.linear, 0.0, velocity.angular)
+
+
+def covariance(x: float, y: float, yaw: float) -> list[float]:
+    """A matrix of variances; the rest is unknown."""
+    variances = (x, y, UNKNOWN, UNKNOWN, UNKNOWN, yaw)
+    return [variance if row == column else 0.0 for row, variance in enumerate(variances) for column in range(6)]
+
+
+class Odometry:
+    """The topic and the transform of a drive."""
+
+    def __init__(
+        self,
+        device: Device,
+        *,
+        topic: str | None,
+        frame: str,
+        base_frame: str,
+        transform: bool,
+        pose_covariance: list[float],
+        twist_covariance: list[float] | None = None,
+    ) -> None:
+        """``topic`` None tells nothing but the transform."""
+        self._device = device
+        self._publisher = None if topic is None else device.advertise(topic, "nav_msgs/Odometry", 1)
+        self._frame = frame
+        self._base_frame = base_frame
+        self._transform = transform
+        self._pose_covariance = pose_covariance
+        self._twist_covariance = twist_covariance or [0.0] * 36
+
+    def publish(self, motion: Motion) -> None:
+        """Tell it as that of this pass."""
+        device = self._device
+        header = device.header(self._frame)
+        if self._transform:
+            device.place.transforms.add(header, self._base_frame, motion.pose)
+        if self._publisher is None or not device.wanted(self._publisher):
+            return
+        twist = {"linear": {"x": motion.forward, "y": motion.leftward}, "angular": {"z": motion.turning}}
+        device.bridge.publish(
+            self._publisher,
+            {
+                "header": header,
+                "child_frame_id": self._base_frame,
+                "pose": {"pose": pose_message(motion.pose), "covariance": self._pose_covariance},
+                "twist": {"twist": twist, "covariance": self._twist_covariance},
+            },
+        )

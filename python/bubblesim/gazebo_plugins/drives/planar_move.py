@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_planar_move: a model that a Twist moves in the plane, in any direction."""
+
+from __future__ import annotations
+
+import math
+
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.rate import Rate
+from bubblesim.geometry.rotations import heading_of
+
+
+class PlanarMove(Device):
+    """Parameters, topics and defaults are those of gazebo_ros_pkgs; it is pushed, and may fall and be stopped."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._rate = Rate(p.number("odometryRate", 20.0, least=0.0), self.simulation.time_step)
+        self._patience = p.number("cmdTimeout", -1.0)  # s; below 0: for ever
+        p.ignore("update_rate", "publish_rate", "publish_odom", "publish_odom_tf")
+        p.check()
+        self._odometry = Odometry(
+            self,
+            topic=p.text("odometryTopic", "odom"),
+            frame=p.text("odometryFrame", "odom"),
+            base_frame=p.text("robotBaseFrame", "base_footprint"),
+            transform=True,
+            pose_covariance=covariance(1e-5, 1e-5, 1e-3),
+            twist_covariance=covariance(1e-5, 1e-5, 1e-3),
+        )
+        self._forward = self._leftward = self._turning = 0.0
+        self._heard_at = 0.0  # s of simulated time
+        self.subscribe(p.text("commandTopic", "cmd_vel"), "geometry_msgs/Twist", self._command)
+
+    def _command(self, twist: Message) -> None:
+        wanted = twist["linear"]["x"], twist["linear"]["y"], twist["angular"]["z"]
+        if self.usable("Twist", wanted):
+            self._forward, self._leftward, self._turning = wanted
+            self._heard_at = self.simulation.time
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._forward = self._leftward = self._turning = self._heard_at = 0.0
+        self._rate.reset()
+
+    def actuate(self) -> None:
+        """Push the model."""
+        if 0 <= self._patience < self.simulation.time - self._heard_at:
+            self._forward = self._leftward = self._turning = 0.0
+        # The heading in the middle of the pass, so that it keeps to its arc.
+        yaw = heading_of(*self.world.pose(self.place.model)[3:]) + self._turning * self.simulation.time_step / 2
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        x = cos * self._forward - sin * self._leftward
+        y = sin * self._forward + cos * self._leftward
+        self.world.drive_in_plane(self.place.model, x, y, self._turning)
+
+    def publish(self) -> None:
+        """Tell the odometry, which is exact."""
+        if self._rate.due(self.simulation.time):
+            self._odometry.publish(motion_in_world(self.world, self.place.model))

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gz-sim's JointController and JointPositionController: a joint that follows a std_msgs/Float64."""
+
+from __future__ import annotations
+
+from bubblesim._core import MotorMode
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+
+
+class GzJointController(Device):
+    """Holds a velocity, rad/s or m/s, by the joint's own motor: gains of controllers are not looked at."""
+
+    mode = MotorMode.VELOCITY
+    initial = "initial_velocity"
+    command_topic = "cmd_vel"
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self._joint = self.joint("joint_name", "")
+        self._first = p.number(self.initial, 0.0)
+        p.ignore("use_force_commands", "use_velocity_commands", "use_actuator_msg", "actuator_number")
+        p.ignore(*(f"{gain}_gain" for gain in "pid"), "i_max", "i_min", "cmd_max", "cmd_min", "cmd_offset")
+        default = f"/model/{self.world.name(place.model)}/joint/{self.world.name(self._joint)}/{self.default_topic()}"
+        topic = p.text("topic", p.text("sub_topic", default))
+        p.check()
+        self._wanted = self._first
+        self.subscribe(topic, "std_msgs/Float64", self._command)
+
+    def default_topic(self) -> str:
+        """Its end, after the joint."""
+        return self.command_topic
+
+    def _command(self, message: Message) -> None:
+        if self.usable("command", (message["data"],)):
+            self._wanted = message["data"]
+
+    def reset(self) -> None:
+        """Begin with the first command."""
+        self._wanted = self._first
+        self.world.set_motor_mode(self._joint, self.mode)
+
+    def actuate(self) -> None:
+        """Command the joint."""
+        self.world.set_target_velocity(self._joint, self._wanted)
+
+
+class GzJointPositionController(GzJointController):
+    """Goes to a position, rad or m."""
+
+    mode = MotorMode.POSITION
+    initial = "initial_position"
+    command_topic = "cmd_pos"
+
+    def default_topic(self) -> str:
+        """Its end, with the axis' number."""
+        index = int(self.parameters.number("joint_index", 0.0, least=0.0))
+        return f"{index}/{self.command_topic}"
+
+    def actuate(self) -> None:
+        """Command the joint."""
+        self.world.set_target_position(self._joint, self._wanted)

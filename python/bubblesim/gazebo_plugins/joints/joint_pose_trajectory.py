@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_joint_pose_trajectory: joints that go through the points of a trajectory."""
+
+from __future__ import annotations
+
+from bubblesim._core import MotorMode
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+
+
+class JointPoseTrajectory(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; motors go to the points, where Gazebo puts the joints.
+
+    Each point holds from its time on; times count from when the message is taken.
+    """
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        p.ignore("serviceName", "updateRate")
+        p.check()
+        self._joints: list[int] = []
+        self._points: list[tuple[float, list[float]]] = []  # simulated time, positions
+        self.subscribe(p.text("topicName", "set_joint_trajectory"), "trajectory_msgs/JointTrajectory", self._command)
+
+    def _command(self, trajectory: Message) -> None:
+        points = [(point["time_from_start"], list(point["positions"])) for point in trajectory["points"]]
+        if not all(self.usable("point", positions) for _, positions in points):
+            return
+        names = trajectory["joint_names"]
+        if any(len(positions) != len(names) for _, positions in points):
+            raise ValueError(f"each of its points must have {len(names)} positions, one for each joint")
+        joints = [self.world.find(f"{self.world.path(self.place.model)}/{name}") for name in names]
+        for joint in joints:
+            self.world.set_motor_mode(joint, MotorMode.POSITION)
+        start = self.simulation.time
+        self._joints = joints
+        self._points = sorted((start + after, positions) for after, positions in points)
+
+    def reset(self) -> None:
+        """Forget the trajectory."""
+        self._points = []
+
+    def actuate(self) -> None:
+        """Go to the point that holds now."""
+        while self._points and self._points[0][0] <= self.simulation.time:
+            _, positions = self._points.pop(0)
+            for joint, position in zip(self._joints, positions, strict=True):
+                self.world.set_target_position(joint, position)

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_joint_state_publisher, and gz-sim's: where the joints are."""
+
+from __future__ import annotations
+
+from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.drives.wheels import joint_states
+from bubblesim.gazebo_plugins.rate import Rate
+
+
+class JointStatePublisher(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; without <jointName> all joints that move are told."""
+
+    names = "jointName"
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace(of_model=True)
+        self._joints = [self.joint_named(name, self.names) for name in p.names(self.names)] or self._moving_joints()
+        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        p.check()
+        self._publisher = self.advertise(self.default_topic(), "sensor_msgs/JointState", 1000)
+
+    def _moving_joints(self) -> list[int]:
+        joints = [part for part in self.parts_of_model() if self.world.kind(part) == "joint"]
+        return [joint for joint in joints if self.world.joint_axes(joint) > 0]
+
+    def default_topic(self) -> str:
+        """The topic, which a plugin may name."""
+        return "joint_states"
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+
+    def publish(self) -> None:
+        """Tell the joints' states."""
+        if self.wanted(self._publisher) and self._rate.due(self.simulation.time):
+            self.bridge.publish(self._publisher, joint_states(self, self._joints))
+
+
+class GzJointStatePublisher(JointStatePublisher):
+    """Of gz-sim, whose topic is named after world and model."""
+
+    names = "joint_name"
+
+    def default_topic(self) -> str:
+        """As it is in Gazebo's transport."""
+        default = f"/world/{self.simulation.world_name}/model/{self.world.name(self.place.model)}/joint_state"
+        return "/" + self.parameters.text("topic", default).lstrip("/")

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which plugin is which device."""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePosixPath
+
+from bubblesim.gazebo_plugins.device import Device
+from bubblesim.gazebo_plugins.drives.ackermann_drive import AckermannDrive
+from bubblesim.gazebo_plugins.drives.diff_drive import DiffDrive
+from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
+from bubblesim.gazebo_plugins.drives.gz_ackermann_steering import GzAckermannSteering
+from bubblesim.gazebo_plugins.drives.gz_diff_drive import GzDiffDrive
+from bubblesim.gazebo_plugins.drives.gz_odometry_publisher import GzOdometryPublisher
+from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
+from bubblesim.gazebo_plugins.drives.planar_move import PlanarMove
+from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
+from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
+from bubblesim.gazebo_plugins.joints.gz_joint_controllers import GzJointController, GzJointPositionController
+from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
+from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.gazebo_plugins.sensors.baro import Baro
+from bubblesim.gazebo_plugins.sensors.block_laser import BlockLaser, VelodyneLaser
+from bubblesim.gazebo_plugins.sensors.bumper import Bumper
+from bubblesim.gazebo_plugins.sensors.camera import Camera
+from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCamera, OpenniKinect
+from bubblesim.gazebo_plugins.sensors.ft_sensor import FtSensor
+from bubblesim.gazebo_plugins.sensors.gps import Gps
+from bubblesim.gazebo_plugins.sensors.imu import HectorImu, ImuSensor, LinkImu
+from bubblesim.gazebo_plugins.sensors.laser import Laser
+from bubblesim.gazebo_plugins.sensors.magnetic import Magnetic
+from bubblesim.gazebo_plugins.sensors.multi_camera import MultiCamera
+from bubblesim.gazebo_plugins.sensors.p3d import P3D
+from bubblesim.gazebo_plugins.sensors.range import HectorSonar, Range
+from bubblesim.gazebo_plugins.sensors.ray_sensor import RaySensor
+from bubblesim.messages.names import did_you_mean, nearest_names
+
+# By the name of the library as ``library`` tells it.
+DEVICES: dict[str, type[Device]] = {
+    "DiffDrivePlugin": GazeboDiffDrive,
+    "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
+    "gazebo_ros_ackermann_drive": AckermannDrive,
+    "gazebo_ros_block_laser": BlockLaser,
+    "gazebo_ros_bumper": Bumper,
+    "gazebo_ros_camera": Camera,
+    "gazebo_ros_depth_camera": DepthCamera,
+    "gazebo_ros_diff_drive": DiffDrive,
+    "gazebo_ros_ft_sensor": FtSensor,
+    "gazebo_ros_gpu_laser": Laser,
+    "gazebo_ros_imu": LinkImu,
+    "gazebo_ros_imu_sensor": ImuSensor,
+    "gazebo_ros_joint_pose_trajectory": JointPoseTrajectory,
+    "gazebo_ros_joint_state_publisher": JointStatePublisher,
+    "gazebo_ros_kobuki": Kobuki,
+    "gazebo_ros_laser": Laser,
+    "gazebo_ros_multicamera": MultiCamera,
+    "gazebo_ros_openni_kinect": OpenniKinect,
+    "gazebo_ros_p3d": P3D,
+    "gazebo_ros_planar_move": PlanarMove,
+    "gazebo_ros_range": Range,
+    "gazebo_ros_ray_sensor": RaySensor,
+    "gazebo_ros_skid_steer_drive": SkidSteerDrive,
+    "gazebo_ros_tricycle_drive": TricycleDrive,
+    "hector_gazebo_ros_baro": Baro,
+    "hector_gazebo_ros_gps": Gps,
+    "hector_gazebo_ros_imu": HectorImu,
+    "hector_gazebo_ros_magnetic": Magnetic,
+    "hector_gazebo_ros_sonar": HectorSonar,
+    "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
+    "gazebo_ros_velodyne_laser": VelodyneLaser,
+    "gz-ackermann-steering-system": GzAckermannSteering,
+    "gz-diff-drive-system": GzDiffDrive,
+    "gz-odometry-publisher-system": GzOdometryPublisher,
+    "gz-joint-controller-system": GzJointController,
+    "gz-joint-position-controller-system": GzJointPositionController,
+    "gz-joint-state-publisher-system": GzJointStatePublisher,
+}
+
+# What is a part of the simulator here, or shows something in a window.
+NOT_NEEDED = frozenset(
+    {
+        "gazebo_ros_api_plugin",
+        "gazebo_ros_paths_plugin",
+        "gazebo_ros_init",
+        "gazebo_ros_factory",
+        "RayPlugin",
+        "CameraPlugin",
+        "DepthCameraPlugin",
+        "ImuSensorPlugin",
+        "ContactPlugin",
+        "gz-physics-system",
+        "gz-sensors-system",
+        "gz-scene-broadcaster-system",
+        "gz-user-commands-system",
+        "gz-contact-system",
+        "gz-imu-system",
+        "gz-forcetorque-system",
+        "gz-navsat-system",
+        "gz-altimeter-system",
+        "gz-magnetometer-system",
+    }
+)
+
+# Why others have no device, and what to do instead.
+REASONS = {
+    "gazebo_ros_control": "there is no ros_control here: joints are driven by the drives' plugins, by child scripts "
+    "(sim.setJointTargetVelocity) or by topics that a child script subscribes to",
+}
+
+
+def library(filename: str) -> str:
+    """The library of a file name without what differs between systems and versions.
+
+    libgazebo_ros_laser.so -> gazebo_ros_laser; libignition-gazebo6-diff-drive-system.so -> gz-diff-drive-system
+    """
+    name = PurePosixPath(filename).name.removesuffix(".so").removeprefix("lib")
+    return re.sub(r"^(?:ignition-gazebo|gz-sim)\d*-", "gz-", name)
+
+
+def why_unknown(name: str) -> str:
+    """What to tell about a library that has no device."""
+    if name in REASONS:
+        return REASONS[name]
+    return f"there is no device for it{did_you_mean(nearest_names(name, sorted(DEVICES)))}; the model runs without it"

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""hector_quadrotor's gazebo_ros_baro: how high a link is, as a barometer would tell it."""
+
+from __future__ import annotations
+
+from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
+
+
+class Baro(HectorSensor):
+    """Parameters and defaults are hector's. Its Altimeter message is not known here, so that topic is not there."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters; heights in metres."""
+        super().__init__(place)
+        p = self.parameters
+        self._above = p.number("elevation", 0.0)
+        p.ignore("altimeterTopicName", "qnh")
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "pressure_height"), "geometry_msgs/PointStamped", 1)
+
+    def publish(self) -> None:
+        """Tell the height."""
+        if self.is_due(self._publisher):
+            (height,) = self._noise.on([self.world.pose(self._link)[2] + self._above])
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame), "point": {"z": height}})

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_bumper: what a contact sensor's link touches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bubblesim._core import read_sensor
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
+from bubblesim.geometry.frames import into
+from bubblesim.ros_messages import vector_message
+
+_WORLD = ("/world", "world", "/map", "map")
+
+
+class Bumper(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs: places and forces are in the frame of a link."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._frame = p.text("frameName", "world")
+        self._reference = None if self._frame in _WORLD else self.link("frameName", "")
+        self._readings = NewReadings(self, lambda *sensor: read_sensor(*sensor)[1], p.number("updateRate", 0.0))
+        p.check()
+        self._publisher = self.advertise(p.text("bumperTopicName", "bumper_states"), "gazebo_msgs/ContactsState", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._readings.reset()
+
+    def publish(self) -> None:
+        """Tell what is touched, also that it is nothing."""
+        if self.wanted(self._publisher) and (reading := self._readings.take()):
+            link = self.world.parent(self.place.owner)
+            states = [contact_state(self.world, link, each, self._turned, self._placed) for each in reading.contacts]
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame.lstrip("/")), "states": states})
+
+    def _turned(self, vector: Sequence[float]) -> Sequence[float]:
+        return vector if self._reference is None else into(self.world.pose(self._reference), vector)
+
+    def _placed(self, position: Sequence[float]) -> Sequence[float]:
+        if self._reference is None:
+            return position
+        origin = self.world.pose(self._reference)[:3]
+        return self._turned([at - start for at, start in zip(position, origin, strict=True)])
+
+
+def contact_state(
+    world: Any,
+    link: int,
+    contact: Any,
+    turned: Callable[[Sequence[float]], Sequence[float]] = list,
+    placed: Callable[[Sequence[float]], Sequence[float]] = list,
+) -> Message:
+    """A gazebo_msgs/ContactState of a link, in world axes unless vectors and places are to be turned into others."""
+    forces = [turned(point.force.tolist()) for point in contact.points]
+    total = [sum(along) for along in zip(*forces, strict=True)] if forces else [0.0, 0.0, 0.0]
+    own = f"{_scoped(world, link)}::{contact.collision}"
+    other = f"{_scoped(world, contact.other)}::{contact.other_collision}"
+    return {
+        "info": f"{own} touches {other}",
+        "collision1_name": own,
+        "collision2_name": other,
+        "wrenches": [{"force": vector_message(force)} for force in forces],
+        "total_wrench": {"force": vector_message(total)},
+        "contact_positions": [vector_message(placed(point.position.tolist())) for point in contact.points],
+        "contact_normals": [vector_message(turned(point.normal.tolist())) for point in contact.points],
+        "depths": [point.depth for point in contact.points],
+    }
+
+
+def _scoped(world: Any, link: int) -> str:
+    return f"{world.name(world.model_of(link))}::{world.name(link)}"

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cameras tell about their optics: sensor_msgs/CameraInfo."""
+
+from __future__ import annotations
+
+import math
+
+from bubblesim.gazebo_plugins.device import Message
+from bubblesim.gazebo_plugins.parameters import Parameters
+from bubblesim.ros_messages import pinhole
+
+
+class CameraInfo:
+    """Of a pinhole camera; the parameters are those of gazebo_ros_pkgs."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        """Read them; a centre and a focal length of 0 are those of the picture."""
+        p = parameters
+        self._centre = p.number("Cx", 0.0), p.number("Cy", 0.0)
+        self._focal_length = p.number("focalLength", 0.0)
+        self.baseline = p.number("hackBaseline", 0.0)
+        names = ("distortionK1", "distortionK2", "distortionT1", "distortionT2", "distortionK3")
+        self._distortion = [p.number(name, 0.0) for name in names]
+        p.ignore("CxPrime", "borderCrop", "distortion_k1", "autoDistortion")
+
+    def message(self, width: int, height: int, horizontal_fov: float) -> Message:
+        """It, without its header, for pictures of this size."""
+        f = self._focal_length or width / (2 * math.tan(horizontal_fov / 2))
+        cx, cy = self._centre[0] or (width + 1) / 2, self._centre[1] or (height + 1) / 2
+        return {
+            "height": height,
+            "width": width,
+            "distortion_model": "plumb_bob",
+            "D": self._distortion,
+            **pinhole(f, cx, cy, self.baseline),
+        }

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_openni_kinect and gazebo_ros_depth_camera: depths and clouds of points beside the picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bubblesim.gazebo_plugins.device import Message, Place
+from bubblesim.gazebo_plugins.sensors.camera import Camera, image_message
+
+Array = np.ndarray[Any, Any]
+
+_FLOAT32 = 7  # sensor_msgs/PointField
+_POINT = 32  # bytes of a point, of which x, y and z take 12, and the colour 4 from the 16th on, as in PCL
+_FIELDS = [
+    {"name": name, "offset": offset, "datatype": _FLOAT32, "count": 1}
+    for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))
+]
+
+
+class DepthCamera(Camera):
+    """Depths out of the cut-offs are not a number; points are in the optical frame: z forward, x to the right."""
+
+    image_topic = "ir/image_raw"
+    info_topic = "ir/camera_info"
+    farthest = np.inf  # m, unless the plugin says so
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self._cutoffs = p.number("pointCloudCutoff", 0.4), p.number("pointCloudCutoffMax", self.farthest)
+        p.check()
+        self._depth = self.advertise_more(p.text("depthImageTopicName", "depth/image_raw"), "sensor_msgs/Image")
+        self.advertise_more_infos(p.text("depthImageCameraInfoTopicName", "depth/camera_info"))
+        self._points = self.advertise_more(p.text("pointCloudTopicName", "points"), "sensor_msgs/PointCloud2")
+        self._cloud = DepthCloud(optical=True)
+
+    def tell(self, image: Any, header: Message) -> None:
+        """Publish what somebody listens to."""
+        super().tell(image, header)
+        if not (self.wanted(self._depth) or self.wanted(self._points)):
+            return
+        near, far = self._cutoffs
+        depth = np.where((image.depth > near) & (image.depth < far), image.depth, np.float32(np.nan))
+        if self.wanted(self._depth):
+            self.bridge.publish(self._depth, {"header": header, **image_message(depth, "32FC1")})
+        if self.wanted(self._points):
+            self.bridge.publish(self._points, {"header": header, **self._cloud.message(image, depth)})
+
+
+class OpenniKinect(DepthCamera):
+    """As a Kinect sees: not beyond 5 m."""
+
+    farthest = 5.0
+
+
+class DepthCloud:
+    """Makes clouds of points from the depths of one camera."""
+
+    def __init__(self, *, optical: bool) -> None:
+        """``optical``: in axes with z forward and x to the right; else with x forward and y to the left."""
+        self._optical = optical
+        self._rays: tuple[Array, Array] | None = None  # to the right and down at a depth of 1 m, of columns and rows
+
+    def message(self, image: Any, depth: Array) -> Message:
+        """A sensor_msgs/PointCloud2 without its header, of depths in metres that may be not a number."""
+        height, width = depth.shape
+        if self._rays is None:
+            half = np.tan(image.horizontal_fov / 2) * 2 / width
+            columns, rows = ((np.arange(n) - (n - 1) / 2) * half for n in (width, height))
+            self._rays = columns.astype(np.float32), rows.astype(np.float32)[:, None]
+        points = np.zeros((height, width, _POINT // 4), np.float32)
+        right, down, forward = (0, 1, 2) if self._optical else (1, 2, 0)
+        np.multiply(depth, self._rays[0], out=points[:, :, right])
+        np.multiply(depth, self._rays[1], out=points[:, :, down])
+        if not self._optical:
+            np.negative(points[:, :, 1:3], out=points[:, :, 1:3])
+        points[:, :, forward] = depth
+        if image.rgb is not None:
+            points.view(np.uint8)[:, :, 16:19] = image.rgb[:, :, ::-1]
+        return {
+            "height": height,
+            "width": width,
+            "fields": _FIELDS,
+            "is_bigendian": False,
+            "point_step": _POINT,
+            "row_step": _POINT * width,
+            "data": points.view(np.uint8),
+            "is_dense": not bool(np.isnan(depth).any()),
+        }

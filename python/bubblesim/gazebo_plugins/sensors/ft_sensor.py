@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_ft_sensor: what a joint transmits."""
+
+from __future__ import annotations
+
+from bubblesim._core import read_sensor
+from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.rate import Rate
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.ros_messages import vector_message
+
+
+class FtSensor(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; the joint must have a sensor of type force_torque."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        joint = self.joint("jointName", "")
+        sensors = [part for part in self.world.children(joint) if self.world.kind(part) == "sensor"]
+        if not sensors:
+            raise p.fail("jointName", "names a joint without a <sensor type='force_torque'>: only those are measured")
+        self._sensor = sensors[0]
+        self._frame = self.world.name(self.world.joint_links(joint)[1])
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "wrench"), "geometry_msgs/WrenchStamped", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell force and torque."""
+        if self.wanted(self._publisher) and self._rate.due(self.simulation.time):
+            _, reading = read_sensor(self.simulation, self._sensor)
+            force, torque = self._noise.on(reading.force.tolist()), self._noise.on(reading.torque.tolist())
+            wrench = {"force": vector_message(force), "torque": vector_message(torque)}
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame), "wrench": wrench})

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""hector_gazebo_plugins' gazebo_ros_gps: where a link is on the Earth."""
+
+from __future__ import annotations
+
+import math
+
+from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.ros_messages import vector_message
+
+# WGS 84
+_EQUATORIAL_RADIUS = 6378137.0  # m
+_ECCENTRICITY_SQUARED = 6.69437999014e-3
+
+
+class Gps(HectorSensor):
+    """Parameters and defaults are hector's: with a <referenceHeading> of 0, x is north and y west."""
+
+    default_rate = 4.0
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters; angles in degrees."""
+        super().__init__(place)
+        p = self.parameters
+        self._latitude = p.number("referenceLatitude", 49.9)
+        self._longitude = p.number("referenceLongitude", 8.9)
+        self._altitude = p.number("referenceAltitude", 0.0)
+        self._heading = math.radians(p.number("referenceHeading", 0.0))
+        self._status = {"status": int(p.number("status", 0)), "service": int(p.number("service", 1))}
+        self._velocity_noise = Noise(self, *p.deviations("velocityGaussianNoise"))
+        p.ignore("velocityOffset", "velocityDrift", "velocityDriftFrequency")
+        p.check()
+        self._fix = self.advertise(p.text("topicName", "fix"), "sensor_msgs/NavSatFix", 10)
+        self._velocity = self.advertise(p.text("velocityTopicName", "fix_velocity"), "geometry_msgs/Vector3Stamped", 10)
+
+    def reset(self) -> None:
+        """Start over."""
+        super().reset()
+        self._velocity_noise.reset()
+
+    def publish(self) -> None:
+        """Tell place and velocity."""
+        if not self.is_due(self._fix, self._velocity):
+            return
+        header = self.header(self._frame)
+        x, y, z = self._noise.on(self.world.pose(self._link)[:3])
+        north, west = self._turned(x, y)
+        # Radii of curvature at the reference: along a meridian, and of its parallel.
+        squeezed = 1 - _ECCENTRICITY_SQUARED * math.sin(math.radians(self._latitude)) ** 2
+        across = _EQUATORIAL_RADIUS / math.sqrt(squeezed)
+        meridian = across * (1 - _ECCENTRICITY_SQUARED) / squeezed
+        parallel = across * math.cos(math.radians(self._latitude))
+        self.bridge.publish(
+            self._fix,
+            {
+                "header": header,
+                "status": self._status,
+                "latitude": self._latitude + math.degrees(north / meridian),
+                "longitude": self._longitude - math.degrees(west / parallel),
+                "altitude": self._altitude + z,
+                "position_covariance": self._noise.covariance(3),
+                "position_covariance_type": 2,  # its diagonal is known
+            },
+        )
+        vx, vy, vz = self._velocity_noise.on(self.world.velocity(self._link)[0])
+        velocity = vector_message([*self._turned(vx, vy), vz])
+        self.bridge.publish(self._velocity, {"header": header, "vector": velocity})
+
+    def _turned(self, x: float, y: float) -> tuple[float, float]:
+        """North and west of what lies along x and y."""
+        cos, sin = math.cos(self._heading), math.sin(self._heading)
+        return cos * x + sin * y, -sin * x + cos * y

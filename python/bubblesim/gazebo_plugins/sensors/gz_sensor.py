@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sensors as gz-sim publishes them and ros_gz_bridge brings them to ROS: names are gz-sim's, types are ROS's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from typing import Any
+
+import numpy as np
+
+from bubblesim.gazebo_plugins.device import Message, Place
+from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
+from bubblesim.gazebo_plugins.sensors.camera import image_message
+from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCloud
+from bubblesim.gazebo_plugins.sensors.laser import laser_scan
+from bubblesim.gazebo_plugins.sensors.sensor_topic import MakeMessage, SensorTopic, beside
+
+# By SDFormat's type of the sensor: the system that serves it, and the end of the topic that it has without a <topic>.
+_SERVED = {
+    "lidar": ("gz-sensors-system", "scan"),
+    "gpu_lidar": ("gz-sensors-system", "scan"),
+    "camera": ("gz-sensors-system", "image"),
+    "depth_camera": ("gz-sensors-system", "depth_image"),
+    "rgbd_camera": ("gz-sensors-system", ""),
+    "imu": ("gz-imu-system", "imu"),
+    "navsat": ("gz-navsat-system", "navsat"),
+    "gps": ("gz-navsat-system", "navsat"),
+    "altimeter": ("gz-altimeter-system", "altimeter"),
+    "magnetometer": ("gz-magnetometer-system", "magnetometer"),
+    "contact": ("gz-contact-system", "contact"),
+    "force_torque": ("gz-forcetorque-system", "forcetorque"),
+}
+# Their pictures are of other kinds than those that cameras take here.
+_LEFT_OUT = ("segmentation_camera",)
+
+
+def publishes_as_gz(world: Any, sensor: int, systems: Collection[str]) -> bool:
+    """Whether a sensor without a plugin has a <topic>, or one of gz-sim's systems serves it."""
+    kind, topic, _, _ = world.gz_topic(sensor)
+    if topic.startswith("~") or kind in _LEFT_OUT:  # a ~ is a name of Gazebo's own transport
+        return False
+    return bool(topic) or (kind in _SERVED and _SERVED[kind][0] in systems)
+
+
+class GzSensor(SensorTopic):
+    """On its <topic>, or on /world/WORLD/model/MODEL/link/LINK/sensor/SENSOR/..., in the frame MODEL/LINK/SENSOR.
+
+    A lidar gives the LaserScan of its middle ring, and all points on TOPIC/points; a depth camera its depths in metres
+    and TOPIC/points; an rgbd_camera image, depth_image, points and camera_info below its topic. Points are in the
+    sensor's own axes, x forward. The others are those of SensorTopic.
+    """
+
+    def __init__(self, place: Place) -> None:
+        """Advertise the topics."""
+        self._kind, self._given_topic, self._info_topic, self._given_frame = place.simulation.world.gz_topic(
+            place.owner
+        )
+        self._cloud = DepthCloud(optical=False)
+        super().__init__(place)
+
+    def place_of_topic(self) -> tuple[str, str]:
+        """The sensor's topic and frame."""
+        chain = [self.place.owner]
+        while (parent := self.world.parent(chain[0])) >= 0:
+            chain.insert(0, parent)
+        names = [self.world.name(part) for part in chain]
+        steps = [f"{self.world.kind(part)}/{name}" for part, name in zip(chain, names, strict=True)]
+        _, end = _SERVED.get(self._kind, ("", ""))
+        default = "/".join(["/world", self.simulation.world_name, *steps, end])
+        return _valid(self._given_topic or default), self._given_frame or "/".join(names)
+
+    def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
+        """What is published of a kind of reading: topic, type and what makes the message."""
+        match self._kind:
+            case "lidar" | "gpu_lidar":
+                middle = len(reading.elevations) // 2
+                rays = directions(reading)
+                yield topic, "sensor_msgs/LaserScan", lambda scan: laser_scan(scan, slice(middle, middle + 1))
+                yield (
+                    f"{topic}/points",
+                    "sensor_msgs/PointCloud2",
+                    lambda scan: cloud_of_returns(scan, rays, organized=True),
+                )
+            case "depth_camera":
+                yield topic, "sensor_msgs/Image", _depths
+                yield f"{topic}/points", "sensor_msgs/PointCloud2", self._points
+                yield self.info_output(self._info_topic or beside(topic, "camera_info"))
+            case "rgbd_camera":
+                yield f"{topic}/image", "sensor_msgs/Image", lambda image: image_message(image.rgb, "rgb8")
+                yield f"{topic}/depth_image", "sensor_msgs/Image", _depths
+                yield f"{topic}/points", "sensor_msgs/PointCloud2", self._points
+                yield self.info_output(self._info_topic or f"{topic}/camera_info")
+            case "camera":
+                yield topic, *self.form(reading)
+                yield self.info_output(self._info_topic or beside(topic, "camera_info"))
+            case _:
+                yield from super().outputs(topic, reading)
+
+    def _points(self, image: Any) -> Message:
+        depth = np.where(np.isfinite(image.depth), image.depth, np.float32(np.nan))
+        return self._cloud.message(image, depth)
+
+
+def _depths(image: Any) -> Message:
+    return image_message(image.depth, "32FC1")
+
+
+def _valid(topic: str) -> str:
+    """A name that ROS takes, from the root: what Gazebo's transport allows beside becomes an underscore."""
+    return "/" + re.sub(r"[^A-Za-z0-9_/]", "_", re.sub(r"/+", "/", topic).strip("/"))

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_imu_sensor, of an IMU sensor, and gazebo_ros_imu and hector's, of a link."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bubblesim._core import read_imu
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.rate import Rate
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
+from bubblesim.geometry.frames import into
+from bubblesim.geometry.rotations import product, quaternion_of_rpy
+from bubblesim.ros_messages import vector_message
+
+
+class ImuSensor(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; the sensor's own noise comes first."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace(of_model=True)
+        if p.given("frameName") is None:
+            raise p.fail("frameName", "is missing")
+        self._frame = p.text("frameName", "")
+        self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
+        p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._readings.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell a new reading."""
+        if not (self.wanted(self._publisher) and (reading := self._readings.take())):
+            return
+        orientation = product(self._turn, reading.orientation.tolist())
+        message = imu_message(
+            orientation, reading.angular_velocity.tolist(), reading.linear_acceleration.tolist(), self._noise
+        )
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+
+
+class LinkImu(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs, what is measured is that of REP 145: g upwards at rest."""
+
+    frame_parameter = "frameName"
+    default_topic = "/default_imu"
+    default_service = "/default_imu"
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._link = self.link("bodyName", self.default_body())
+        self._frame = p.text(self.frame_parameter, self.world.name(self._link))
+        self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
+        p.ignore("xyzOffset", "imu")
+        noise = Noise(self, *p.deviations("gaussianNoise"))
+        self.noises = noise, noise  # of the angular velocity and of the acceleration
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        service = self.topic(p.text("serviceName", self.default_service))
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", 1)
+        self.offer(service, "std_srvs/Empty", lambda _: None)  # calibrates, in other drivers
+
+    def default_body(self) -> str:
+        """The link without <bodyName>; none, for that is wanted."""
+        return ""
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+        for noise in self.noises:
+            noise.reset()
+
+    def publish(self) -> None:
+        """Tell how the link moves."""
+        if not (self.wanted(self._publisher) and self._rate.due(self.simulation.time)):
+            return
+        pose = self.world.pose(self._link)
+        pose[3:] = product(self._turn, pose[3:])
+        _, angular = self.world.velocity(self._link)
+        force = [a - g for a, g in zip(self.world.acceleration(self._link), self.world.gravity, strict=True)]
+        message = imu_message(pose[3:], into(pose, angular), into(pose, force), *self.noises)
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+
+
+class HectorImu(LinkImu):
+    """hector_gazebo_plugins' gazebo_ros_imu; offsets and drifts are left out, as is the noise of the heading."""
+
+    frame_parameter = "frameId"
+    default_topic = "imu"
+    default_service = "imu/calibrate"
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        for kind in ("accel", "rate", "heading", "yaw"):
+            self.parameters.ignore(*(f"{kind}{what}" for what in ("Offset", "Drift", "DriftFrequency")))
+        self.parameters.ignore("biasTopicName", "headingGaussianNoise", "yawGaussianNoise")
+        self.noises = self._noise("rateGaussianNoise"), self._noise("accelGaussianNoise")
+        self.parameters.check()
+
+    def default_body(self) -> str:
+        """The model's first link."""
+        return str(self.world.name(self.first_link()))
+
+    def _noise(self, parameter: str) -> Noise:
+        """By a deviation, or by one for each axis."""
+        return Noise(self, *self.parameters.deviations(parameter))
+
+
+def imu_message(
+    orientation: Sequence[float],
+    angular: Sequence[float],
+    linear: Sequence[float],
+    noise: Noise,
+    noise_of_linear: Noise | None = None,
+) -> Message:
+    """A sensor_msgs/Imu without its header; the acceleration's noise is that of all unless it has its own."""
+    noise_of_linear = noise_of_linear or noise
+    covariance = noise.covariance(3)
+    return {
+        "orientation": dict(zip("xyzw", orientation, strict=True)),
+        "orientation_covariance": covariance,
+        "angular_velocity": vector_message(noise.on(angular)),
+        "angular_velocity_covariance": covariance,
+        "linear_acceleration": vector_message(noise_of_linear.on(linear)),
+        "linear_acceleration_covariance": noise_of_linear.covariance(3),
+    }

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_laser and gazebo_ros_gpu_laser: a lidar's scans."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim._core import read_lidar
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
+
+
+class Laser(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; ranges beyond the greatest are infinite (REP 117)."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._frame = self.frame(p.text("frameName", "/world"))
+        self._scans = NewReadings(self, read_lidar, p.number("updateRate", 0.0, least=0.0))
+        p.ignore("gaussianNoise", "hokuyoMinIntensity")  # the sensor's own <noise> is what counts
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "/world"), "sensor_msgs/LaserScan", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._scans.reset()
+
+    def publish(self) -> None:
+        """Tell a new scan."""
+        if self.wanted(self._publisher) and (scan := self._scans.take()):
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **laser_scan(scan)})
+
+
+def laser_scan(scan: Any, rings: slice = slice(None)) -> Message:
+    """A sensor_msgs/LaserScan without its header; all rings one after another, as Gazebo has them, or some."""
+    return {
+        "angle_min": scan.angle_min,
+        "angle_max": scan.angle_max,
+        "angle_increment": scan.angle_increment,
+        "range_min": scan.min_range,
+        "range_max": scan.max_range,
+        "ranges": scan.ranges[rings].reshape(-1),
+        "intensities": scan.intensities[rings].reshape(-1),
+    }

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""hector_gazebo_plugins' gazebo_ros_magnetic: the magnetic field of the Earth as a link feels it."""
+
+from __future__ import annotations
+
+import math
+
+from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
+from bubblesim.geometry.frames import into
+from bubblesim.ros_messages import vector_message
+
+
+class Magnetic(HectorSensor):
+    """Parameters and defaults are hector's: the field is told by its magnitude, inclination and declination (degrees).
+
+    With <useMagneticFieldMsgs> the message is a sensor_msgs/MagneticField, else a geometry_msgs/Vector3Stamped.
+    """
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        magnitude = p.number("magnitude", 1.0)
+        inclination = math.radians(p.number("inclination", 60.0))
+        heading = math.radians(p.number("referenceHeading", 0.0) - p.number("declination", 0.0))
+        level = magnitude * math.cos(inclination)
+        self._field = [level * math.cos(heading), level * math.sin(heading), -magnitude * math.sin(inclination)]
+        self._as_field = p.flag("useMagneticFieldMsgs", default=False)
+        p.check()
+        message_type = "sensor_msgs/MagneticField" if self._as_field else "geometry_msgs/Vector3Stamped"
+        self._publisher = self.advertise(p.text("topicName", "magnetic"), message_type, 1)
+
+    def publish(self) -> None:
+        """Tell the field in the link's frame."""
+        if not self.is_due(self._publisher):
+            return
+        felt = vector_message(self._noise.on(into(self.world.pose(self._link), self._field)))
+        told = {"magnetic_field": felt} if self._as_field else {"vector": felt}
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **told})

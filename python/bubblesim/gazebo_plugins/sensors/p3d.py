@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_p3d: where a link really is."""
+
+from __future__ import annotations
+
+from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.rate import Rate
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.geometry.frames import state_in
+from bubblesim.geometry.rotations import product, quaternion_of_rpy
+from bubblesim.ros_messages import pose_message, vector_message
+
+_WORLD = ("/world", "world", "/map", "map", "")
+
+
+class P3D(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._link = self.link("bodyName", "")
+        self._frame = p.text("frameName", "world")
+        self._reference = None if self._frame in _WORLD else self.link("frameName", "")
+        self._offset = p.numbers("xyzOffset", p.numbers("xyzOffsets", (0.0, 0.0, 0.0)))
+        self._turn = quaternion_of_rpy(p.numbers("rpyOffset", p.numbers("rpyOffsets", (0.0, 0.0, 0.0))))
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", "odom"), "nav_msgs/Odometry", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._rate.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell pose and velocity; the velocity along the axes of the frame."""
+        if not (self.wanted(self._publisher) and self._rate.due(self.simulation.time)):
+            return
+        pose, linear, angular = state_in(self.world, self._link, self._reference)
+        position = [at + offset for at, offset in zip(pose[:3], self._offset, strict=True)]
+        placed = [*position, *product(self._turn, pose[3:])]
+        covariance = self._noise.covariance(6)
+        self.bridge.publish(
+            self._publisher,
+            {
+                "header": self.header(self._frame.lstrip("/")),
+                "child_frame_id": self.world.name(self._link),
+                "pose": {"pose": pose_message(placed), "covariance": covariance},
+                "twist": {
+                    "twist": {
+                        "linear": vector_message(self._noise.on(linear)),
+                        "angular": vector_message(self._noise.on(angular)),
+                    },
+                    "covariance": covariance,
+                },
+            },
+        )

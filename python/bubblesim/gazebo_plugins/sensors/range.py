@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_range and hector's sonar: the nearest thing that a lidar's rays meet, as range sensors tell it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim._core import read_lidar
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
+
+_RADIATIONS = {"ultrasound": 0, "infrared": 1}  # sensor_msgs/Range
+
+
+class Range(Device):
+    """Parameters and defaults are those of gazebo_ros_pkgs; nothing in range is told as the greatest range."""
+
+    frame_parameter = "frameName"
+    default_frame = "world"
+    default_topic = "/range"
+    default_fov: float | None = 0.05  # rad; None for the angle that the rays span
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._frame = p.text(self.frame_parameter, self.default_frame).lstrip("/")
+        self._radiation = p.choice("radiation", "ultrasound", _RADIATIONS)
+        self._fov = self.default_fov if p.given("fov") is None else p.number("fov", 0.0, least=0.0)
+        self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._scans = NewReadings(self, read_lidar, p.number("updateRate", 0.0, least=0.0))
+        p.check()
+        self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Range", 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._scans.reset()
+        self._noise.reset()
+
+    def publish(self) -> None:
+        """Tell a new range."""
+        if self.wanted(self._publisher) and (scan := self._scans.take()):
+            fov = scan.angle_max - scan.angle_min if self._fov is None else self._fov
+            message = {"radiation_type": self._radiation, "field_of_view": fov, **self._range(scan)}
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+
+    def _range(self, scan: Any) -> Message:
+        nearest = float(scan.ranges.min())
+        if nearest < scan.max_range:
+            nearest = min(max(self._noise.on([nearest])[0], scan.min_range), scan.max_range)
+        return {
+            "min_range": scan.min_range,
+            "max_range": scan.max_range,
+            "range": min(nearest, scan.max_range),
+        }
+
+
+class HectorSonar(Range):
+    """hector_gazebo_plugins' gazebo_ros_sonar."""
+
+    frame_parameter = "frameId"
+    default_frame = "sonar_link"
+    default_topic = "sonar"
+    default_fov = None
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        self.parameters.ignore("offset", "drift", "driftFrequency")

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_ray_sensor of ROS 2: a lidar as a scan or as a cloud of points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bubblesim._core import read_lidar
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
+from bubblesim.gazebo_plugins.sensors.laser import laser_scan
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
+
+_OUTPUTS: dict[str, Callable[[Any], Message]] = {
+    "sensor_msgs/PointCloud2": lambda scan: cloud_of_returns(scan, directions(scan)),
+    "sensor_msgs/LaserScan": laser_scan,
+}
+_OUT = "~/out:="
+
+
+class RaySensor(Device):
+    """Its topic is PLUGIN/out, or what <ros><remapping>~/out:=TOPIC</remapping></ros> says; the frame is the link's."""
+
+    def __init__(self, place: Place) -> None:
+        """Read the parameters."""
+        super().__init__(place)
+        p = self.parameters
+        self.enter_namespace()
+        self._frame = p.text("frameName", self.world.name(self.world.parent(place.owner)))
+        message_type = p.text("outputType", "sensor_msgs/PointCloud2")
+        if message_type not in _OUTPUTS:
+            raise p.fail("outputType", f"is '{message_type}', it must be {' or '.join(_OUTPUTS)}")
+        self._form = _OUTPUTS[message_type]
+        p.ignore("minIntensity", "radiationType")
+        remapping = p.child("ros", "remapping") or ""
+        topic = remapping.removeprefix(_OUT) if remapping.startswith(_OUT) else f"{p.plugin.name}/out"
+        self._scans = NewReadings(self, read_lidar)
+        p.check()
+        self._publisher = self.advertise(topic, message_type, 1)
+
+    def reset(self) -> None:
+        """Start over."""
+        self._scans.reset()
+
+    def publish(self) -> None:
+        """Tell a new scan."""
+        if self.wanted(self._publisher) and (scan := self._scans.take()):
+            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **self._form(scan)})

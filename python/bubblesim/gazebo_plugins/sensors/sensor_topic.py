@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sensors that are published without a plugin, by their <bubblesim:topic>."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bubblesim._core import CameraImage, camera_optics, read_sensor, reading_time
+from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
+from bubblesim.gazebo_plugins.sensors.bumper import contact_state
+from bubblesim.gazebo_plugins.sensors.camera import image_message
+from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
+from bubblesim.gazebo_plugins.sensors.imu import imu_message
+from bubblesim.gazebo_plugins.sensors.laser import laser_scan
+from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.ros_messages import vector_message
+
+MakeMessage = Callable[[Any], Message]  # of a reading; without its header
+
+
+@dataclass(frozen=True)
+class OwnTopic:
+    """Stands where a plugin stands for other devices: there is none."""
+
+    file: str  # the sensor's path
+    name: str = "bubblesim:topic"
+    line: int = 0
+    filename: str = "no plugin"
+    parameters: list[Any] = field(default_factory=list)
+
+
+class SensorTopic(Device):
+    """The type follows from the kind of sensor, and the frame is the sensor's link unless <bubblesim:frame> names one.
+
+    A sonar gives a Range, infinite for nothing in range (REP 117); a lidar of one ring a LaserScan, of several a
+    PointCloud2; a camera an Image, in metres from a depth camera, with a camera_info beside it; an IMU an Imu; a GPS
+    receiver a NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a
+    MagneticField; a contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
+    """
+
+    def __init__(self, place: Place) -> None:
+        """Advertise the topics."""
+        super().__init__(place)
+        self._topic, self._frame = self.place_of_topic()
+        self._time: float | None = None
+        self._info = CameraInfo(self.parameters)
+        _, reading = read_sensor(self.simulation, place.owner)
+        self._outputs = [
+            (self.advertise(topic, message_type, 1), message)
+            for topic, message_type, message in self.outputs(self._topic, reading)
+        ]
+
+    def place_of_topic(self) -> tuple[str, str]:
+        """The sensor's topic and frame."""
+        topic, frame, _ = self.world.sensor_topic(self.place.owner)
+        return topic, frame or self.world.name(self.world.parent(self.place.owner))
+
+    def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
+        """What is published of a kind of reading: topic, type and what makes the message."""
+        yield topic, *self.form(reading)
+        if isinstance(reading, CameraImage):
+            yield self.info_output(beside(topic, "camera_info"))
+
+    def info_output(self, topic: str) -> tuple[str, str, MakeMessage]:
+        """The optics of a camera."""
+        return topic, "sensor_msgs/CameraInfo", self._optics
+
+    def reset(self) -> None:
+        """Time may start again."""
+        self._time = None
+
+    def publish(self) -> None:
+        """Publish a new measurement; a camera's optics alone do not have it measure."""
+        wanted = [output for output in self._outputs if self.wanted(output[0])]
+        if not wanted:
+            return
+        time = reading_time(self.simulation, self.place.owner)
+        if time == self._time:
+            return
+        self._time = time
+        header = self.header(self._frame)
+        optics_alone = all(message == self._optics for _, message in wanted)
+        reading = None if optics_alone else read_sensor(self.simulation, self.place.owner)[1]
+        for publisher, message in wanted:
+            self.bridge.publish(publisher, {"header": header, **message(reading)})
+
+    def _optics(self, _: Any) -> Message:
+        return self._info.message(*camera_optics(self.simulation, self.place.owner))
+
+    def form(self, reading: Any) -> tuple[str, MakeMessage]:
+        """The type of the message, and what makes it."""
+        match type(reading).__name__:
+            case "ProximityReading":
+                return "sensor_msgs/Range", self._range
+            case "LidarScan" if len(reading.elevations) == 1:
+                return "sensor_msgs/LaserScan", laser_scan
+            case "LidarScan":
+                rays = directions(reading)
+                return "sensor_msgs/PointCloud2", lambda scan: cloud_of_returns(scan, rays)
+            case "CameraImage":
+                return "sensor_msgs/Image", picture
+            case "ImuReading":
+                exact = Noise(self, 0.0)
+                return "sensor_msgs/Imu", lambda imu: imu_message(
+                    imu.orientation.tolist(), imu.angular_velocity.tolist(), imu.linear_acceleration.tolist(), exact
+                )
+            case "NavSatReading":
+                return "sensor_msgs/NavSatFix", _fix
+            case "AltimeterReading":
+                return "geometry_msgs/PointStamped", lambda reading: {"point": {"z": reading.height}}
+            case "MagnetometerReading":
+                return "sensor_msgs/MagneticField", lambda reading: {
+                    "magnetic_field": vector_message(reading.field.tolist())
+                }
+            case "ContactReading":
+                return "gazebo_msgs/ContactsState", self._contacts
+            case "ForceTorqueReading":
+                return "geometry_msgs/WrenchStamped", _wrench
+            case kind:
+                raise ValueError(f"there is no message for a {kind}: take it out, or read it in a script")
+
+    def _contacts(self, reading: Any) -> Message:
+        link = self.world.parent(self.place.owner)
+        return {"states": [contact_state(self.world, link, contact) for contact in reading.contacts]}
+
+    def _range(self, reading: Any) -> Message:
+        least, most, angle = self.world.sonar_limits(self.place.owner)
+        return {
+            "radiation_type": 0,  # ultrasound
+            "field_of_view": 2 * angle,
+            "min_range": least,
+            "max_range": most,
+            "range": reading.distance if reading.detected else np.inf,
+        }
+
+
+def picture(image: Any) -> Message:
+    """A sensor_msgs/Image of colours, or of depths in metres when there are none."""
+    return image_message(image.depth, "32FC1") if image.rgb is None else image_message(image.rgb, "rgb8")
+
+
+def _fix(reading: Any) -> Message:
+    return {
+        "status": {"status": 0, "service": 1},  # a fix, by GPS
+        "latitude": reading.latitude,
+        "longitude": reading.longitude,
+        "altitude": reading.altitude,
+    }
+
+
+def _wrench(reading: Any) -> Message:
+    parts = {"force": reading.force, "torque": reading.torque}
+    return {"wrench": {name: vector_message(vector.tolist()) for name, vector in parts.items()}}
+
+
+def beside(topic: str, name: str) -> str:
+    """Another topic in the namespace of one."""
+    space, slash, _ = topic.rpartition("/")
+    return f"{space}{slash}{name}"

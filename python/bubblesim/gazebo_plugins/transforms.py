@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What devices tell on /tf, in one message a pass."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bubblesim.ros_messages import transform
+
+_QUEUE_SIZE = 100
+
+
+def wanted(bridge: Any, publisher: int) -> bool:
+    """Whether somebody listens, or a bag keeps all."""
+    return bool(bridge.wants_messages(publisher) or getattr(bridge, "keeps_all", False))
+
+
+class Transforms:
+    """Gathers transforms; the topic is there from the first one on."""
+
+    def __init__(self, bridge: Any) -> None:
+        """Use this bridge."""
+        self._bridge = bridge
+        self._publisher: int | None = None
+        self._waiting: list[dict[str, Any]] = []
+
+    def add(self, header: dict[str, Any], child: str, pose: Sequence[float]) -> None:
+        """Pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
+        if self._publisher is None:
+            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
+        if not wanted(self._bridge, self._publisher):
+            return
+        self._waiting.append(transform(header["stamp"], header["frame_id"], child, pose))
+
+    def publish(self) -> None:
+        """Send those of this pass."""
+        if self._waiting:
+            self._bridge.publish(self._publisher, {"transforms": self._waiting})
+            self._waiting = []

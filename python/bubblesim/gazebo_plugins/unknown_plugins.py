@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reports plugins that have no device."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from bubblesim.gazebo_plugins.parameters import where
+from bubblesim.gazebo_plugins.registry import DEVICES, NOT_NEEDED, library, why_unknown
+from bubblesim.output import write_line
+
+
+class UnknownPlugins:
+    """Warns once of each place in a file, however many models are made of it."""
+
+    def __init__(self) -> None:
+        """Nothing is reported yet."""
+        self._warned: set[tuple[str, str, int]] = set()
+
+    def report(self, plugin: Any) -> None:
+        """Warn of a plugin that has no device and needs one."""
+        name = library(plugin.filename)
+        if name not in DEVICES and name not in NOT_NEEDED:
+            self.warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}): {why_unknown(name)}")
+
+    def warn(self, plugin: Any, text: str) -> None:
+        """Write a warning with the place of a plugin."""
+        key = (text, plugin.file, plugin.line)
+        if key not in self._warned:
+            self._warned.add(key)
+            write_line(sys.stderr, f"warning: {where(plugin)}: {text}")
+
+
+def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
+    """The plugins of an object and of all below it, each with the object that has it."""
+    for plugin in world.plugins(handle):
+        yield handle, plugin
+    for child in world.children(handle):
+        yield from plugins_below(world, child)
+
+
+def report_unknown_plugins(simulation: Any) -> None:
+    """Warn of all plugins of a simulation that have no device."""
+    unknown = UnknownPlugins()
+    for plugin in simulation.plugins:
+        unknown.report(plugin)
+    for model in simulation.world.models:
+        for _, plugin in plugins_below(simulation.world, model):
+            unknown.report(plugin)

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions that scripts may call: found in the classes of the modules, checked by their annotations.
+
+A module (`sim`, `simROS`) is a class; each public method is a function of it, its annotations tell what arguments it
+takes and its docstring what it does. Lua, the reference pages and `help` all read them from here.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import operator
+import typing
+from collections.abc import Callable, Sized
+from dataclasses import dataclass
+from typing import Any, SupportsIndex, TypeVar
+
+from bubblesim.scripting.api.kinds import HANDLE, PLAIN, HandleError, Kind, MismatchError, shown
+from bubblesim.scripting.api.missing_names import explain
+from bubblesim.scripting.threads.script_thread import by_ident, current
+
+Module = TypeVar("Module", bound=type)
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+MODULES: dict[str, type] = {}  # by the names that scripts know them by
+
+
+@dataclass(frozen=True)
+class ScriptFunction:
+    """A function of a module, as it is documented."""
+
+    name: str
+    signature: inspect.Signature  # without self
+    doc: str
+    group: type  # the class that holds the functions about one thing
+
+
+class ArgumentError(TypeError):
+    """A call that does not fit the function; the text names function, argument, what it takes and what was given."""
+
+
+def script_module(name: str) -> Callable[[Module], Module]:
+    """Make a class the module ``name`` of scripts: its public methods check what they are called with."""
+
+    def register(module: Module) -> Module:
+        for function_name, function in _public_methods(module):
+            setattr(module, function_name, _checked(f"{name}.{function_name}", function))
+        setattr(module, "__getattr__", _no_such(name, module))  # noqa: B010  # or mypy would take any name of it
+        MODULES[name] = module
+        return module
+
+    return register
+
+
+def value_first(function: Function) -> Function:
+    """Let a function (handle, value, reference) also take (handle, reference, value), as older scripts call it."""
+
+    def reorder(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        if len(arguments) == 3 and isinstance(arguments[1], SupportsIndex) and not isinstance(arguments[1], Sized):
+            return arguments[0], arguments[2], arguments[1]
+        return arguments
+
+    function.reorder = reorder  # type: ignore[attr-defined]
+    return function
+
+
+def any_time(function: Function) -> Function:
+    """Let a script's thread call a function also when it has no turn to work on the simulation."""
+    function.any_time = True  # type: ignore[attr-defined]
+    return function
+
+
+def checked_on_failure(function: Function) -> Function:
+    """Look at the arguments only when the call raises a TypeError: for functions in which each microsecond counts."""
+    function.checked_on_failure = True  # type: ignore[attr-defined]
+    return function
+
+
+def functions(module: type) -> list[ScriptFunction]:
+    """All functions of a module, by name."""
+    found = []
+    for name, function in _public_methods(module):
+        group = next(base for base in reversed(module.__mro__) if name in vars(base))
+        found.append(ScriptFunction(name, _signature(function), inspect.getdoc(function) or "", group))
+    return found
+
+
+def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
+    """What the parameters of a function take, by name; None for anything."""
+    hints = typing.get_type_hints(getattr(module, function), include_extras=True)
+    return {name: _kind(hint) for name, hint in hints.items() if name != "return"}
+
+
+def _no_such(name: str, module: type) -> Callable[[object, str], Any]:
+    """What reports names that a module does not have."""
+
+    def refuse(self: object, wanted: str) -> Any:
+        raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
+
+    return refuse
+
+
+def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:
+    members = inspect.getmembers(module, inspect.isfunction)
+    return [(name, function) for name, function in members if not name.startswith("_")]
+
+
+def _signature(function: Callable[..., Any]) -> inspect.Signature:
+    signature = inspect.signature(function)
+    return signature.replace(parameters=list(signature.parameters.values())[1:])
+
+
+def _kind(hint: Any) -> Kind | None:
+    """What a parameter takes; None for anything."""
+    for extra in getattr(hint, "__metadata__", ()):
+        if isinstance(extra, Kind):
+            return extra
+    return PLAIN.get(hint)
+
+
+def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    signature = _signature(function)
+    hints = typing.get_type_hints(function, include_extras=True)
+    kinds = [_kind(hints.get(parameter)) for parameter in signature.parameters]
+    converters = [kind.convert if kind else _as_it_is for kind in kinds]
+    reorder = getattr(function, "reorder", None)
+    at_any_time = hasattr(function, "any_time")
+    most = len(converters)
+    least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
+
+    @functools.wraps(function)
+    def call_first(*arguments: Any, **named: Any) -> Any:  # self among them: taking them apart takes time
+        if named:
+            arguments = (arguments[0], *_bound(full_name, signature, arguments[1:], named))
+        try:
+            if by_ident and (thread := current()):
+                with thread.turn():
+                    return function(*arguments)
+            return function(*arguments)
+        except TypeError:
+            arguments = _bound(full_name, signature, arguments[1:], {})
+            if not _fit(kinds, arguments):
+                raise _argument_error(full_name, signature, kinds, arguments) from None
+            raise
+
+    if getattr(function, "checked_on_failure", False):
+        return call_first
+
+    def converted(arguments: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
+        if reorder is not None:
+            arguments = reorder(arguments)
+        if named or not least <= len(arguments) <= most:
+            arguments = _bound(full_name, signature, arguments, named)
+        try:
+            return tuple(map(operator.call, converters, arguments))  # stops where defaults begin
+        except (TypeError, ValueError, OverflowError):
+            raise _argument_error(full_name, signature, kinds, arguments) from None
+
+    plain = _plain_types(kinds, least)
+
+    @functools.wraps(function)
+    def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
+        if named or tuple(map(type, arguments)) not in plain:
+            arguments = converted(arguments, named)
+        try:
+            if by_ident and not at_any_time and (thread := current()):
+                with thread.turn():
+                    return function(self, *arguments)
+            return function(self, *arguments)
+        except HandleError as error:
+            raise _located(full_name, signature, kinds, arguments, error) from None
+
+    return call
+
+
+def _plain_types(kinds: list[Kind | None], least: int) -> set[tuple[type, ...]]:
+    """The types of arguments, at least so many, that a function takes as they are: most calls are of these."""
+    types: list[type] = []
+    for kind in kinds:
+        if kind is None or kind.plain is None:
+            break
+        types.append(kind.plain)
+    return {tuple(types[:count]) for count in range(least, len(types) + 1)}
+
+
+def _fit(kinds: list[Kind | None], arguments: tuple[Any, ...]) -> bool:
+    try:
+        for kind, argument in zip(kinds, arguments):  # noqa: B905  # defaults may be left out
+            if kind is not None:
+                kind.convert(argument)
+    except (TypeError, ValueError, OverflowError):
+        return False
+    return True
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _bound(
+    full_name: str, signature: inspect.Signature, arguments: tuple[Any, ...], named: dict[str, Any]
+) -> tuple[Any, ...]:
+    """The arguments by position."""
+    try:
+        bound = signature.bind(*arguments, **named)
+    except TypeError as error:
+        names = ", ".join(str(p).partition(":")[0].partition("=")[0].strip() for p in signature.parameters.values())
+        raise ArgumentError(f"{full_name}({names}): {error}") from None
+    if named:  # those left out in between
+        bound.apply_defaults()
+    return bound.args
+
+
+def _located(
+    full_name: str,
+    signature: inspect.Signature,
+    kinds: list[Kind | None],
+    arguments: tuple[Any, ...],
+    error: HandleError,
+) -> HandleError:
+    """The error with the function that the script called, and the argument that was no handle."""
+    for number, (name, kind, value) in enumerate(zip(signature.parameters, kinds, arguments), start=1):  # noqa: B905
+        if kind is HANDLE and value == error.handle:
+            return HandleError(error.handle, f"{full_name}: argument {number}, {name}: ")
+    return HandleError(error.handle, f"{full_name}: ")
+
+
+def _argument_error(
+    full_name: str, signature: inspect.Signature, kinds: list[Kind | None], arguments: tuple[Any, ...]
+) -> ArgumentError:
+    for number, (name, kind, value) in enumerate(zip(signature.parameters, kinds, arguments), start=1):  # noqa: B905
+        if kind is None:
+            continue
+        try:
+            kind.convert(value)
+        except (TypeError, ValueError, OverflowError) as error:
+            found = str(error) if isinstance(error, MismatchError) else f"found {shown(value)}"
+            return ArgumentError(f"{full_name}: argument {number}, {name}: expected {kind.words}, {found}")
+    raise AssertionError("no argument is wrong")

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the reference page of a module of child scripts: ``python -m bubblesim.scripting.api.reference sim``."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Mapping
+
+from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
+
+_INTRODUCTION = """\
+# {name}
+
+<!-- Generated from the functions themselves by `python -m bubblesim.scripting.api.reference {name}`. -->
+
+What child scripts find in `{name}`. A call that does not fit raises a TypeError that names the function, the argument,
+what it takes and what was given; SI units and radians throughout.
+"""
+
+
+def page(name: str) -> str:
+    """The page as Markdown, its functions grouped by what they are about."""
+    module = MODULES[name]
+    found = functions(module)
+    parts = [_INTRODUCTION.format(name=name)]
+    for group in dict.fromkeys(base for base in module.__mro__ if any(f.group is base for f in found)):
+        parts.append(f"## {_title(group, module)}\n\n{inspect.getdoc(group)}\n")
+        parts.append("\n".join(_entry(name, function) for function in found if function.group is group) + "\n")
+    return "\n".join(parts)
+
+
+def _title(group: type, module: type) -> str:
+    if group is module:
+        return "Names of its own"
+    return group.__name__.removesuffix("Functions").removeprefix("Ros")
+
+
+def _entry(module: str, function: ScriptFunction) -> str:
+    return f"- `{call(f'{module}.{function.name}', function)}`: {text(function)}"
+
+
+def call(name: str, function: ScriptFunction) -> str:
+    """How a function is called, defaults included."""
+    arguments = ", ".join(
+        name if parameter.default is inspect.Parameter.empty else f"{name}={_shown(parameter.default)}"
+        for name, parameter in function.signature.parameters.items()
+    )
+    return f"{name}({arguments})"
+
+
+def text(function: ScriptFunction) -> str:
+    """What a function does, in one line."""
+    return " ".join(function.doc.split()).replace("``", "`")
+
+
+def _shown(default: object) -> str:
+    return "{}" if isinstance(default, Mapping) else repr(default)
+
+
+def main() -> int:
+    """Print the page of the module that is named."""
+    if len(sys.argv) != 2 or sys.argv[1] not in MODULES:
+        print(f"usage: python -m bubblesim.scripting.api.reference {'|'.join(MODULES)}", file=sys.stderr)
+        return 2
+    print(page(sys.argv[1]), end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`simROS2` functions about actions, which are actionlib's on the wire."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim.scripting.api.ros.action_client import ActionClient, ResultCode
+from bubblesim.scripting.api.ros.action_server import ACCEPT, DEFER, REJECT, ActionServer
+from bubblesim.scripting.api.ros.action_topics import ActionTopics, GoalStatus
+from bubblesim.scripting.api.ros.context import RosContext
+from bubblesim.scripting.api.ros.kinds import CallbackOrName, RosHandle
+from bubblesim.scripting.api.ros.stamps import Message
+from bubblesim.scripting.caller import Caller
+
+
+class RosActions(RosContext):
+    """Action clients and servers of one script; they are shut down when the script ends.
+
+    An action type is given as `actionlib/Test` or `actionlib/action/Test`, for which there must be the messages
+    TestActionGoal, TestActionFeedback and TestActionResult.
+    """
+
+    action_result_code_succeeded = int(ResultCode.SUCCEEDED)
+    action_result_code_aborted = int(ResultCode.ABORTED)
+    action_result_code_canceled = int(ResultCode.CANCELED)
+    action_result_code_unknown = int(ResultCode.UNKNOWN)
+    goal_response_reject = REJECT
+    goal_response_accept_and_execute = ACCEPT
+    goal_response_accept_and_defer = DEFER
+    cancel_response_reject = REJECT
+    cancel_response_accept = ACCEPT
+
+    def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
+        """Bind the functions to one script."""
+        super().__init__(bridge, simulation, caller)
+        self._action_clients: dict[int, ActionClient] = {}
+        self._action_servers: dict[int, ActionServer] = {}
+
+    def createActionClient(
+        self,
+        name: str,
+        action_type: str,
+        goal_response_callback: CallbackOrName,
+        feedback_callback: CallbackOrName,
+        result_callback: CallbackOrName,
+    ) -> int:
+        """Make a client of an action and return its handle.
+
+        ``goal_response_callback(goal_id, accepted)`` comes once for each goal; for one that was accepted,
+        ``feedback_callback(goal_id, feedback)`` any number of times, and ``result_callback(goal_id, code, result)``
+        once. The code is one of simROS2.action_result_code_succeeded (4), _canceled (5), _aborted (6), which are ROS
+        2's numbers, and _unknown (0) for a goal that the server does not know any more.
+        """
+        callbacks = map(self._caller.callback, (goal_response_callback, feedback_callback, result_callback))
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
+        with topics.closed_on_error():
+            client = ActionClient(topics, *callbacks)
+        self._action_clients[client.handle] = client
+        self._caller.in_each_pass["action client", client.handle] = client.send_outgoing
+        self._caller.at_end["action client", client.handle] = lambda: self.shutdownActionClient(client.handle)
+        return client.handle
+
+    def sendGoal(self, client: RosHandle, goal: Message) -> str:
+        """Send a goal and return its id. While no server is there the goal waits for one; the call never does."""
+        return self._action_client(client).send_goal(goal)
+
+    def cancelLastGoal(self, client: RosHandle) -> bool:
+        """Ask the server to cancel the goal sent last; False when none was sent or it is over."""
+        return self._action_client(client).cancel_last_goal()
+
+    def shutdownActionClient(self, client: RosHandle) -> None:
+        """Drop a client; its goals go on, its handle cannot be used any more."""
+        self._action_client(client).close()
+        del self._action_clients[client]
+        self._forget("action client", client)
+
+    def createActionServer(
+        self,
+        name: str,
+        action_type: str,
+        handle_goal_callback: CallbackOrName,
+        handle_cancel_callback: CallbackOrName,
+        handle_accepted_callback: CallbackOrName,
+    ) -> int:
+        """Offer an action and return the server's handle.
+
+        ``handle_goal_callback(goal_id, goal)`` returns whether to accept a goal: False, True, or one of
+        simROS2.goal_response_reject, _accept_and_execute, _accept_and_defer (then the goal is pending until
+        actionServerActionExecute). ``handle_cancel_callback(goal_id, goal)`` returns whether to accept a request to
+        cancel, which actionServerActionCanceled then completes. ``handle_accepted_callback(goal_id, goal)`` starts
+        the goal's execution.
+        """
+        handle_goal = self._caller.answering_callback(handle_goal_callback, _check_goal_response)
+        handle_cancel = self._caller.answering_callback(handle_cancel_callback, _check_cancel_response)
+        handle_accepted = self._caller.callback(handle_accepted_callback)
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
+        with topics.closed_on_error():
+            server = ActionServer(topics, handle_goal, handle_cancel, handle_accepted)
+        self._action_servers[server.handle] = server
+        self._caller.in_each_pass["action server", server.handle] = server.publish_status_when_due
+        self._caller.at_end["action server", server.handle] = lambda: self.shutdownActionServer(server.handle)
+        return server.handle
+
+    def shutdownActionServer(self, server: RosHandle) -> None:
+        """Stop offering an action; the handle cannot be used any more."""
+        self._action_server(server).close()
+        del self._action_servers[server]
+        self._forget("action server", server)
+
+    def actionServerPublishFeedback(self, server: RosHandle, goal_id: str, feedback: Message) -> None:
+        """Tell the client of a goal how far it is."""
+        self._action_server(server).publish_feedback(goal_id, feedback)
+
+    def actionServerActionExecute(self, server: RosHandle, goal_id: str) -> None:
+        """Start a goal that was accepted with simROS2.goal_response_accept_and_defer."""
+        self._action_server(server).execute(goal_id)
+
+    def actionServerActionSucceed(self, server: RosHandle, goal_id: str, result: Message) -> None:
+        """End a goal that is being executed: it has been reached."""
+        self._action_server(server).finish(goal_id, "succeed", result)
+
+    def actionServerActionAbort(self, server: RosHandle, goal_id: str, result: Message) -> None:
+        """End a goal that is being executed: it cannot be reached."""
+        self._action_server(server).finish(goal_id, "abort", result)
+
+    def actionServerActionCanceled(self, server: RosHandle, goal_id: str, result: Message) -> None:
+        """End a goal that is pending or being executed: it was cancelled."""
+        self._action_server(server).finish(goal_id, "be canceled", result)
+
+    def actionServerActionIsCanceling(self, server: RosHandle, goal_id: str) -> bool:
+        """Whether cancelling was requested and accepted, and the goal is not over."""
+        return self._action_server(server).is_in(goal_id, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
+
+    def actionServerActionIsActive(self, server: RosHandle, goal_id: str) -> bool:
+        """Whether the goal is pending, being executed or being cancelled; False when over or not known."""
+        active = (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
+        return self._action_server(server).is_in(goal_id, *active)
+
+    def actionServerActionIsExecuting(self, server: RosHandle, goal_id: str) -> bool:
+        """Whether the goal is being executed and not being cancelled."""
+        return self._action_server(server).is_in(goal_id, GoalStatus.ACTIVE)
+
+    def actionClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def _action_client(self, handle: int) -> ActionClient:
+        if handle not in self._action_clients:
+            raise ValueError(f"invalid object handle {handle}: no such action client, or it was shut down")
+        return self._action_clients[handle]
+
+    def _action_server(self, handle: int) -> ActionServer:
+        if handle not in self._action_servers:
+            raise ValueError(f"invalid object handle {handle}: no such action server, or it was shut down")
+        return self._action_servers[handle]
+
+    def _forget(self, what: str, handle: int) -> None:
+        self._caller.in_each_pass.pop((what, handle), None)
+        self._caller.at_end.pop((what, handle), None)
+
+
+def _check_goal_response(response: object) -> None:
+    if response not in (REJECT, ACCEPT, DEFER):
+        raise ValueError(
+            "the callback for goals must return True, False or one of simROS2.goal_response_reject, "
+            f"goal_response_accept_and_execute, goal_response_accept_and_defer; it returned {response!r}"
+        )
+
+
+def _check_cancel_response(response: object) -> None:
+    if response not in (REJECT, ACCEPT):
+        raise ValueError(
+            "the callback for cancelling must return True, False or one of simROS2.cancel_response_reject, "
+            f"cancel_response_accept; it returned {response!r}"
+        )

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`simROS` functions about services."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.scripting.api.ros.context import RosContext
+from bubblesim.scripting.api.ros.kinds import RosHandle, ServiceOrClient
+from bubblesim.scripting.caller import Caller
+
+Request = Mapping[str, Any]
+ServiceCallback = Callable[[dict[str, Any]], Request | None] | str
+
+_CALL_TIMEOUT = 10.0  # s
+
+
+class RosServices(RosContext):
+    """Clients and servers of one script; they are shut down when the script ends."""
+
+    def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
+        """Bind the functions to one script."""
+        super().__init__(bridge, simulation, caller)
+        self._clients: dict[int, tuple[str, str]] = {}  # name and request's type of the services that they call
+
+    def call(self, client: RosHandle, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
+        """Call a service, one's own included, and return its response as a dict.
+
+        Raises a RuntimeError when nobody offers the service, it fails, or does not answer within ``timeout`` seconds.
+        """
+        if client in self._clients and request:
+            name, request_type = self._clients[client]
+            self._warn_of_truncation(f"'{name}'", _core.messages.truncations(request_type, request))
+        response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
+        return response
+
+    def waitForService(self, service: ServiceOrClient, timeout: float = _CALL_TIMEOUT) -> bool:
+        """Whether somebody offers a service (its name, or a client of it); waits ``timeout`` seconds at most."""
+        if isinstance(service, str):
+            return bool(self._bridge.wait_for_service(service, timeout))
+        if service not in self._clients:
+            raise ValueError(f"invalid object handle {service}: no such service client, or it was shut down")
+        return bool(self._bridge.wait_for_service(self._clients[service][0], timeout))
+
+    def _client(self, name: str, service_type: str) -> int:
+        client = int(self._bridge.service_client(name, service_type))
+        self._clients[client] = name, _core.messages.service_halves(service_type)[0]
+        self._caller.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
+        return client
+
+    def _server(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+        _, response_type = _core.messages.service_halves(service_type)
+
+        def check(response: object) -> None:
+            """Let a response that does not fit its type be the callback's error, not the bridge's."""
+            if response is not None:
+                self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response))
+
+        answer = self._caller.answering_callback(callback, check)
+        server = int(self._bridge.advertise_service(name, service_type, answer, self._time_form))
+        self._caller.at_end["server", server] = lambda: self._bridge.shutdown_service_server(server)
+        return server
+
+    def _shutdown_client(self, client: int) -> None:
+        self._bridge.shutdown_service_client(client)
+        self._clients.pop(client, None)
+        self._caller.at_end.pop(("client", client), None)
+
+    def _shutdown_server(self, server: int) -> None:
+        self._bridge.shutdown_service_server(server)
+        self._caller.at_end.pop(("server", server), None)

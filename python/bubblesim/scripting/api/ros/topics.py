@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`simROS` functions about topics."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from bubblesim.output import write_line
+from bubblesim.scripting.api.functions import checked_on_failure
+from bubblesim.scripting.api.ros.context import RosContext
+from bubblesim.scripting.api.ros.kinds import RosHandle
+from bubblesim.scripting.api.ros.stamps import Message, stamps
+from bubblesim.scripting.caller import Caller
+
+_CLOCK_TOLERANCE = 1.0  # s
+_BETWEEN_CHECKS = 1.0  # s of simulation time
+
+Callback = Callable[[dict[str, Any]], object] | str
+
+
+class RosTopics(RosContext):
+    """Publishers and subscribers of one script; they are shut down when the script ends."""
+
+    def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
+        """Bind the functions to one script."""
+        super().__init__(bridge, simulation, caller)
+        self._topics: dict[int, str] = {}  # by publisher
+        self._checked: set[int] = set()  # publishers of which a message was checked lately
+        self._first_checked: set[int] = set()  # publishers of which a message was checked at all
+        self._next_checks = 0.0  # simulation time
+
+    @checked_on_failure
+    def publish(self, publisher: RosHandle, message: Message) -> None:
+        """Publish a message given as a dict; fields left out have their defaults.
+
+        Floats in integer fields are truncated toward zero, with one warning for each field.
+        """
+        if publisher not in self._checked:
+            self._check(publisher, message)
+        truncations = self._bridge.publish(publisher, message)
+        if truncations is not None:
+            self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
+
+    def wantsMessages(self, publisher: RosHandle) -> bool:
+        """Whether somebody listens, so that a message is worth making; always for a latched topic."""
+        return bool(self._bridge.wants_messages(publisher))
+
+    def shutdownPublisher(self, publisher: RosHandle) -> None:
+        """Stop publishing; the handle cannot be used any more."""
+        self._bridge.shutdown_publisher(publisher)
+        self._topics.pop(publisher, None)
+        self._checked.discard(publisher)
+        self._first_checked.discard(publisher)
+        self._caller.at_end.pop(("publisher", publisher), None)
+
+    def publisherTreatUInt8ArrayAsString(self, publisher: RosHandle) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
+        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+
+    def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
+        publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
+        self._caller.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
+        self._topics[publisher] = topic
+        self._caller.in_each_pass["checks of messages"] = self._renew_checks
+        return publisher
+
+    def _check(self, publisher: int, message: Message) -> None:
+        """Check a message that may have no subscriber.
+
+        Messages are converted only for subscribers. An error should not wait until there is one: the first message is
+        checked, and then one a second.
+        """
+        truncations = self._bridge.check(publisher, message)
+        self._checked.add(publisher)
+        self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
+        if publisher not in self._first_checked:
+            self._first_checked.add(publisher)
+            self._warn_of_another_clock(self._topics[publisher], message)
+
+    def _renew_checks(self) -> None:
+        if self._simulation.time >= self._next_checks:
+            self._next_checks = self._simulation.time + _BETWEEN_CHECKS
+            self._checked.clear()
+
+    def _listen(
+        self,
+        topic: str,
+        message_type: str,
+        guarded: Callable[[dict[str, Any]], None],
+        queue_size: int,
+        *,
+        tcp_no_delay: bool = True,
+    ) -> int:
+        subscriber = int(
+            self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form, tcp_no_delay)
+        )
+        self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
+        return subscriber
+
+    def _shutdown_subscriber(self, subscriber: int) -> None:
+        self._bridge.shutdown_subscriber(subscriber)
+        self._caller.at_end.pop(("subscriber", subscriber), None)
+
+    def _warn_of_another_clock(self, topic: str, message: Message) -> None:
+        """Scripts like to stamp with a clock that starts at 0, and then tf and RViz drop all of it in silence."""
+        sec, nanosec = self._bridge.now()
+        for stamp in stamps(message):
+            ahead = stamp - (sec + nanosec * 1e-9)
+            # Time 0 is that of a message without a stamp; a static transform holds at any time.
+            if stamp == 0.0 or abs(ahead) <= _CLOCK_TOLERANCE or topic == "/tf_static":
+                continue
+            write_line(
+                sys.stderr,
+                f"warning: child script of {self._caller.object_path}: the first message on '{topic}' is stamped "
+                f"{abs(ahead):.3g} s {'after' if ahead > 0 else 'before'} ROS time and sent as it is; "
+                f"stamp with {self._module}.getTime()",
+            )
+            return

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every group of `sim` functions works on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim.scripting.api.kinds import HandleError
+from bubblesim.scripting.api.sim.constants import SimConstants
+from bubblesim.scripting.caller import Caller
+
+_LARGEST_HANDLE = 2**31 - 1
+
+
+class ApiContext(SimConstants):
+    """The simulation and the script that calls."""
+
+    def __init__(self, simulation: Any, caller: Caller) -> None:
+        """Bind the functions to one script."""
+        self._simulation = simulation
+        self._world = simulation.world
+        self._caller = caller
+
+    def _with_all_below(self, handle: int) -> list[int]:
+        """An object and all of its descendants, each before its own."""
+        found = [handle]
+        for child in self._world.children(handle):
+            found += self._with_all_below(int(child))
+        return found
+
+    def _resolve(self, handle: int) -> int:
+        """Turn sim.handle_self and sim.handle_parent into the handle of an object."""
+        if 0 <= handle <= _LARGEST_HANDLE:
+            return handle
+        if handle == self.handle_self:
+            return self._caller.object_handle
+        if handle == self.handle_parent:
+            return int(self._world.parent(self._caller.object_handle))
+        raise HandleError(handle)

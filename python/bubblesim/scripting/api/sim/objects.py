@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that find objects and read and set their poses."""
+
+from __future__ import annotations
+
+from bubblesim._core import sensor_kind
+from bubblesim.geometry import rotations
+from bubblesim.scripting.api.functions import value_first
+from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vector3, Vector4, Vector7
+from bubblesim.scripting.api.sim.context import ApiContext
+
+Vector = list[float]
+WORLD = ApiContext.handle_world
+HANDLE_ALL = ApiContext.handle_all
+
+
+class ObjectFunctions(ApiContext):
+    """Positions in metres, quaternions x, y, z, w, Euler angles in radians (about the moving x, then y, then z)."""
+
+    def getObject(self, path: str, options: Options = NO_OPTIONS) -> int:
+        """Handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
+
+        Options: ``index`` picks one of several matches, ``noError`` returns -1 when there is none, ``proxy`` is the
+        object that relative paths start at.
+        """
+        unknown = options.keys() - {"index", "noError", "proxy"}
+        if unknown:
+            raise ValueError(f"getObject has no option '{min(unknown)}'; it has index, noError and proxy")
+        start = self._resolve(options.get("proxy", self._caller.object_handle))
+        try:
+            return int(self._world.find(path, start, INTEGER.convert(options.get("index", 0))))
+        except LookupError:
+            if options.get("noError"):
+                return -1
+            raise
+
+    def getObjectHandle(self, name: str) -> int:
+        """Handle of the object called ``name``, wherever it is (old style)."""
+        path = name if name.startswith(("/", ".", ":")) else f"/{name}"
+        return int(self._world.find(path, self._caller.object_handle))
+
+    def getObjectAssociatedWithScript(self, script: Handle) -> int:
+        """Handle of the object that the script is attached to."""
+        return self._resolve(script)
+
+    def getObjectAlias(self, handle: Handle, option: int = -1) -> str:
+        """Name of an object: -1 bare, 0 with index, 1 short unique path, 2 full path, 5 path.
+
+        3 bare, but as 'name__handle__' when other objects have the name, too; 4 always as 'name__handle__'.
+        """
+        handle = self._resolve(handle)
+        name = str(self._world.name(handle))
+        full = str(self._world.path(handle))
+        match option:
+            case 0:
+                return full.rpartition("/")[2]
+            case 1:
+                return str(self._world.short_path(handle))
+            case 2 | 5:
+                return full
+            case 3:
+                return name if self._world.short_path(handle) == f"/{name}" else f"{name}__{handle}__"
+            case 4:
+                return f"{name}__{handle}__"
+            case _:
+                return name
+
+    def getObjectName(self, handle: Handle) -> str:
+        """Name of an object (old style)."""
+        return self.getObjectAlias(handle)
+
+    def getObjectParent(self, handle: Handle) -> int:
+        """Handle of the object above, -1 at the top of the scene."""
+        return int(self._world.parent(self._resolve(handle)))
+
+    def getObjectChild(self, handle: Handle, index: int) -> int:
+        """Handle of the ``index``-th object below, -1 when there are fewer."""
+        children = self._world.children(self._resolve(handle))
+        return int(children[index]) if 0 <= index < len(children) else -1
+
+    def getObjectsInTree(self, base: Handle, object_type: int = HANDLE_ALL, options: int = 0) -> list[int]:
+        """Handles of an object and all below it, or of the whole scene for sim.handle_scene.
+
+        ``object_type`` (sim.object_joint_type ...) leaves out others; options 1 leaves out the object itself, 2 all but
+        its direct children.
+        """
+        if base == self.handle_scene:
+            roots = [int(model) for model in self._world.models if int(self._world.parent(model)) < 0]
+            found = [handle for root in roots for handle in ([root] if options & 2 else self._with_all_below(root))]
+        else:
+            base = self._resolve(base)
+            children = [int(child) for child in self._world.children(base)]
+            below = children if options & 2 else self._with_all_below(base)[1:]
+            found = below if options & 1 else [base, *below]
+        wants_all = object_type == self.handle_all
+        return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
+
+    def getObjectType(self, handle: Handle) -> int:
+        """sim.object_shape_type of models and links, and what joints and sensors are.
+
+        object_joint_type, object_proximitysensor_type, object_visionsensor_type of cameras, object_forcesensor_type of
+        force-torque sensors, and object_dummy_type of other sensors.
+        """
+        handle = self._resolve(handle)
+        kind = str(self._world.kind(handle))
+        if kind == "sensor":
+            sensors = {
+                "proximity sensor": self.object_proximitysensor_type,
+                "camera": self.object_visionsensor_type,
+                "force-torque sensor": self.object_forcesensor_type,
+            }
+            return sensors.get(sensor_kind(self._simulation, handle), self.object_dummy_type)
+        return self.object_joint_type if kind == "joint" else self.object_shape_type
+
+    def getObjectPose(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
+        """[x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""
+        return self._pose(handle, relative_to)
+
+    @value_first
+    def setObjectPose(self, handle: Handle, pose: Vector7, relative_to: Handle = WORLD) -> None:
+        """Put a model or link somewhere else. Also takes the old order (handle, relative_to, pose)."""
+        self._set_pose(handle, pose, relative_to)
+
+    def getObjectPosition(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
+        """[x, y, z] in metres."""
+        return self._pose(handle, relative_to)[:3]
+
+    @value_first
+    def setObjectPosition(self, handle: Handle, position: Vector3, relative_to: Handle = WORLD) -> None:
+        """Move a model or link. Also takes the old order (handle, relative_to, position)."""
+        self._set_pose(handle, [*position, *self._pose(handle, relative_to)[3:]], relative_to)
+
+    def getObjectQuaternion(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
+        """[qx, qy, qz, qw]."""
+        return self._pose(handle, relative_to)[3:]
+
+    @value_first
+    def setObjectQuaternion(self, handle: Handle, quaternion: Vector4, relative_to: Handle = WORLD) -> None:
+        """Turn a model or link. Also takes the old order (handle, relative_to, quaternion)."""
+        self._set_pose(handle, [*self._pose(handle, relative_to)[:3], *quaternion], relative_to)
+
+    def getObjectOrientation(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
+        """[alpha, beta, gamma] in radians."""
+        return rotations.euler_angles(self._pose(handle, relative_to)[3:])
+
+    @value_first
+    def setObjectOrientation(self, handle: Handle, angles: Vector3, relative_to: Handle = WORLD) -> None:
+        """Turn a model or link to Euler angles. Also takes the old order (handle, relative_to, angles)."""
+        position = self._pose(handle, relative_to)[:3]
+        self._set_pose(handle, [*position, *rotations.quaternion_of_euler(angles)], relative_to)
+
+    def getObjectMatrix(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
+        """The upper three rows of the transformation matrix, 12 numbers row by row."""
+        return rotations.matrix_of_pose(self._pose(handle, relative_to))
+
+    def getObjectVelocity(self, handle: Handle) -> tuple[Vector, Vector]:
+        """Linear (m/s) and angular (rad/s) velocity in the world's axes."""
+        linear, angular = self._world.velocity(self._resolve(handle))
+        return list(linear), list(angular)
+
+    def _pose(self, handle: int, relative_to: int) -> Vector:
+        handle = self._resolve(handle)
+        frame = self._frame(handle, relative_to)
+        return list(self._world.pose(handle) if frame is None else self._world.pose_in(handle, frame))
+
+    def _frame(self, handle: Handle, relative_to: int) -> int | None:
+        """The object whose frame is meant; None for the world's."""
+        if relative_to == self.handle_world:
+            return None
+        if relative_to == self.handle_parent:
+            parent = int(self._world.parent(handle))
+            return None if parent < 0 else parent
+        return self._resolve(relative_to)
+
+    def _set_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
+        handle = self._resolve(handle)
+        frame = self._frame(handle, relative_to)
+        if frame is None:
+            self._world.set_pose(handle, pose)
+        else:
+            self._world.set_pose_in(handle, pose, frame)

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that start programs, write messages and name the simulator's parts."""
+
+from __future__ import annotations
+
+import shlex
+import subprocess
+import sys
+
+from bubblesim.output import write_line
+from bubblesim.scripting.allowed_programs import find_program
+from bubblesim.scripting.api.sim.context import ApiContext
+
+
+class ProgramFunctions(ApiContext):
+    """Programs started by a script end with it, and so does what they have started."""
+
+    def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
+        """Start a program of this package or on PATH; ``arguments`` is split as a shell would.
+
+        Returns its process id. A script in Lua may start programs of ROS packages, and those that the node's option
+        --allow-programs names: a PermissionError for others.
+        """
+        program = find_program(file)
+        if not self._caller.may_start(program):
+            raise PermissionError(
+                f"a script in Lua may not start {program}, which belongs to no ROS package of the workspace; "
+                f"allow it with the node's option --allow-programs {program}"
+            )
+        process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
+        self._caller.programs.append(process)
+        return process.pid
+
+    def getModuleName(self, index: int) -> str | None:
+        """Name of a plugin, 'RosInterface' for the bridge to ROS; None (nil) when there are not so many."""
+        plugins = ["RosInterface"] if self._caller.shared.has_ros else []
+        return plugins[index] if 0 <= index < len(plugins) else None
+
+    def addLog(self, level: object, text: object) -> None:
+        """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""
+        if isinstance(level, int) and level > self.verbosity_infos:
+            return
+        errors = (self.verbosity_errors, self.verbosity_scripterrors)
+        warnings = (self.verbosity_warnings, self.verbosity_scriptwarnings)
+        kind = "error" if level in errors else "warning" if level in warnings else "info"
+        stream = sys.stdout if kind == "info" else sys.stderr
+        try:
+            shown = str(text)
+        except Exception:
+            shown = object.__repr__(text)
+        write_line(stream, f"{kind}: {self._caller.object_path}: {shown}")
+
+    def addStatusbarMessage(self, text: object) -> None:
+        """Write a message."""
+        self.addLog(self.verbosity_scriptinfos, text)

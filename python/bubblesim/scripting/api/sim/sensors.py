@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that read sensors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim._core import (
+    measure_proximity,
+    read_altimeter,
+    read_contacts,
+    read_force_torque,
+    read_imu,
+    read_magnetometer,
+    read_navsat,
+    read_proximity,
+    reading_time,
+)
+from bubblesim.scripting.api.kinds import Handle
+from bubblesim.scripting.api.sim.context import ApiContext
+
+Reading = tuple[int, float, list[float], int, list[float]]
+
+
+class SensorFunctions(ApiContext):
+    """Proximity sensors give (result, distance, point, object, normal) in the sensor's frame, metres."""
+
+    def readProximitySensor(self, sensor: Handle) -> Reading:
+        """What the sensor measured last; result 0 and distance 0.0 for nothing."""
+        reading: Reading = read_proximity(self._simulation, self._resolve(sensor))
+        return reading
+
+    def handleProximitySensor(self, sensor: Handle) -> Reading:
+        """Measure now."""
+        reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
+        return reading
+
+    def checkProximitySensor(self, sensor: Handle, entity: Handle) -> Reading:
+        """Measure now; a result of 0 also when the nearest thing does not belong to ``entity``.
+
+        Any object takes part for sim.handle_all.
+        """
+        reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
+        seen = reading[3]
+        if seen < 0 or entity == self.handle_all or self._belongs(seen, self._resolve(entity)):
+            return reading
+        return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
+
+    def getReadingTime(self, sensor: Handle) -> float:
+        """Simulated seconds at which the sensor was last due: another time, another reading. It measures nothing."""
+        return float(reading_time(self._simulation, self._resolve(sensor)))
+
+    def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:
+        """Orientation (x, y, z, w), angular velocity (rad/s) and linear acceleration (m/s^2), in the sensor's frame."""
+        reading = read_imu(self._simulation, self._resolve(sensor))
+        return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
+
+    def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
+        """1, and the force (N) and torque (N m) of a force-torque sensor, the means over the last pass."""
+        reading = read_force_torque(self._simulation, self._resolve(sensor))
+        return 1, reading.force.tolist(), reading.torque.tolist()
+
+    def readNavSat(self, sensor: Handle) -> tuple[list[float], list[float]]:
+        """Latitude and longitude (degrees) with altitude (m above WGS84), and the velocity (m/s) east, north and up."""
+        reading = read_navsat(self._simulation, self._resolve(sensor))
+        return [reading.latitude, reading.longitude, reading.altitude], reading.velocity.tolist()
+
+    def readAltimeter(self, sensor: Handle) -> tuple[float, float]:
+        """Height (m) above where it came into the world, and velocity (m/s) upwards."""
+        reading = read_altimeter(self._simulation, self._resolve(sensor))
+        return reading.height, reading.velocity
+
+    def readMagnetometer(self, sensor: Handle) -> list[float]:
+        """The magnetic field (T) in the sensor's frame."""
+        field: list[float] = read_magnetometer(self._simulation, self._resolve(sensor)).field.tolist()
+        return field
+
+    def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
+        """What the sensor's link touched during the last pass, one for each pair of shapes; empty for nothing.
+
+        Each has ``other``, the handle of the link touched, the names ``collision`` and ``otherCollision``, the mean
+        ``force`` (N, on the sensor's link) and the lists ``positions`` (m) and ``normals``, all in world axes.
+        """
+        return [
+            {
+                "other": contact.other,
+                "collision": contact.collision,
+                "otherCollision": contact.other_collision,
+                "force": contact.force.tolist(),
+                "positions": [point.position.tolist() for point in contact.points],
+                "normals": [point.normal.tolist() for point in contact.points],
+            }
+            for contact in read_contacts(self._simulation, self._resolve(sensor)).contacts
+        ]
+
+    def _belongs(self, handle: int, to: int) -> bool:
+        """Whether an object is, or lies below, another one."""
+        while handle >= 0 and handle != to:
+            handle = int(self._world.parent(handle))
+        return handle >= 0

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The module `sim` as one child script sees it."""
+
+from __future__ import annotations
+
+from bubblesim.scripting.api.functions import script_module
+from bubblesim.scripting.api.sim.joints import JointFunctions
+from bubblesim.scripting.api.sim.objects import ObjectFunctions
+from bubblesim.scripting.api.sim.packing import PackFunctions
+from bubblesim.scripting.api.sim.programs import ProgramFunctions
+from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
+from bubblesim.scripting.api.sim.sensors import SensorFunctions
+from bubblesim.scripting.api.sim.signals import SignalFunctions
+from bubblesim.scripting.api.sim.threads import ThreadFunctions
+from bubblesim.scripting.api.sim.times import TimeFunctions
+from bubblesim.scripting.api.sim.vision import VisionFunctions
+
+
+@script_module("sim")
+class SimApi(
+    ObjectFunctions,
+    JointFunctions,
+    SensorFunctions,
+    VisionFunctions,
+    SignalFunctions,
+    PackFunctions,
+    TimeFunctions,
+    ThreadFunctions,
+    RandomFunctions,
+    ProgramFunctions,
+):
+    """All functions and constants, grouped by what they are about."""

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions for sysCall_thread."""
+
+from __future__ import annotations
+
+import time
+
+from bubblesim._core import RunState
+from bubblesim.scripting.api.functions import any_time
+from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.threads.script_thread import AnyThread, current
+
+_TOLERANCE = 1e-6  # of a pass
+
+
+class ThreadFunctions(ApiContext):
+    """A script's thread is switched away after 2 ms in each pass, or with stepping where it calls ``step``."""
+
+    @any_time
+    def setStepping(self, enable: bool) -> int:
+        """Let the thread be switched away only where it calls ``step``; calls nest.
+
+        Returns how many were in force before.
+        """
+        thread = self._thread("setStepping")
+        before = thread.stepping
+        thread.stepping = before + 1 if enable else max(0, before - 1)
+        return before
+
+    @any_time
+    def setThreadAutomaticSwitch(self, enable: bool) -> int:
+        """The opposite of ``setStepping``, as older scripts call it."""
+        return self.setStepping(not enable)
+
+    @any_time
+    def acquireLock(self) -> None:
+        """Keep from being switched away until ``releaseLock``."""
+        self.setStepping(True)
+
+    @any_time
+    def releaseLock(self) -> None:
+        """Undo one ``acquireLock``."""
+        self.setStepping(False)
+
+    @any_time
+    def step(self) -> None:
+        """Wait for the next pass."""
+        self._thread("step").step()
+
+    @any_time
+    def switchThread(self) -> None:
+        """Wait for the next pass."""
+        self._thread("switchThread").step()
+
+    @any_time
+    def wait(self, seconds: float, simulation_time: bool = True) -> float:
+        """Wait for so many seconds of simulation time, or of the machine's; returns how much longer it took."""
+        thread = self._thread("wait")
+        if not simulation_time:
+            begin = time.monotonic()
+            thread.sleep(seconds)
+            return time.monotonic() - begin - seconds
+        with thread.turn():
+            end = self._simulation.time + seconds
+        while True:
+            with thread.turn():
+                left = end - self._simulation.time
+                if left <= _TOLERANCE * self._simulation.time_step:
+                    return float(max(0.0, -left))
+            thread.step()
+
+    @any_time
+    def getThreadExitRequest(self) -> bool:
+        """Whether the thread is asked to end."""
+        thread = current()
+        return thread is not None and thread.exit_requested
+
+    @any_time
+    def getSimulationStopping(self) -> bool:
+        """Whether this is the last pass, or the end after it."""
+        return self.getThreadExitRequest() or bool(self._simulation.state == RunState.STOPPING)
+
+    def _thread(self, function: str) -> AnyThread:
+        thread = current()
+        if thread is None:
+            raise RuntimeError(f"sim.{function} is for sysCall_thread: a callback must not wait for the simulation")
+        return thread

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One child script: its globals, its callbacks and what happens when it fails."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Hashable
+from pathlib import Path
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.output import write_line
+from bubblesim.scripting.allowed_programs import is_allowed
+from bubblesim.scripting.caller import Hook
+from bubblesim.scripting.host import interruption, process_calls
+from bubblesim.scripting.host.callback_names import HOOKS, PAUSE_HOOKS, looks_like_callback, never_called
+from bubblesim.scripting.host.file_stamps import FileStamps
+from bubblesim.scripting.host.protocols import Host
+from bubblesim.scripting.host.started_programs import Program, end_programs
+from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.script_code import ScriptCode, load_code
+from bubblesim.scripting.language.source import ScriptSourceError
+from bubblesim.scripting.threads import script_sockets
+from bubblesim.scripting.threads.script_thread import AnyThread
+
+
+class ChildScript:
+    """A script attached to an object. A script that fails is reported once and does not run again."""
+
+    def __init__(self, host: Host, object_path: str, object_handle: int, file: Path) -> None:
+        """Load ``file`` without running any of its callbacks."""
+        self.host = host
+        self.object_path = object_path
+        self.object_handle = object_handle
+        self.file = file
+        self.alive = True
+        self.failed = False
+        self.failure = ""  # the error with which it failed, in one line
+        self.follows_pauses = False
+        self.running = False  # its code is on the call stack
+        self.doing = "loading"  # what it was called for last
+        self.stuck_at = ""  # where it was when somebody looked why it does not return
+        self.shared = host.shared
+        self.programs: list[Program] = []  # that it started
+        self.at_end: dict[Hashable, Hook] = {}  # undoes what else the script made: publishers
+        self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
+        self._started = False
+        self._thread: AnyThread | None = None
+        self._sockets = script_sockets.Sockets()
+        self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
+        self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
+        self._load()
+
+    def _load(self) -> None:
+        self._stamps = FileStamps([self.file])
+        try:
+            self._code: ScriptCode = load_code(
+                self.file,
+                self.host.search_paths,
+                self.host.make_modules(self),
+                self._module_name,
+                lambda: f"[{self.object_path} {self.host.simulation.time:.3f} s] ",
+                lua_unsafe=self.host.lua_unsafe,
+            )
+        except ScriptSourceError as error:
+            self._fail(f"error: child script of {self.object_path} is disabled: {error}")
+            return
+        loaded = self.run("loading", self._code.run)
+        self._stamps = FileStamps([self.file, *self._code.files])
+        if not loaded:
+            return
+        self._hooks = {name: self._code.function(name) for name in HOOKS}
+        self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
+        self._warn_of_unknown_callbacks()
+        if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
+            self._fail(
+                f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
+                "sysCall_thread; a script needs one of these functions"
+            )
+
+    def _warn_of_unknown_callbacks(self) -> None:
+        for name, place in sorted(self._code.functions_by_name().items()):
+            if looks_like_callback(name) and name not in HOOKS:
+                write_line(
+                    sys.stderr,
+                    f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
+                )
+
+    def may_start(self, program: Path) -> bool:
+        """Return whether the script may start a program: one in Lua only those that it is allowed."""
+        return not self._code.is_confined or is_allowed(program, self.host.allowed_programs)
+
+    def actuate(self) -> None:
+        """Run sysCall_actuation, and sysCall_init before the first time."""
+        if not self._started:
+            self._started = True
+            self._call("sysCall_init")
+            self._start_thread()
+        for hook in list(self.in_each_pass.values()):
+            hook()
+        if self._thread and self.alive and not interruption.requested:
+            self.run("sysCall_thread", self._thread.give_turn)
+        self._call("sysCall_actuation")
+
+    def _start_thread(self) -> None:
+        body = self._hooks["sysCall_thread"]
+        if body is not None and self.alive:
+            name = f"{self.object_path} sysCall_thread"
+            self._thread = self._code.make_thread(name, body, lambda: script_sockets.note_in(self._sockets))
+
+    def _end_thread(self) -> None:
+        thread, self._thread = self._thread, None
+        if thread and not thread.end(lambda: script_sockets.shut_down(self._sockets)):
+            write_line(sys.stderr, f"warning: the thread of the child script of {self.object_path} does not end")
+
+    def sense(self) -> None:
+        """Run sysCall_sensing."""
+        self._call("sysCall_sensing")
+
+    def tell(self, hook: str) -> None:
+        """Run one of PAUSE_HOOKS."""
+        if self._started:
+            self._call(hook)
+
+    def clean_up(self) -> None:
+        """End the thread and run sysCall_cleanup."""
+        self._end_thread()
+        if self._started:
+            self._call("sysCall_cleanup")
+
+    def finish(self) -> None:
+        """After clean_up: take down what the script made."""
+        self._end()
+        sys.modules.pop(self._module_name, None)
+        script_output.prefixes.pop(self._module_name, None)
+
+    def was_edited(self) -> bool:
+        """Whether one of the files that it was read from is another one now."""
+        return self._stamps.differ()
+
+    def where_now(self, thread: int) -> str:
+        """FILE:LINE where its code is that the simulation waits for, or nothing.
+
+        :param thread: the simulation's.
+        """
+        if self._thread and self._thread.ident and self.doing == "sysCall_thread":
+            thread = self._thread.ident
+        return self._code.where_now(thread)
+
+    def _call(self, name: str) -> None:
+        hook = self._hooks[name]
+        if hook is not None and self.alive and (name == "sysCall_cleanup" or not interruption.requested):
+            self.run(name, hook)
+
+    def run(self, what: str, action: Hook) -> bool:
+        """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
+        try:
+            host = self.host
+            outer = interruption.allowed, self.running, self.doing, host.running_script
+            sockets = script_sockets.note_in(self._sockets)
+            try:
+                interruption.allowed = self.running = True
+                self.doing = what
+                host.running_script = self
+                host.calls += 1
+                action()
+            finally:
+                process_calls.end_if_forked()
+                interruption.allowed, self.running, self.doing, host.running_script = outer
+                script_sockets.note_in(sockets)
+        except SystemExit:
+            self._end()
+        except BaseException as error:
+            self._report(error, what)
+        else:
+            return True
+        return False
+
+    def _report(self, error: BaseException, what: str) -> None:
+        """Tell why it did not return from ``what``, and end it unless all ends."""
+        for_stop, interruption.for_stop = interruption.for_stop, False
+        broken_off = (for_stop or interruption.requested) and self._code.broken_off(error)
+        place = (self.stuck_at if broken_off and for_stop else "") or self._code.place(error)
+        where = f"{what} ({place})" if place else what
+        self.failure = self._code.reason(error)
+        if not broken_off:
+            self._fail(
+                f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
+                + self._code.report(error)
+            )
+        elif interruption.requested:
+            write_line(
+                sys.stderr,
+                f"warning: child script of {self.object_path} was broken off in {where}: the simulator was told to end",
+            )
+        else:
+            self._fail(
+                f"error: child script of {self.object_path} was broken off in {where} and is disabled: it did not "
+                "return, and a stop or a reset waited for it"
+            )
+
+    def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
+        """Make a callback that ends the script when it fails. ``function`` may be the name of a script global."""
+        target, what = self._target(function)
+
+        def guarded(*arguments: Any) -> None:
+            if self.alive:
+                self.run(what, lambda: target(*arguments))
+
+        return guarded
+
+    def answering_callback(
+        self, function: Callable[..., Any] | str, check: Callable[[object], None]
+    ) -> Callable[..., Any]:
+        """Make a callback whose result matters; when it fails or ``check`` refuses it, the caller is told, too."""
+        target, what = self._target(function)
+
+        def guarded(*arguments: Any) -> Any:
+            results: list[Any] = []
+
+            def answer() -> None:
+                result = target(*arguments)
+                check(result)
+                results.append(result)
+
+            if not self.alive or not self.run(what, answer):
+                why = f"{self.failure}; " if self.failure else ""
+                raise _core.ServiceError(f"{why}the child script of {self.object_path} failed or ended")
+            return results[0]
+
+        return guarded
+
+    def _target(self, function: Callable[..., Any] | str) -> tuple[Callable[..., Any], str]:
+        """The function that is meant, and what to call it in reports."""
+        target = self._code.function(function) if isinstance(function, str) else function
+        if callable(target):
+            return target, f"the callback {getattr(target, '__name__', function)}"
+        if isinstance(function, str):
+            raise ValueError(f"the script has no function '{function}' to call back")
+        raise TypeError(f"a callback must be a function or the name of one, found {type(function).__name__}")
+
+    def _fail(self, text: str) -> None:
+        write_line(sys.stderr, text)
+        self.host.failures += 1
+        self.failed = True
+        self.host.count_disabled()
+        self._end()
+
+    def _end(self) -> None:
+        self.alive = False
+        self._end_thread()
+        end_programs(self.programs)
+        self.programs = []
+        while self.at_end:
+            _, undo = self.at_end.popitem()  # the last one first
+            try:
+                undo()
+            except Exception as error:  # must not keep the others from being taken down
+                write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")

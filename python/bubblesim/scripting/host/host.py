@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keeps the child scripts of a scene and calls them in the phases of a pass."""
+
+from __future__ import annotations
+
+import gc
+import math
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.output import write_line
+from bubblesim.scripting.api.ros.no_ros import NoRos
+from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
+from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.caller import Caller, SharedData
+from bubblesim.scripting.host import interruption, process_calls, watchdog
+from bubblesim.scripting.host.child_script import ChildScript
+from bubblesim.scripting.host.started_programs import end_programs
+from bubblesim.scripting.language import script_output
+from bubblesim.scripting.threads import script_sockets, script_thread
+
+_BETWEEN_LOOKS = 0.25  # s
+
+
+class ScriptHost:
+    """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every pass and ``finish`` at the end."""
+
+    def __init__(
+        self,
+        simulation: Any,
+        bridge: Any | None,
+        scripts: list[tuple[str, Path]],
+        search_paths: list[Path],
+        *,
+        lua_unsafe: bool = False,
+        allowed_programs: Sequence[str] = (),
+        watch: bool = False,
+    ) -> None:
+        """Note the scripts; ``start`` loads them.
+
+        :param simulation: a ``bubblesim.Simulation``.
+        :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is a ``NoRos`` in scripts.
+        :param scripts: pairs of object path and file.
+        :param search_paths: where ``include`` looks after the script's own folder.
+        :param lua_unsafe: let scripts in Lua reach files and processes.
+        :param allowed_programs: programs, and folders of programs, that scripts in Lua may start beside those of ROS
+            packages.
+        :param watch: load a script again as soon as its file changes.
+        """
+        self.simulation = simulation
+        self.bridge = bridge
+        self.search_paths = search_paths
+        self.lua_unsafe = lua_unsafe
+        self.allowed_programs = [str(each) for each in allowed_programs]
+        self.failures = 0
+        self.disabled = 0  # of the scripts that are loaded now, how many have failed
+        self.calls = 0  # of scripts, so far
+        self.running_script: ChildScript | None = None
+        self.shared = SharedData(has_ros=bridge is not None)
+        self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
+        self._placed.sort(key=lambda script: _turn(script[0], script[1]))
+        self.scripts: list[ChildScript] = []
+        self.after_drain: Callable[[], None] | None = None
+        self._paused = False  # as scripts know it
+        self._next_look = 0.0 if watch else math.inf  # at the files, by time.monotonic()
+        script_sockets.install()
+        script_thread.install()
+        script_output.install()
+        process_calls.install()
+        watchdog.start(self)
+
+    def start(self) -> None:
+        """Load the scripts, from their files as they are now."""
+        self._keep([ChildScript(self, path, handle, file) for path, handle, file in self._placed])
+
+    def _keep(self, scripts: list[ChildScript]) -> None:
+        self.scripts = scripts
+        self.count_disabled()
+
+    def count_disabled(self) -> None:
+        """Bring ``disabled``, which the node reads in each pass, up to date."""
+        self.disabled = sum(script.failed for script in self.scripts)
+
+    def stop(self) -> None:
+        """End the scripts and forget them, with all that they left: signals, and files and sockets not closed."""
+        self.finish()
+        self._keep([])
+        self.shared.clear()
+        gc.collect()  # the globals and functions of a script refer to each other
+
+    def add_script(self, path: str, file: Path) -> None:
+        """Place the script of a model that has come into the world, and load it unless the simulation is stopped."""
+        handle = self.simulation.object(path).handle
+        self._placed.append((path, handle, Path(file)))
+        self._placed.sort(key=lambda script: _turn(script[0], script[1]))
+        if self.simulation.state == _core.RunState.STOPPED:
+            return
+        loaded = [*self.scripts, ChildScript(self, path, handle, Path(file))]
+        self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
+
+    def end_scripts_of(self, model: int) -> None:
+        """Call sysCall_cleanup of the scripts of a model that is about to leave the world, and forget them."""
+        ending = self._scripts_of(model)
+        _finish(ending)
+        self._keep([script for script in self.scripts if script not in ending])
+        model_of = self.simulation.world.outermost_model_of
+        self._placed = [script for script in self._placed if model_of(script[1]) != model]
+
+    def remove_model(self, model: int) -> None:
+        """Remove a model from the world with its scripts, but not from within one of these: RuntimeError."""
+        if any(script.running for script in self._scripts_of(model)):
+            raise RuntimeError("a child script cannot remove the model that it belongs to")
+        self.simulation.remove_model(model)
+
+    def _scripts_of(self, model: int) -> list[ChildScript]:
+        model_of = self.simulation.world.outermost_model_of
+        return [script for script in self.scripts if model_of(script.object_handle) == model]
+
+    def make_modules(self, script: Caller) -> dict[str, Any]:
+        """The modules that a script finds among its globals."""
+        sim = SimApi(self.simulation, script)
+        if self.bridge is None:
+            return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
+        return {
+            "sim": sim,
+            "simROS": SimRos(self.bridge, self.simulation, script),
+            "simROS2": SimRos2(self.bridge, self.simulation, script),
+        }
+
+    def drain(self) -> None:
+        """When messages have been delivered, also while paused: tell scripts of pauses that want to know."""
+        if self.after_drain is not None:
+            self.after_drain()
+        listening = [script for script in self.scripts if script.follows_pauses]
+        if listening:
+            paused = bool(self.simulation.state == _core.RunState.PAUSED)
+            if paused:
+                told = "sysCall_suspended" if self._paused else "sysCall_suspend"
+            else:
+                told = "sysCall_resume" if self._paused else ""
+            self._paused = paused
+            for script in listening if told else ():
+                script.tell(told)
+
+    def actuate(self) -> None:
+        """Call sysCall_actuation of all scripts."""
+        if self._next_look < math.inf:
+            self._reload_edited()
+        for script in self.scripts:
+            script.actuate()
+
+    def _reload_edited(self) -> None:
+        now = time.monotonic()
+        if now < self._next_look:
+            return
+        self._next_look = now + _BETWEEN_LOOKS
+        for number, script in enumerate(self.scripts):
+            if script.was_edited():
+                write_line(sys.stderr, f"info: the child script of {script.object_path} was edited: it starts again")
+                _finish([script])
+                self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
+                self.count_disabled()
+
+    def sense(self) -> None:
+        """Call sysCall_sensing of all scripts."""
+        for script in self.scripts:
+            script.sense()
+
+    def restart(self) -> None:
+        """End all scripts, put the world back to its start at time 0, and load the scripts afresh unless it is stopped.
+
+        Between passes or while messages are delivered, but not from within a script: RuntimeError.
+        """
+        if interruption.allowed:  # a script is running
+            raise RuntimeError("a child script cannot start the simulation anew that it is called from")
+        self.stop()
+        self.simulation.reset()
+        if self.simulation.state != _core.RunState.STOPPED:
+            self.start()
+
+    def stop_waits(self) -> bool:
+        """Whether a stop or a reset waits for the script that runs; for any thread."""
+        if self.bridge is not None and self.bridge.urgent_waits():
+            return True
+        script = self.running_script  # to clean up belongs to a stop, and may take its time
+        return script is not None and script.doing != "sysCall_cleanup" and bool(self.simulation.stop_is_due)
+
+    def finish(self) -> None:
+        """Call sysCall_cleanup of all scripts and end what they started."""
+        _finish(self.scripts)
+
+
+def _finish(scripts: list[ChildScript]) -> None:
+    for script in scripts:
+        script.clean_up()
+    end_programs([program for script in scripts for program in script.programs])  # at once: each may take its time
+    for script in scripts:
+        script.finish()
+
+
+def _turn(path: str, handle: int) -> tuple[int, int]:
+    """Order in which scripts are called: descendants before ancestors, siblings in the scene's order."""
+    return (-path.count("/"), handle)

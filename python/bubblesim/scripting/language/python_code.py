@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The code of a child script in Python, in a module of its own."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import CodeType, ModuleType, SimpleNamespace
+from typing import Any
+
+from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
+from bubblesim.scripting.threads.script_thread import ScriptThread
+
+_OUR_FOLDER = str(Path(__file__).parents[2])
+
+
+class PythonCode:
+    """See ScriptCode."""
+
+    def __init__(
+        self,
+        file: Path,
+        text: str,
+        search_paths: list[Path],
+        modules: dict[str, Any],
+        name: str,
+        prefix: Callable[[], str],
+    ) -> None:
+        """Compile the ``text`` of ``file`` without running it.
+
+        The first line may be ``#python``; the lines below it may be ``include NAME`` (no quotes, no extension), which
+        is looked for in the script's folder and then in ``search_paths``.
+
+        :param modules: what the script finds under the names ``sim``, ``simROS``, ``simROS2``.
+        :param name: of the module that the script becomes.
+        :param prefix: of the lines that it prints.
+        :raises ScriptSourceError: for a missing file or a syntax error.
+        """
+        self._files: set[Path] = set()
+        self._parts = self._compile(file, text, [file.parent, *search_paths], including=())
+        self._modules = modules
+        self._name = name
+        script_output.prefixes[name] = prefix
+        # A real module, for dataclasses and pickle look up the module of what a script defines.
+        module = ModuleType(name)
+        sys.modules[name] = module
+        self._globals: dict[str, Any] = module.__dict__
+        self._globals.update(modules, __file__=str(file), self=SimpleNamespace(), require=self._require)
+
+    @property
+    def files(self) -> set[Path]:
+        """What the script was read from."""
+        return self._files
+
+    @property
+    def is_confined(self) -> bool:
+        """Whether its language keeps it from files and processes."""
+        return False
+
+    def run(self) -> None:
+        """Run the included files and then the script's own code."""
+        for part in self._parts:
+            exec(part, self._globals)
+
+    def function(self, name: str) -> Callable[..., Any] | None:
+        """Find a global of the script."""
+        return self._globals.get(name)
+
+    def functions_by_name(self) -> dict[str, str]:
+        """The global functions of the script, and FILE:LINE of each, or nothing where that is not known."""
+        return {name: _place_of(value) for name, value in self._globals.items() if callable(value)}
+
+    def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> ScriptThread:
+        """Make a thread of the operating system that runs ``body``, a function of the script, after ``prepare``."""
+
+        def run() -> None:
+            prepare()
+            body()
+
+        return ScriptThread(name, run)
+
+    def broken_off(self, error: BaseException) -> bool:
+        """Whether the script failed for it was interrupted."""
+        return isinstance(error, KeyboardInterrupt)
+
+    def where_now(self, thread: int) -> str:
+        """FILE:LINE where the script is that runs in another thread, or nothing."""
+        frame = sys._current_frames().get(thread)
+        while frame is not None and frame.f_globals.get("__name__") != self._name:
+            frame = frame.f_back
+        return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame is not None else ""
+
+    def place(self, error: BaseException) -> str:
+        """FILE:LINE where the script failed, or nothing."""
+        frames = _without_our_frames(traceback.TracebackException.from_exception(error)).stack
+        return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else ""
+
+    def report(self, error: BaseException) -> str:
+        """What went wrong, and the calls that led there."""
+        return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format()).rstrip()
+
+    def reason(self, error: BaseException) -> str:
+        """What went wrong, in one line."""
+        return traceback.format_exception_only(error)[-1].strip()
+
+    def _require(self, name: str) -> Any:
+        """Return the module `sim`, `simROS` or `simROS2`; a version such as in 'sim-1' does not matter."""
+        bare = name.partition("-")[0]
+        if bare not in self._modules:
+            raise ImportError(f"there is no module '{name}' to require; there are {', '.join(self._modules)}")
+        return self._modules[bare]
+
+    def _compile(self, file: Path, text: str, folders: list[Path], including: tuple[Path, ...]) -> list[CodeType]:
+        file = file.resolve()
+        if file in including:
+            raise ScriptSourceError(f"{file}: includes itself through {including[-1]}")
+        self._files.add(file)
+        lines = text.splitlines(keepends=True)
+        parts: list[CodeType] = []
+        for number, line in enumerate(lines):
+            words = line.split()
+            if len(words) == 2 and words[0] == "include":
+                try:
+                    included = find_file(f"{words[1]}.py", folders)
+                except ScriptSourceError as error:
+                    raise ScriptSourceError(f"{file}:{number + 1}: {error}") from None
+                parts += self._compile(included, read_text(included), folders, (*including, file))
+                lines[number] = "\n"  # keeps the numbers of the lines below
+            elif words and not line.startswith("#"):
+                break  # the header ends where the code starts
+        parts.append(_compiled("".join(lines), file))
+        return parts
+
+
+def _place_of(function: object) -> str:
+    code = getattr(function, "__code__", None)
+    return f"{code.co_filename}:{code.co_firstlineno}" if isinstance(code, CodeType) else ""
+
+
+def _compiled(text: str, file: Path) -> CodeType:
+    try:
+        # A script does not inherit this file's __future__ imports.
+        return compile(text, str(file), "exec", dont_inherit=True)
+    except SyntaxError as error:
+        place = f"{error.filename or file}:{error.lineno or 1}"
+        shown = f"\n    {error.text.strip()}" if error.text else ""
+        raise ScriptSourceError(f"{place}: {type(error).__name__}: {error.msg}{shown}") from error
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise ScriptSourceError(f"{file}:1: {error}") from error
+
+
+def _without_our_frames(report: traceback.TracebackException) -> traceback.TracebackException:
+    """Leave the frames of the script itself, not those of ours that it called or was called by; in causes, too."""
+    kept = [frame for frame in report.stack if not frame.filename.startswith(_OUR_FOLDER)]
+    report.stack = traceback.StackSummary.from_list(kept)
+    for earlier in (report.__cause__, report.__context__):
+        if earlier is not None:
+            _without_our_frames(earlier)
+    return report

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The services ~reset and ~reset_simulation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim import _core
+from bubblesim.scripting.host.host import ScriptHost
+from bubblesim.services.answers import answering_empty
+
+
+def offer_reset_services(bridge: Any, host: ScriptHost) -> None:
+    """Offer both, as std_srvs/Empty, under the node's name; they are done when they answer."""
+    for name, action in (("~reset", host.simulation.reset_world), ("~reset_simulation", host.restart)):
+        answer = answering_empty(action)
+        bridge.make_urgent(bridge.advertise_service(name, "std_srvs/Empty", answer, _core.messages.TimeForm.FLOAT))

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "master/node_name.hpp"
+
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcDispatch.h>
+
+#include <chrono>
+#include <cstdint>
+#include <stdexcept>
+#include <thread>
+
+#include "master/master_call.hpp"
+#include "peers/timed_socket.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr std::chrono::milliseconds kAnswerTime{1000};
+constexpr std::chrono::milliseconds kTimeToEnd{3000};
+constexpr std::chrono::milliseconds kBetweenLooks{20};
+
+/// The URI of the node that has this one's name on the master; empty when there is none.
+std::string registered_uri() {
+  RpcAnswer answer = ask_master("lookupNode", {ros::this_node::getName()});
+  if (!answer.succeeded || answer.value.getType() != XmlRpc::XmlRpcValue::TypeString) return {};
+  return answer.value;
+}
+
+/// A call that a node which hangs does not keep from returning.
+class TimedClient final : public XmlRpc::XmlRpcClient {
+ public:
+  TimedClient(const std::string& host, std::uint32_t port) : XmlRpcClient(host.c_str(), static_cast<int>(port), "/") {}
+
+  void call(const char* method, const XmlRpc::XmlRpcValue& arguments) {
+    if (!executeNonBlock(method, arguments)) return;
+    _disp.addSource(this, XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
+    _disp.work(std::chrono::duration<double>(kAnswerTime).count());
+    _disp.removeSource(this);
+  }
+};
+
+/// One that is stopped by a signal still does.
+bool takes_connections(const std::string& uri) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port)) return false;
+  try {
+    const TimedSocket socket(host, port, Patience(Patience::Clock::now() + kAnswerTime));
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::string other_node_of_this_name() {
+  const std::string uri = registered_uri();
+  if (uri.empty() || !takes_connections(uri)) return {};
+  return "a node " + ros::this_node::getName() + " runs already on the ROS master " + ros::master::getURI() +
+         ": name this one otherwise by __name:=OTHER, or end that one by --replace";
+}
+
+void end_other_node_of_this_name() {
+  const std::string uri = registered_uri();
+  std::string host;
+  std::uint32_t port = 0;
+  if (uri.empty() || !ros::network::splitURI(uri, host, port) || !takes_connections(uri)) return;
+  XmlRpc::XmlRpcValue arguments;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = "another node takes its name";
+  TimedClient(host, port).call("shutdown", arguments);
+  const auto end = Patience::Clock::now() + kTimeToEnd;
+  while (takes_connections(uri) && Patience::Clock::now() < end) std::this_thread::sleep_for(kBetweenLooks);
+}
+
+bool master_knows_this_node() { return registered_uri() == ros::XMLRPCManager::instance()->getServerURI(); }
+
+}  // namespace bubblesim

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "master/patience.hpp"
+
+namespace bubblesim {
+
+/// A TCP connection that never waits longer than its user's patience lasts.
+class TimedSocket {
+ public:
+  struct TimedOut : std::runtime_error {
+    TimedOut() : std::runtime_error("no answer in time") {}
+  };
+
+  /// Connects. As read() and write(), it throws TimedOut, or std::runtime_error that says what went wrong.
+  TimedSocket(const std::string& host, std::uint32_t port, Patience patience);
+  ~TimedSocket();
+  TimedSocket(const TimedSocket&) = delete;
+  TimedSocket& operator=(const TimedSocket&) = delete;
+
+  void write(const void* data, std::size_t size);
+  /// Reads exactly that many bytes.
+  void read(void* data, std::size_t size);
+
+ private:
+  void wait_for(short event);
+
+  const Patience patience_;
+  int descriptor_ = -1;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/ros_bridge.hpp"
+
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/this_node.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "master/master_thread.hpp"
+#include "master/master_watch.hpp"
+#include "master/node_name.hpp"
+#include "master/parameters.hpp"
+#include "master/remote_shutdown.hpp"
+#include "master/use_sim_time.hpp"
+#include "node_setup.hpp"
+#include "peers/own_types.hpp"
+#include "peers/publisher_check.hpp"
+#include "peers/refused_peers.hpp"
+#include "ros_clock.hpp"
+#include "services/services.hpp"
+#include "status/counting_queue.hpp"
+#include "status/diagnostics.hpp"
+#include "status/say.hpp"
+#include "topics/arrivals.hpp"
+#include "topics/endpoint_table.hpp"
+#include "topics/endpoints.hpp"
+#include "topics/topics.hpp"
+
+namespace bubblesim {
+namespace {
+
+using messages::BridgeTime;
+using messages::EndpointId;
+using messages::MessageType;
+using messages::ServiceType;
+using messages::WireBuffer;
+
+constexpr std::chrono::milliseconds kAnswerTimeout{800};
+constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
+constexpr std::chrono::milliseconds kLastCalls{100};      // those given up, or held up by a master that is gone
+constexpr std::chrono::milliseconds kLastWords{200};
+
+}  // namespace
+
+struct RosBridge::Impl {
+  explicit Impl(RosBridgeOptions bridge_options);
+
+  void offer_pause_service(const std::string& name, bool paused);
+  std::string refusal();
+  void on_connected();
+
+  const RosBridgeOptions options;
+  const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>();
+  NotingQueue queue{arrivals};
+  CallbackGuard guard;
+  bool draining = false;
+
+  EndpointId next_id = 1;
+
+  RosClock clock{queue};
+  UseSimTime use_sim_time;
+
+  MasterWatch watch{[this] {
+    clock.read_use_sim_time();
+    say("registered again at ROS master " + ros::master::getURI());
+  }};
+  PublisherCheck publisher_check;
+  RefusedPeers refused_peers;
+  Diagnostics diagnostics{options.take_report};
+  MasterThread master;
+  Topics topics{master, publisher_check, queue, guard};
+  Services services{master, watch, guard, arrivals, options.is_ending};
+  std::vector<std::shared_ptr<ServiceServer>> own_servers;
+  Parameters parameters{master};
+
+  mutable std::mutex urgent_mutex;  // guards what follows
+  std::vector<WaitingCount> urgent;
+};
+
+RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
+    : options(std::move(bridge_options)),
+      master({[this] { return watch.check(); }, [this] { return refusal(); },
+              [] {
+                say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
+                    "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
+                    "as a master appears");
+              },
+              [this] { on_connected(); },
+              [this] {
+                publisher_check.look();
+                topics.look_for_publishers();
+                if (options.take_report) diagnostics.publish_when_due();
+              },
+              [this] { use_sim_time.restore(); }}) {
+  if (options.on_shutdown) take_over_shutdown(options.on_shutdown);
+  if (options.on_pause) {
+    offer_pause_service("~pause", true);
+    offer_pause_service("~unpause", false);
+  }
+  master.start();
+}
+
+std::string RosBridge::Impl::refusal() {
+  use_sim_time.take();  // also of a launch file whose node is refused
+  if (options.replace) end_other_node_of_this_name();
+  return options.replace ? std::string() : other_node_of_this_name();
+}
+
+void RosBridge::Impl::on_connected() {
+  clock.register_at_master();
+  for (const auto& server : own_servers) services.register_server(*server);
+  say("load succeeded: node " + ros::this_node::getName() + " at ROS master " + ros::master::getURI());
+}
+
+void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
+  own_servers.push_back(services.add_server(next_id++, name, empty_service(), [this, paused](messages::WireView) {
+    options.on_pause(paused);
+    return WireBuffer();
+  }));
+}
+
+RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
+  init_node(argc, argv, options.node_name);
+  impl_ = std::make_unique<Impl>(std::move(options));
+  const auto is_ending = [this] { return impl_->options.is_ending && impl_->options.is_ending(); };
+  impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout, is_ending);
+  if (const std::string refusal = impl_->master.refusal(); !refusal.empty()) throw std::invalid_argument(refusal);
+}
+
+RosBridge::~RosBridge() {
+  // Here and not where roscpp lets go of them: scripts' callbacks must die on the simulation's thread.
+  impl_->topics.silence();
+  impl_->services.silence();
+  if (leave() && impl_->services.finish_calls(kLastCalls)) return;
+  say("the ROS master at " + master_uri() + " does not answer: leaving without taking this node off it");
+  static_cast<void>(impl_.release());  // the thread that is left behind still uses it
+}
+
+bool RosBridge::leave() { return impl_->master.stop(); }
+
+EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
+                                bool latch) {
+  const std::string resolved = resolve_name(topic, "topic");
+  impl_->clock.check_type(resolved, type);
+  impl_->topics.advertise(impl_->next_id, resolved, type, queue_size, latch);
+  if (resolved == impl_->clock.topic()) impl_->clock.say_left_to_script();
+  return impl_->next_id++;
+}
+
+EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
+                                messages::MessageCallback callback, bool tcp_no_delay) {
+  const std::string resolved = resolve_name(topic, "topic");
+  impl_->clock.check_type(resolved, type);
+  impl_->topics.subscribe(impl_->next_id, resolved, type, queue_size, std::move(callback), tcp_no_delay);
+  return impl_->next_id++;
+}
+
+void RosBridge::make_urgent(EndpointId endpoint) {
+  WaitingCount waiting =
+      impl_->topics.has_subscriber(endpoint) ? impl_->topics.waiting(endpoint) : impl_->services.waiting(endpoint);
+  const std::lock_guard lock(impl_->urgent_mutex);
+  impl_->urgent.push_back(std::move(waiting));
+}
+
+bool RosBridge::urgent_waits() const {
+  const std::lock_guard lock(impl_->urgent_mutex);
+  return std::any_of(impl_->urgent.begin(), impl_->urgent.end(), [](const auto& waiting) { return *waiting > 0; });
+}
+
+void RosBridge::give_way(EndpointId endpoint) { impl_->topics.give_way(endpoint); }
+
+bool RosBridge::wants_messages(EndpointId publisher) const { return impl_->topics.wants_messages(publisher); }
+
+bool RosBridge::has_publisher(EndpointId subscriber) const { return impl_->topics.has_publisher(subscriber); }
+
+const MessageType& RosBridge::message_type(EndpointId endpoint) const { return impl_->topics.type(endpoint); }
+
+void RosBridge::publish(EndpointId publisher, WireBuffer message) {
+  impl_->topics.publish(publisher, std::move(message));
+}
+
+void RosBridge::shutdown_publisher(EndpointId publisher) { impl_->topics.shutdown_publisher(publisher); }
+
+void RosBridge::shutdown_subscriber(EndpointId subscriber) { impl_->topics.shutdown_subscriber(subscriber); }
+
+EndpointId RosBridge::advertise_service(const std::string& name, const ServiceType& type,
+                                        messages::ServiceCallback callback) {
+  const auto server = impl_->services.add_server(impl_->next_id, name, type, std::move(callback));
+  impl_->master.post([impl = impl_.get(), server] { impl->services.register_server(*server); });
+  return impl_->next_id++;
+}
+
+EndpointId RosBridge::service_client(const std::string& name, const ServiceType& type) {
+  impl_->services.add_client(impl_->next_id, name, type);
+  return impl_->next_id++;
+}
+
+const ServiceType& RosBridge::service_type(EndpointId server_or_client) const {
+  return impl_->services.type(server_or_client);
+}
+
+WireBuffer RosBridge::call(EndpointId client, WireBuffer request, double timeout) {
+  return impl_->services.call(client, std::move(request), timeout);
+}
+
+bool RosBridge::wait_for_service(const std::string& name, double timeout) {
+  return impl_->services.wait_for(name, timeout);
+}
+
+void RosBridge::shutdown_service_server(EndpointId server) { impl_->services.remove_server(server); }
+
+void RosBridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
+
+std::optional<messages::ParameterValue> RosBridge::get_parameter(const std::string& name) {
+  return impl_->parameters.get(name);
+}
+
+void RosBridge::set_parameter(const std::string& name, const messages::ParameterValue& value) {
+  impl_->parameters.set(name, value);
+}
+
+void RosBridge::delete_parameter(const std::string& name) { impl_->parameters.remove(name); }
+
+std::optional<std::string> RosBridge::search_parameter(const std::string& name) {
+  return impl_->parameters.search(name);
+}
+
+void RosBridge::drain() {
+  if (impl_->draining) return;  // called by a message's callback: the outer call goes on with the rest
+  impl_->draining = true;
+  impl_->queue.callAvailable(ros::WallDuration(0));
+  impl_->draining = false;
+  impl_->services.serve();
+  impl_->guard.rethrow();
+}
+
+void RosBridge::wait_for_arrival(double timeout) { impl_->arrivals->wait(std::chrono::duration<double>(timeout)); }
+
+BridgeTime RosBridge::now() const { return impl_->clock.now(); }
+
+bool RosBridge::clock_reaches_others() const { return impl_->clock.reaches_others(); }
+
+void RosBridge::publish_clock(double sim_time) {
+  impl_->clock.set(sim_time);
+  if (impl_->topics.publishers_on(impl_->clock.topic()) == 0) impl_->clock.publish();
+}
+
+void RosBridge::publish_diagnostics() {
+  if (!impl_->options.take_report) return;
+  if (impl_->master.run([impl = impl_.get()] { impl->diagnostics.publish(); }, kLastWords)) {
+    std::this_thread::sleep_for(kLastWords);  // roscpp sends on a thread of its own, and nobody can ask it when
+  }
+}
+
+bool RosBridge::connected() const {
+  return impl_->master.state() == MasterThread::State::kConnected && !ros::isShuttingDown();
+}
+
+std::string RosBridge::master_uri() const { return ros::master::getURI(); }
+
+std::string RosBridge::node_name() const { return ros::this_node::getName(); }
+
+}  // namespace bubblesim

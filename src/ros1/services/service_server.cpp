@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "services/service_server.hpp"
+
+#include <ros/advertise_service_options.h>
+#include <ros/service_manager.h>
+#include <ros/service_publication.h>
+
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace bubblesim {
+namespace {
+
+using messages::ServiceCallback;
+using messages::ServiceError;
+using messages::WireBuffer;
+using messages::WireView;
+
+/// As TCPROS has it: one byte for success, the length, the bytes.
+ros::SerializedMessage to_response(const WireBuffer& message) {
+  constexpr std::size_t kBefore = 1 + sizeof(std::uint32_t);
+  if (message.size() > std::numeric_limits<std::uint32_t>::max() - kBefore) {
+    throw ServiceError("the response has 4 GiB or more");
+  }
+  const auto length = static_cast<std::uint32_t>(message.size());
+  boost::shared_array<std::uint8_t> bytes(new std::uint8_t[kBefore + length]);
+  bytes[0] = 1;
+  std::memcpy(bytes.get() + 1, &length, sizeof(length));
+  if (length != 0) std::memcpy(bytes.get() + kBefore, message.data(), length);
+  return {bytes, kBefore + length};
+}
+
+}  // namespace
+
+class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
+ public:
+  Responder(ServiceCallback callback, ros::CallbackQueueInterface& queue_to_use, CallbackGuard& guard)
+      : queue(queue_to_use), callback_(std::make_shared<ServiceCallback>(std::move(callback))), guard_(guard) {}
+
+  // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
+  void silence() { callback_.reset(); }
+
+  WireBuffer answer(WireView request) {
+    const std::shared_ptr<ServiceCallback> callback = callback_;  // it may silence itself
+    if (!callback) throw ServiceError("the service was shut down");
+    WireBuffer response;
+    std::optional<std::string> failure;
+    ++answering_;
+    guard_.run([&] {
+      try {
+        response = (*callback)(request);
+      } catch (const ServiceError& error) {
+        failure = error.what();
+      } catch (const std::exception& error) {
+        failure = error.what();
+        throw;
+      } catch (...) {
+        failure = "unknown error";
+        throw;
+      }
+    });
+    --answering_;
+    if (failure) throw ServiceError(*failure);
+    return response;
+  }
+
+  bool is_answering() const { return answering_ > 0; }
+
+  /// What this throws, roscpp logs and sends to the caller.
+  bool call(ros::ServiceCallbackHelperCallParams& params) override {
+    params.response = to_response(answer(WireView(params.request.buf.get(), params.request.num_bytes)));
+    return true;
+  }
+
+  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+
+ private:
+  std::shared_ptr<ServiceCallback> callback_;
+  CallbackGuard& guard_;
+  int answering_ = 0;  // answers begun and not ended: more than one when a service calls itself
+};
+
+ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type, ServiceCallback callback,
+                             RequestQueue& queue, CallbackGuard& guard)
+    : name_(std::move(name)),
+      type_(type),
+      responder_(boost::make_shared<Responder>(std::move(callback), queue, guard)) {}
+
+WireBuffer ServiceServer::answer(WireView request) { return responder_->answer(request); }
+
+WaitingCount ServiceServer::waiting() const { return responder_->queue.waiting(); }
+
+bool ServiceServer::is_answering() const { return responder_->is_answering(); }
+
+void ServiceServer::silence() { responder_->silence(); }
+
+void ServiceServer::register_at_master() {
+  ros::AdvertiseServiceOptions options;
+  options.service = name_;
+  options.md5sum = type_.md5;
+  options.datatype = type_.name;
+  options.req_datatype = type_.request->name;
+  options.res_datatype = type_.response->name;
+  options.helper = responder_;
+  options.callback_queue = &responder_->queue;
+  const auto& services = ros::ServiceManager::instance();
+  if (services->advertiseService(options)) publication_ = services->lookupServicePublication(name_);
+}
+
+ros::ServicePublicationPtr ServiceServer::unregister_from_master() {
+  if (publication_) ros::ServiceManager::instance()->unadvertiseService(name_);
+  return std::exchange(publication_, nullptr);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "services/services.hpp"
+
+#include <ros/master.h>
+
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "master/master_thread.hpp"
+#include "master/master_watch.hpp"
+#include "master/quiet_thread.hpp"
+#include "peers/timed_socket.hpp"
+#include "services/service_call.hpp"
+
+namespace bubblesim {
+namespace {
+
+using messages::EndpointId;
+using messages::ServiceError;
+using messages::ServiceType;
+using messages::WireBuffer;
+using messages::WireView;
+using Clock = Patience::Clock;
+
+constexpr std::size_t kRetiredKept = 64;
+constexpr int kMostNested = 16;
+constexpr int kMostLeftBehind = 16;     // threads of calls that a hanging master holds up
+constexpr double kLongestWait = 86400;  // [s]; more would overflow the clock
+constexpr double kOneLook = 0.5;        // [s]
+// What a thread gets for telling that it ran out of time, beyond that time.
+constexpr std::chrono::milliseconds kGrace{100};
+
+Patience patience_for(double timeout) {
+  const std::chrono::duration<double> seconds(std::min(timeout, kLongestWait));
+  return Patience(Clock::now() + std::chrono::duration_cast<Clock::duration>(seconds));
+}
+
+std::string seconds_text(double seconds) {
+  std::string text = std::to_string(seconds);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " s";
+}
+
+}  // namespace
+
+Services::Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::shared_ptr<Arrivals> arrivals,
+                   std::function<bool()> interrupted)
+    : master_(master),
+      watch_(watch),
+      guard_(guard),
+      interrupted_(std::move(interrupted)),
+      queue_(std::make_shared<RequestQueue>(std::move(arrivals))) {}
+
+Services::~Services() { retired_.clear(); }
+
+std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
+                                                    messages::ServiceCallback callback) {
+  const std::string resolved = resolve_name(name, "service");
+  if (find_own(resolved)) {
+    throw std::invalid_argument("service '" + resolved + "' is already offered here");
+  }
+  take_off_leaving();  // before one of the same name is registered
+  auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
+  servers_.emplace(id, server);
+  return server;
+}
+
+void Services::register_server(ServiceServer& server) {
+  server.register_at_master();
+  watch_.add_service(server.name());
+}
+
+void Services::add_client(EndpointId id, const std::string& name, const ServiceType& type) {
+  clients_.emplace(id, std::make_shared<Client>(Client{resolve_name(name, "service"), type}));
+}
+
+void Services::remove_server(EndpointId id) {
+  const auto found = find_endpoint(servers_, id, "service server");
+  found->second->silence();
+  if (found->second->is_answering()) {
+    leaving_.push_back(std::move(found->second));
+  } else {
+    take_off(std::move(found->second));
+  }
+  servers_.erase(found);
+}
+
+/// Drops the connections, too.
+void Services::take_off(std::shared_ptr<ServiceServer> server) {
+  master_.post([this, gone = std::move(server)] {
+    watch_.remove_service(gone->name());
+    retired_.push_back(gone->unregister_from_master());
+    if (retired_.size() > kRetiredKept) retired_.pop_front();
+  });
+}
+
+void Services::take_off_leaving() {
+  for (std::shared_ptr<ServiceServer>& server : std::exchange(leaving_, {})) take_off(std::move(server));
+}
+
+void Services::serve() {
+  queue_->serve();
+  take_off_leaving();
+}
+
+void Services::remove_client(EndpointId id) { clients_.erase(find_endpoint(clients_, id, "service client")); }
+
+WaitingCount Services::waiting(EndpointId server) const {
+  return find_endpoint(servers_, server, "service server")->second->waiting();
+}
+
+const ServiceType& Services::type(EndpointId id) const {
+  const auto client = clients_.find(id);
+  if (client != clients_.end()) return client->second->type;
+  return find_endpoint(servers_, id, "service server or client")->second->type();
+}
+
+WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout) {
+  // A copy, for what is served meanwhile may shut the client down.
+  const auto [name, type] = *find_endpoint(clients_, client, "service client")->second;
+  if (!(timeout > 0)) throw std::invalid_argument("the timeout of a service call must be positive");
+  if (const std::shared_ptr<ServiceServer> own = find_own(name)) {
+    if (own->type().md5 != type.md5) throw other_type(name, own->type().name, own->type().md5, type);
+    try {
+      return own->answer(WireView(request.data(), request.size()));
+    } catch (const ServiceError& error) {
+      throw ServiceError("service '" + name + "' failed: " + error.what());
+    }
+  }
+  struct Call {
+    WireBuffer request;
+    WireBuffer response;
+    std::exception_ptr error;
+  };
+  const auto call = std::make_shared<Call>();
+  call->request = std::move(request);
+  const Patience patience = patience_for(timeout);
+  const bool finished = run_beside(
+      [call, patience, service = name, &wanted = type] {
+        try {
+          call->response = call_service(service, wanted, std::move(call->request), patience);
+        } catch (...) {
+          call->error = std::current_exception();
+        }
+      },
+      patience);
+  if (!finished) throw ServiceError("service '" + name + "' not called: the ROS master does not answer");
+  if (!call->error) return std::move(call->response);
+  try {
+    std::rethrow_exception(call->error);
+  } catch (const TimedSocket::TimedOut&) {
+    throw ServiceError("service '" + name + "' did not answer within " + seconds_text(timeout));
+  }
+}
+
+bool Services::wait_for(const std::string& name, double timeout) {
+  const std::string resolved = resolve_name(name, "service");
+  if (!(timeout >= 0)) throw std::invalid_argument("the timeout for a service must not be negative");
+  if (find_own(resolved)) return true;
+  const auto found = std::make_shared<bool>(false);
+  const Patience patience = patience_for(timeout > 0 ? timeout : kOneLook);
+  const auto look = [found, patience, resolved, once = timeout == 0] {
+    while (!(*found = find_service(resolved, patience)) && !once && !patience.over()) {
+      std::this_thread::sleep_for(patience.slice());
+    }
+  };
+  return run_beside(look, patience) && *found;
+}
+
+void Services::silence() {
+  for (const auto& [id, server] : servers_) server->silence();
+}
+
+bool Services::finish_calls(std::chrono::milliseconds timeout) {
+  const auto end = Clock::now() + timeout;
+  while (*calls_ > 0 && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  return *calls_ == 0;
+}
+
+std::shared_ptr<ServiceServer> Services::find_own(const std::string& name) const {
+  for (const auto& [id, server] : servers_) {
+    if (server->name() == name) return server;
+  }
+  return nullptr;
+}
+
+/// Runs `work` on a thread of its own and answers requests until it is done; false when it is not even then done when
+/// `patience` is over, because only the master can hold it up longer.
+bool Services::run_beside(std::function<void()> work, Patience patience) {
+  if (nested_ >= kMostNested) {
+    throw ServiceError(std::to_string(kMostNested) +
+                       " service calls wait for each other: do services call in a circle?");
+  }
+  if (*calls_ - nested_ >= kMostLeftBehind) return false;
+  const auto done = std::make_shared<std::atomic<bool>>(false);
+  ++*calls_;
+  // Ends by itself when patience is over, or when the master answers; what it needs then is its own.
+  start_without_signals([work = std::move(work), done, queue = queue_, calls = calls_] {
+    work();
+    *done = true;
+    queue->wake();
+    --*calls;
+  }).detach();
+  bool interrupted = false;
+  const auto is_over = [&] {
+    interrupted = interrupted_ && interrupted_();
+    return *done || interrupted;
+  };
+  ++nested_;
+  const bool finished = queue_->serve_until(is_over, patience.end() + kGrace);
+  --nested_;
+  if (interrupted && !*done) {
+    patience.give_up();
+    throw ServiceError("the call was given up: the simulator is ending");
+  }
+  return finished;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "bubblesim/run_report.hpp"
+#include "status/topic_traffic.hpp"
+
+namespace diagnostic_updater {
+class DiagnosticStatusWrapper;
+class Updater;
+}  // namespace diagnostic_updater
+
+namespace bubblesim {
+
+/// Publishes once a second on /diagnostics how the simulation and the traffic on the node's topics go. All of it
+/// belongs to the master thread.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::function<RunReport()> take_report);
+  ~Diagnostics();
+
+  Diagnostics(const Diagnostics&) = delete;
+  Diagnostics& operator=(const Diagnostics&) = delete;
+
+  /// To be called regularly, while roscpp is started and there is a master.
+  void publish_when_due();
+  void publish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  void tell_simulation(Status& status);
+  void tell_topics(Status& status);
+
+  const std::function<RunReport()> take_report_;
+  std::unique_ptr<diagnostic_updater::Updater> updater_;  // made with the first message: its making asks the master
+  TopicTraffic traffic_;
+  int script_errors_ = 0;  // told so far
+  Clock::time_point next_{};
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/subscribe_options.h>
+#include <ros/subscription_callback_helper.h>
+#include <ros/topic_manager.h>
+
+#include <typeinfo>
+
+#include "topics/endpoints.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// A type of its own for each subscriber: roscpp lets one subscriber of a topic read a message for all whose types are
+/// equal, but here each reads for itself.
+class OwnType final : public std::type_info {
+ public:
+  OwnType() : std::type_info(name_) {}
+
+ private:
+  const char name_[2] = "*";  // types whose names begin with a star are told apart by the names' places in memory
+};
+
+}  // namespace
+
+class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelper {
+ public:
+  Receiver(messages::MessageCallback callback, bool has_header, ros::CallbackQueueInterface& queue_to_use,
+           CallbackGuard& guard)
+      : queue(queue_to_use),
+        callback_(std::make_shared<messages::MessageCallback>(std::move(callback))),
+        has_header_(has_header),
+        guard_(guard) {}
+
+  // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
+  void silence() { callback_.reset(); }
+
+  /// Hands out the bytes where they lie in roscpp's buffer, which lives as long as this call: big messages are not
+  /// copied once more. It runs where roscpp would call the callback just after.
+  ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
+    const std::shared_ptr<messages::MessageCallback> callback = callback_;  // it may silence itself
+    if (callback) guard_.run([&] { (*callback)(messages::WireView(params.buffer, params.length)); });
+    return nullptr;
+  }
+
+  /// Only called with what deserialize() returns, which is nothing.
+  void call(ros::SubscriptionCallbackHelperCallParams& /*params*/) override {}
+
+  const std::type_info& getTypeInfo() override { return type_; }
+  bool isConst() override { return true; }
+  bool hasHeader() override { return has_header_; }
+
+  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+
+ private:
+  std::shared_ptr<messages::MessageCallback> callback_;
+  const bool has_header_;
+  CallbackGuard& guard_;
+  const OwnType type_;
+};
+
+SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size,
+                                       messages::MessageCallback callback, bool tcp_no_delay,
+                                       ros::CallbackQueueInterface& queue, CallbackGuard& guard)
+    : topic_(std::move(topic)),
+      type_(type),
+      queue_size_(queue_size),
+      tcp_no_delay_(tcp_no_delay),
+      receiver_(boost::make_shared<Receiver>(std::move(callback), type.has_header, queue, guard)) {}
+
+WaitingCount SubscriberEndpoint::waiting() const { return receiver_->queue.waiting(); }
+
+void SubscriberEndpoint::silence() { receiver_->silence(); }
+
+void SubscriberEndpoint::register_at_master() {
+  ros::SubscribeOptions options(topic_, queue_size_, type_.md5, type_.name);
+  options.helper = receiver_;
+  options.callback_queue = &receiver_->queue;
+  options.transport_hints = ros::TransportHints().tcpNoDelay(tcp_no_delay_);
+  ros::TopicManager::instance()->subscribe(options);
+}
+
+void SubscriberEndpoint::look_for_publisher() {
+  has_publisher_ = ros::TopicManager::instance()->getNumPublishers(topic_) > 0;
+}
+
+void SubscriberEndpoint::unregister_from_master() { ros::TopicManager::instance()->unsubscribe(topic_, receiver_); }
+
+}  // namespace bubblesim

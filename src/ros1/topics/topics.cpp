@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/topics.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "master/master_thread.hpp"
+
+namespace bubblesim {
+
+using messages::EndpointId;
+using messages::MessageType;
+
+namespace {
+
+/// What is to be registered a second time. A publisher is replaced, for the simulation's thread may look at its
+/// registration while the master thread makes the next.
+std::shared_ptr<PublisherEndpoint> renewed(const std::shared_ptr<PublisherEndpoint>& publisher) {
+  return publisher->unregistered_copy();
+}
+std::shared_ptr<SubscriberEndpoint> renewed(const std::shared_ptr<SubscriberEndpoint>& subscriber) {
+  return subscriber;
+}
+
+}  // namespace
+
+void check_same_type(const std::string& topic, const MessageType& type, const char* done, const MessageType& other) {
+  if (type.md5 == other.md5) return;
+  throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name +
+                              ", so it cannot be " + type.name);
+}
+
+/// A topic has one type in a node.
+void Topics::check_type_on(const std::string& topic, const MessageType& type) const {
+  const auto check = [&](const auto& endpoints, const char* done) {
+    for (const auto& [id, other] : endpoints) {
+      if (other->topic() == topic && giving_way_.count(id) == 0) check_same_type(topic, type, done, other->type());
+    }
+  };
+  check(publishers_, "advertised");
+  check(subscribers_, "subscribed");
+}
+
+void Topics::advertise(EndpointId id, const std::string& topic, const MessageType& type, std::uint32_t queue_size,
+                       bool latch) {
+  check_type_on(topic, type);
+  const auto publisher = std::make_shared<PublisherEndpoint>(topic, type, queue_size, latch);
+  publishers_.emplace(id, publisher);
+  settle(topic);
+  put_on(publisher);
+}
+
+void Topics::subscribe(EndpointId id, const std::string& topic, const MessageType& type, std::uint32_t queue_size,
+                       messages::MessageCallback callback, bool tcp_no_delay) {
+  check_type_on(topic, type);
+  auto deliver = [this, id, callback = std::move(callback)](messages::WireView message) {
+    if (!is_aside(id)) callback(message);
+  };
+  const auto subscriber =
+      std::make_shared<SubscriberEndpoint>(topic, type, queue_size, std::move(deliver), tcp_no_delay, queue_, guard_);
+  subscribers_.emplace(id, subscriber);
+  settle(topic);
+  put_on(subscriber);
+}
+
+void Topics::give_way(EndpointId id) {
+  giving_way_.try_emplace(id);
+  const auto publisher = publishers_.find(id);
+  settle(publisher != publishers_.end() ? publisher->second->topic()
+                                        : find_endpoint(subscribers_, id, "subscriber")->second->topic());
+}
+
+bool Topics::is_aside(EndpointId id) const {
+  const auto found = giving_way_.find(id);
+  return found != giving_way_.end() && found->second.aside;
+}
+
+template <class Endpoint>
+bool Topics::has_script(const EndpointTable<Endpoint>& endpoints, const std::string& topic,
+                        const MessageType* other_than) const {
+  return std::any_of(endpoints.begin(), endpoints.end(), [&](const auto& entry) {
+    const auto& [id, endpoint] = entry;
+    if (endpoint->topic() != topic || giving_way_.count(id) != 0) return false;
+    return other_than == nullptr || endpoint->type().md5 != other_than->md5;
+  });
+}
+
+/// Has those that give way do so, or take their topic again.
+void Topics::settle(const std::string& topic) {
+  settle(publishers_, topic);
+  settle(subscribers_, topic);
+}
+
+template <class Endpoint>
+void Topics::settle(EndpointTable<Endpoint>& own_kind, const std::string& topic) {
+  for (auto& [id, standing] : giving_way_) {
+    const auto found = own_kind.find(id);
+    if (found == own_kind.end() || found->second->topic() != topic) continue;
+    const MessageType& type = found->second->type();
+    const bool off = has_script(publishers_, topic, &type) || has_script(subscribers_, topic, &type);
+    standing.aside = off || has_script(own_kind, topic, nullptr);
+    // Where the type is the same the endpoint stays, and with it the connections to other nodes.
+    if (off == std::exchange(standing.off, off)) continue;
+    if (off) {
+      take_off(found->second);
+    } else {
+      found->second = renewed(found->second);
+      put_on(found->second);
+    }
+  }
+}
+
+void Topics::put_on(std::shared_ptr<PublisherEndpoint> publisher) {
+  master_.post([publisher = std::move(publisher)] { publisher->register_at_master(); });
+}
+
+void Topics::put_on(std::shared_ptr<SubscriberEndpoint> subscriber) {
+  master_.post([this, subscriber = std::move(subscriber)] {
+    subscriber->register_at_master();
+    registered_.insert(subscriber);
+    publisher_check_.add(subscriber->topic(), subscriber->type());
+  });
+}
+
+void Topics::take_off(std::shared_ptr<PublisherEndpoint> publisher) {
+  master_.post([publisher = std::move(publisher)] { publisher->unregister_from_master(); });
+}
+
+void Topics::take_off(std::shared_ptr<SubscriberEndpoint> subscriber) {
+  master_.post([this, subscriber = std::move(subscriber)] {
+    publisher_check_.remove(subscriber->topic());
+    registered_.erase(subscriber);
+    subscriber->unregister_from_master();
+  });
+}
+
+bool Topics::wants_messages(EndpointId publisher) const {
+  const auto found = find_endpoint(publishers_, publisher, "publisher");
+  return !is_aside(publisher) && found->second->wants_messages();
+}
+
+bool Topics::has_publisher(EndpointId subscriber) const {
+  return find_endpoint(subscribers_, subscriber, "subscriber")->second->has_publisher();
+}
+
+WaitingCount Topics::waiting(EndpointId subscriber) const {
+  return find_endpoint(subscribers_, subscriber, "subscriber")->second->waiting();
+}
+
+void Topics::look_for_publishers() {
+  for (const auto& subscriber : registered_) subscriber->look_for_publisher();
+}
+
+const MessageType& Topics::type(EndpointId id) const {
+  const auto publisher = publishers_.find(id);
+  if (publisher != publishers_.end()) return publisher->second->type();
+  return find_endpoint(subscribers_, id, "publisher or subscriber")->second->type();
+}
+
+void Topics::publish(EndpointId publisher, messages::WireBuffer message) {
+  const auto found = find_endpoint(publishers_, publisher, "publisher");
+  if (!is_aside(publisher)) found->second->publish(std::move(message));
+}
+
+Topics::Standing Topics::forget_standing(EndpointId id) {
+  const auto node = giving_way_.extract(id);
+  return node ? node.mapped() : Standing();
+}
+
+void Topics::shutdown_publisher(EndpointId publisher) {
+  const auto found = find_endpoint(publishers_, publisher, "publisher");
+  const std::shared_ptr<PublisherEndpoint> gone = std::move(found->second);
+  publishers_.erase(found);
+  if (!forget_standing(publisher).off) take_off(gone);
+  settle(gone->topic());
+}
+
+void Topics::shutdown_subscriber(EndpointId subscriber) {
+  const auto found = find_endpoint(subscribers_, subscriber, "subscriber");
+  const std::shared_ptr<SubscriberEndpoint> gone = std::move(found->second);
+  subscribers_.erase(found);
+  gone->silence();
+  if (!forget_standing(subscriber).off) take_off(gone);
+  settle(gone->topic());
+}
+
+std::size_t Topics::publishers_on(const std::string& topic) const {
+  return static_cast<std::size_t>(std::count_if(publishers_.begin(), publishers_.end(),
+                                                [&](const auto& entry) { return entry.second->topic() == topic; }));
+}
+
+void Topics::silence() {
+  for (const auto& [id, subscriber] : subscribers_) subscriber->silence();
+}
+
+}  // namespace bubblesim

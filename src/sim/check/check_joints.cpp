@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a joint can be simulated.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bubblesim/nearest_names.hpp"
+#include "check/checker.hpp"
+#include "check/checks.hpp"
+#include "check/scene_check.hpp"
+#include "physics/joints/joint.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void check_axis(Checker& checker, const AxisDescription& axis) {
+  checker.require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction),
+                  "a direction other than zero");
+  checker.require(axis.lower <= axis.upper, "the lower limit", text(axis.lower),
+                  "at most the upper limit " + text(axis.upper));
+  for (const double limit : {axis.lower, axis.upper}) {
+    checker.require(!std::isfinite(limit) || within(limit, kMaxDistance), "the limit", text(limit),
+                    "infinite or at most 1e6");
+  }
+  checker.require(axis.lower < kInfinity && axis.upper > -kInfinity, "the range of limits",
+                  text(axis.lower) + " to " + text(axis.upper), "one that can be reached");
+  checker.require(axis.max_force >= 0, "the effort limit", text(axis.max_force), "0 or more");
+  checker.require(axis.max_velocity > 0, "the velocity limit", text(axis.max_velocity), "above 0");
+  checker.require(axis.friction >= 0 && within(axis.friction, 1e9), "the friction", text(axis.friction), "0 or more");
+  checker.require(axis.damping >= 0 && within(axis.damping, 1e9), "the damping", text(axis.damping), "0 or more");
+  checker.require(axis.spring_stiffness >= 0 && within(axis.spring_stiffness, 1e9), "the spring's stiffness",
+                  text(axis.spring_stiffness), "0 or more");
+  checker.require(within(axis.spring_reference, kMaxDistance), "the spring's reference", text(axis.spring_reference),
+                  "finite and at most 1e6");
+}
+
+const JointDescription* joint_named(const ModelDescription& model, const std::string& name) {
+  for (const JointDescription& joint : model.joints) {
+    if (joint.name == name) return &joint;
+  }
+  return nullptr;
+}
+
+/// Whether following leads back to the joint where it began.
+bool follows_itself(const ModelDescription& model, const JointDescription& joint) {
+  const JointDescription* leader = &joint;
+  for (std::size_t i = 0; i <= model.joints.size(); ++i) {
+    const auto following = std::find_if(leader->axes.begin(), leader->axes.end(),
+                                        [](const AxisDescription& axis) { return axis.mimic.has_value(); });
+    if (following == leader->axes.end()) return false;
+    leader = joint_named(model, following->mimic->joint);
+    if (leader == nullptr) return false;
+  }
+  return true;
+}
+
+void check_mimic(Checker& checker, const ModelDescription& model, const JointDescription& joint,
+                 const MimicDescription& mimic) {
+  for (const double value : {mimic.multiplier, mimic.offset, mimic.reference}) {
+    checker.require(within(value, kMaxDistance), "a number of <mimic>", text(value), "finite and at most 1e6");
+  }
+  const JointDescription* leader = joint_named(model, mimic.joint);
+  if (leader == nullptr) {
+    std::vector<std::string> names;
+    for (const JointDescription& known : model.joints) names.push_back(known.name);
+    checker.report("mimics the joint '" + mimic.joint + "', which this model does not have" +
+                   did_you_mean(mimic.joint, names));
+  } else if (mimic.axis < 0 || mimic.axis >= static_cast<int>(leader->axes.size())) {
+    checker.report("mimics an axis of '" + mimic.joint + "' that this joint does not have");
+  } else if (follows_itself(model, joint)) {
+    checker.report("mimics itself by way of '" + mimic.joint + "': one joint must lead");
+  }
+}
+
+void check_revolute2(Checker& checker, const JointDescription& joint) {
+  if (joint.parent == "world") checker.report("a revolute2 joint needs a link as its parent, not the world");
+  if (std::isfinite(joint.axes[1].lower) || std::isfinite(joint.axes[1].upper)) {
+    checker.report("the second axis of a revolute2 joint turns freely: it cannot have limits");
+  }
+  checker.require(joint.axes[0].direction.Cross(joint.axes[1].direction).Length() > 1e-3, "the second axis",
+                  text(joint.axes[1].direction), "not parallel to the first");
+}
+
+void check_universal(Checker& checker, const JointDescription& joint) {
+  checker.require(within(joint.axes[0].direction.Dot(joint.axes[1].direction), 1e-2), "the second axis",
+                  text(joint.axes[1].direction), "at right angles to the first");
+}
+
+void check_gearbox(Checker& checker, const ModelDescription& model, const JointDescription& joint) {
+  checker.require(std::abs(joint.gearbox_ratio) >= 1e-3 && within(joint.gearbox_ratio, 1e3), "the gearbox ratio",
+                  text(joint.gearbox_ratio), "from 1e-3 to 1e3, or the same below zero");
+  if (joint.gearbox_reference != "world") {
+    checker.check_link_name(model, joint.gearbox_reference, "gearbox_reference_body");
+  }
+  for (const std::string& link : {joint.parent, joint.child}) {
+    if (hinge_between(model, joint.gearbox_reference, link) != nullptr) continue;
+    checker.report("a gearbox couples two hinges: '" + link + "' needs a revolute joint with the reference body '" +
+                   joint.gearbox_reference + "'");
+  }
+  for (const AxisDescription& axis : joint.axes) {
+    if (axis.motor != MotorMode::kNone || axis.mimic || axis.friction > 0 || axis.damping > 0 ||
+        axis.spring_stiffness > 0 || std::isfinite(axis.lower) || std::isfinite(axis.upper)) {
+      checker.report(
+          "a gearbox has no motor, limits, friction, damping or spring: give them to the hinges of its links");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+const JointDescription* hinge_between(const ModelDescription& model, const std::string& one, const std::string& other) {
+  for (const JointDescription& joint : model.joints) {
+    if (joint.type != "revolute" && joint.type != "continuous") continue;
+    if ((joint.parent == one && joint.child == other) || (joint.parent == other && joint.child == one)) return &joint;
+  }
+  return nullptr;
+}
+
+void check_joint(Checker& checker, const ModelDescription& model, const JointDescription& joint) {
+  checker.check_pose(joint.pose);
+  if (joint.parent != "world") checker.check_link_name(model, joint.parent, "parent");
+  checker.check_link_name(model, joint.child, "child");
+  if (joint.parent == joint.child) checker.report("connects the link '" + joint.parent + "' with itself");
+  std::vector<std::string> types;
+  const JointKind* kind = nullptr;
+  for (const JointKind& known : joint_kinds()) {
+    types.emplace_back(known.type);
+    if (joint.type == known.type) kind = &known;
+  }
+  if (kind == nullptr) {
+    std::string list;
+    for (const std::string& type : types) list += (list.empty() ? "" : ", ") + type;
+    checker.report("joints of type '" + joint.type + "' are not supported; supported are " + list);
+    return;
+  }
+  if (static_cast<int>(joint.axes.size()) != kind->axes) {
+    checker.report("the number of axes is " + std::to_string(joint.axes.size()) + ", it must be " +
+                   std::to_string(kind->axes) + " for a " + joint.type + " joint");
+    return;
+  }
+  for (const AxisDescription& axis : joint.axes) {
+    check_axis(checker, axis);
+    if (axis.mimic) check_mimic(checker, model, joint, *axis.mimic);
+  }
+  if (joint.type == "revolute2") check_revolute2(checker, joint);
+  if (joint.type == "universal") check_universal(checker, joint);
+  if (joint.type == "gearbox") check_gearbox(checker, model, joint);
+  if (joint.type == "screw") {
+    checker.require(std::abs(joint.screw_lead) >= 1e-6 && within(joint.screw_lead, 1e3), "the screw's lead",
+                    text(joint.screw_lead) + " m", "from 1e-6 to 1e3 m for a turn, or the same below zero");
+  }
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/checker.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "bubblesim/nearest_names.hpp"
+#include "bubblesim/scene_tree.hpp"
+#include "check/checks.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+
+void Checker::at(const Source& source, std::string object) {
+  source_ = source;
+  object_ = as_path(std::move(object));
+}
+
+void Checker::report(std::string message) {
+  problems_.push_back({source_.file, source_.line, object_, std::move(message)});
+}
+
+void Checker::require(bool fine, const std::string& what, const std::string& found, const std::string& wanted) {
+  if (!fine) report(what + " is " + found + ", it must be " + wanted);
+}
+
+void Checker::check_pose(const Pose& pose) {
+  require(within(pose.Pos(), kMaxDistance), "the position", text(pose.Pos()), "finite and within 1e6 m");
+  const Quaternion& q = pose.Rot();
+  const double norm = std::sqrt(q.W() * q.W() + q.X() * q.X() + q.Y() * q.Y() + q.Z() * q.Z());
+  require(within(norm - 1, 1e-3), "the orientation (x, y, z, w)", text(q), "a rotation");
+}
+
+void Checker::check_length(const char* what, double value) {
+  require(value > 0 && value <= kMaxSize, what, text(value) + " m", "above 0 and at most 1e5 m");
+}
+
+void Checker::check_color(const char* what, const Color& color) {
+  const auto fine = [](float part) { return part >= 0 && part <= 1; };
+  require(fine(color.r) && fine(color.g) && fine(color.b), what, text(Vector3(color.r, color.g, color.b)),
+          "red, green and blue from 0 to 1");
+}
+
+void Checker::check_link_name(const ModelDescription& model, const std::string& name, const std::string& role) {
+  std::vector<std::string> names;
+  for (const LinkDescription& link : model.links) {
+    if (link.name == name) return;
+    names.push_back(link.name);
+  }
+  report("the " + role + " '" + name + "' is no link of this model" + did_you_mean(name, names));
+}
+
+}  // namespace bubblesim

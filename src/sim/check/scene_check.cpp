@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "check/checker.hpp"
+#include "check/checks.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// Determinant of an inertia beside that of a ball of the same trace: a wire of a metre and 0.1 mm has 1e-7.
+constexpr double kFlat = 1e-13;
+
+/// Paths must be able to tell it.
+void check_name(Checker& checker, const std::string& name) {
+  if (name.empty()) checker.report("the model has no name");
+  if (name.find('/') != std::string::npos) checker.report("the name holds a '/', which separates names in paths");
+}
+
+void check_inertia(Checker& checker, const LinkDescription& link) {
+  const Vector3& d = link.inertia_diagonal;
+  const Vector3& p = link.inertia_products;  // xy, xz, yz
+  checker.require(within(link.centre_of_mass, kMaxSize), "the centre of mass", text(link.centre_of_mass), "finite");
+  checker.require(within(d, 1e9) && within(p, 1e9) && is_positive_definite(d, p), "the inertia",
+                  "ixx iyy izz " + text(d) + ", ixy ixz iyz " + text(p), "a positive definite matrix");
+}
+
+void check_light(Checker& checker, const Light& light) {
+  checker.check_color("the light's colour", light.diffuse);
+  checker.require(within(light.direction, 1e6) && light.direction.Length() > 1e-9, "the light's direction",
+                  text(light.direction), "a direction");
+  checker.require(within(light.position, kMaxDistance), "the light's position", text(light.position),
+                  "finite and within 1e6 m");
+  checker.require(light.range >= 0, "the light's range", text(light.range) + " m", "0 or more");
+  const double weakest = std::min({light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation});
+  checker.require(weakest >= 0, "the light's attenuation", text(weakest), "0 or more");
+  checker.require(light.falloff >= 0, "the light's falloff", text(light.falloff), "0 or more");
+}
+
+void check_link(Checker& checker, const ModelDescription& model, const LinkDescription& link) {
+  const std::string path = "/" + model.name + "/" + link.name;
+  checker.check_pose(link.pose);
+  if (link.start) checker.check_pose(*link.start);
+  if (!model.is_static) {
+    checker.require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg",
+                    "above 0 and at most 1e6 kg");
+    check_inertia(checker, link);
+  }
+  check_shapes(checker, model, link, path);
+  for (const Light& light : link.lights) check_light(checker, light);
+  check_sensors(checker, link, path);
+}
+
+void check_environment(Checker& checker, const Environment& environment) {
+  checker.check_color("the ambient light", environment.ambient);
+  checker.check_color("the background", environment.background);
+  for (const Light& light : environment.lights) check_light(checker, light);
+  checker.require(within(environment.magnetic_field, 1e3), "the magnetic field", text(environment.magnetic_field),
+                  "finite and at most 1e3 T");
+  const GeographicOrigin& origin = environment.origin;
+  checker.require(within(origin.latitude, 90), "the latitude", text(origin.latitude), "-90 to 90 degrees");
+  checker.require(within(origin.longitude, 180), "the longitude", text(origin.longitude), "-180 to 180 degrees");
+  checker.require(within(origin.elevation, kMaxSize), "the elevation", text(origin.elevation) + " m", "at most 1e5 m");
+  checker.require(within(origin.heading, 2 * M_PI), "the heading", text(origin.heading) + " rad", "a turn at most");
+}
+
+void check_model(Checker& checker, const ModelDescription& model) {
+  checker.at(model.source, "/" + model.name);
+  check_name(checker, model.name);
+  checker.check_pose(model.pose);
+  if (model.links.empty()) checker.report("has no link, so there is nothing to simulate; add a <link>");
+  std::set<std::string> names;
+  const auto once = [&](const Source& source, const std::string& name) {
+    checker.at(source, "/" + model.name + "/" + name);
+    if (!names.insert(name).second) checker.report("the name '" + name + "' is used twice in this model");
+  };
+  for (const LinkDescription& link : model.links) {
+    once(link.source, link.name);
+    check_link(checker, model, link);
+  }
+  for (const JointDescription& joint : model.joints) {
+    once(joint.source, joint.name);
+    check_joint(checker, model, joint);
+    check_sensors(checker, joint, "/" + model.name + "/" + joint.name);
+  }
+  for (const NestedModelDescription& nested : model.nested) {
+    once(nested.source, nested.name);
+    checker.check_pose(nested.pose);
+    if (!nested.canonical_link.empty()) checker.check_link_name(model, nested.canonical_link, "canonical link");
+  }
+  checker.at(model.source, "/" + model.name);
+  if (!model.canonical_link.empty()) checker.check_link_name(model, model.canonical_link, "canonical link");
+}
+
+void check_scene(Checker& checker, const SceneDescription& scene) {
+  checker.at(scene.source, "");
+  checker.require(scene.physics_step >= kMinPhysicsStep && scene.physics_step <= kMaxPhysicsStep, "the physics step",
+                  text(scene.physics_step), "1e-5 to 1 s");
+  checker.require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step of a pass", text(scene.time_step),
+                  "1e-4 to 10 s");
+  const double substeps = scene.time_step / scene.physics_step;
+  checker.require(checker.found_any() || (substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6),
+                  "the time step of a pass", text(scene.time_step) + " s",
+                  "a whole number of physics steps (" + text(scene.physics_step) + " s)");
+  checker.require(within(scene.gravity, 1e4), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
+  check_environment(checker, scene.environment);
+  for (const ModelDescription& model : scene.models) check_model(checker, model);
+}
+
+}  // namespace
+
+std::vector<Problem> check_scene(const SceneDescription& scene) {
+  Checker checker;
+  check_scene(checker, scene);
+  return checker.found();
+}
+
+bool is_positive_definite(const Vector3& d, const Vector3& p) {
+  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive. One that is
+  // so by rounding only is taken for flat.
+  const double minor2 = d.X() * d.Y() - p.X() * p.X();
+  const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
+                             p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
+  return d.X() > 0 && minor2 > 0 && determinant > kFlat * std::pow(d.Sum() / 3, 3);
+}
+
+std::vector<Problem> check_model(const ModelDescription& model) {
+  Checker checker;
+  check_model(checker, model);
+  return checker.found();
+}
+
+}  // namespace bubblesim

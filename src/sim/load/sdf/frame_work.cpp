@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/sdf/frame_work.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace bubblesim {
+namespace {
+
+using tinyxml2::XMLElement;
+
+// Each takes some seconds: what many frames need does not fit into the processor's cache, what a chain needs does.
+constexpr std::uint64_t kMostFrames = 10'000;
+constexpr std::uint64_t kMostComparisons = 2'000'000'000;
+
+/// What a frame's place is given in: by name, empty for the model.
+using Bases = std::unordered_map<std::string_view, std::string_view>;
+
+std::string_view or_empty(const char* found) { return found != nullptr ? std::string_view(found) : std::string_view(); }
+
+void add_sdf(const XMLElement& element, Bases& bases) {
+  const auto* pose = element.FirstChildElement("pose");
+  std::string_view base = or_empty(pose != nullptr ? pose->Attribute("relative_to") : nullptr);
+  const auto* child = std::string_view(element.Name()) == "joint" ? element.FirstChildElement("child") : nullptr;
+  if (base.empty() && child != nullptr) base = or_empty(child->GetText());
+  bases.emplace(or_empty(element.Attribute("name")), base);
+}
+
+/// A joint is placed in its parent, and its child in it.
+void add_urdf(const XMLElement& element, Bases& bases) {
+  if (std::string_view(element.Name()) != "joint") return;
+  const std::string_view name = or_empty(element.Attribute("name"));
+  const auto* parent = element.FirstChildElement("parent");
+  const auto* child = element.FirstChildElement("child");
+  bases.emplace(name, or_empty(parent != nullptr ? parent->Attribute("link") : nullptr));
+  bases.emplace(or_empty(child != nullptr ? child->Attribute("link") : nullptr), name);
+}
+
+/// The steps from all frames to the model.
+std::uint64_t all_steps(const Bases& bases) {
+  std::unordered_map<std::string_view, std::uint64_t> steps;
+  std::uint64_t sum = 0;
+  for (const auto& start : bases) {
+    std::vector<std::string_view> way;
+    std::string_view at = start.first;
+    while (!at.empty() && steps.count(at) == 0 && way.size() <= bases.size()) {  // a circle ends, too
+      way.push_back(at);
+      const auto found = bases.find(at);
+      at = found != bases.end() ? found->second : std::string_view();
+    }
+    std::uint64_t length = at.empty() || steps.count(at) == 0 ? 0 : steps[at];
+    for (auto frame = way.rbegin(); frame != way.rend(); ++frame) steps[*frame] = ++length;
+    sum += steps[start.first];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::string frame_work_problem(const XMLElement& model) {
+  const std::string_view kind = model.Name();
+  if (kind != "model" && kind != "robot") return {};
+  Bases bases;
+  std::uint64_t frames = 0;
+  for (const auto* element = model.FirstChildElement(); element != nullptr; element = element->NextSiblingElement()) {
+    const std::string_view name = element->Name();
+    if (name != "link" && name != "joint" && name != "frame" && name != "model") continue;
+    ++frames;
+    kind == "robot" ? add_urdf(*element, bases) : add_sdf(*element, bases);
+  }
+  if (frames <= kMostFrames && frames * all_steps(bases) <= kMostComparisons) return {};
+  return "has " + std::to_string(frames) +
+         " links, joints and frames, too many for the way in which they stand on one another: SDFormat would take "
+         "minutes to place them; divide the model, or place them in the model itself instead of in one another";
+}
+
+}  // namespace bubblesim

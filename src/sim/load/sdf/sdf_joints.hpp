@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SDFormat's <joint>.
+#pragma once
+
+#include <sdf/Joint.hh>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "load/scene_reading.hpp"
+
+namespace bubblesim {
+
+/// `model_path` is the path of the model's object.
+JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path, SceneReading& reading);
+
+}  // namespace bubblesim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/sdf/sdf_left_out.hpp"
+
+#include <map>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "load/scene_reading.hpp"
+#include "load/sdf/sdf_source.hpp"
+
+namespace bubblesim {
+namespace {
+
+struct LeftOut {
+  const char* name;
+  const char* reason;
+  bool (*counts)(const sdf::ElementPtr&);  // whether it would have an effect
+};
+
+bool always(const sdf::ElementPtr&) { return true; }
+bool is_true(const sdf::ElementPtr& element) { return element->Get<bool>(); }
+bool blows(const sdf::ElementPtr& wind) {
+  return wind->Get<Vector3>("linear_velocity", Vector3::Zero).first != Vector3::Zero;
+}
+bool decays(const sdf::ElementPtr& decay) {
+  return decay->Get<double>("linear", 0.0).first != 0 || decay->Get<double>("angular", 0.0).first != 0;
+}
+
+const std::vector<LeftOut>& left_out_of(const std::string& owner) {
+  static const std::map<std::string, std::vector<LeftOut>> kinds = {
+      {"world",
+       {{"actor", "actors are not simulated", always},
+        {"road", "roads are not simulated", always},
+        {"population", "populations of models are not simulated", always},
+        {"joint", "joints between models are not simulated", always},
+        {"wind", "wind is not simulated", blows}}},
+      {"model",
+       {{"gripper", "grippers hold by contacts here, not by a joint", always},
+        {"enable_wind", "wind is not simulated", is_true}}},
+      {"link",
+       {{"kinematic", "forces and gravity move the link", is_true},
+        {"velocity_decay", "give the joints <damping>", decays},
+        {"enable_wind", "wind is not simulated", is_true},
+        {"projector", "projectors are not simulated", always},
+        {"battery", "batteries are not simulated", always},
+        {"particle_emitter", "particles are not simulated", always},
+        {"audio_source", "sound is not simulated", always},
+        {"audio_sink", "sound is not simulated", always}}}};
+  return kinds.at(owner);
+}
+
+}  // namespace
+
+void report_left_out(const sdf::ElementPtr& owner, const std::string& path) {
+  for (const LeftOut& kind : left_out_of(owner->GetName())) {
+    if (!owner->HasElement(kind.name)) continue;
+    for (auto element = owner->GetElement(kind.name); element != nullptr;
+         element = element->GetNextElement(kind.name)) {
+      if (!kind.counts(element)) continue;
+      const std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
+      SceneReading::warn(source_of(element), name.empty() ? path : path + "/" + name,
+                         "<" + std::string(kind.name) + "> is left out: " + kind.reason);
+    }
+  }
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SDFormat's <link>, with the shapes and sensors in it.
+#pragma once
+
+#include <sdf/Link.hh>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "load/scene_reading.hpp"
+
+namespace bubblesim {
+
+/// `model_path` is the path of the model's object; `is_static` tells whether the model stands fast.
+LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading);
+
+}  // namespace bubblesim

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SDFormat's <model>.
+#pragma once
+
+#include <sdf/Model.hh>
+
+#include "bubblesim/scene.hpp"
+#include "load/scene_reading.hpp"
+
+namespace bubblesim {
+
+/// `pose` is the model's in the world.
+ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading);
+
+}  // namespace bubblesim

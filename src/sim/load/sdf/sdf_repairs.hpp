@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that Gazebo takes and SDFormat does not: they are changed before SDFormat reads them.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "load/scene_reading.hpp"
+
+namespace bubblesim {
+
+/// Says what it changes, or reports what cannot be taken. Included files that it changes are copied to a folder of its
+/// own, which lasts as long as it does.
+class SdfRepairs {
+ public:
+  explicit SdfRepairs(SceneReading& reading) : reading_(reading) {}
+  ~SdfRepairs();
+  SdfRepairs(const SdfRepairs&) = delete;
+  SdfRepairs& operator=(const SdfRepairs&) = delete;
+
+  /// The text of the scene that SDFormat is to read; nothing when it can read the file as it is.
+  std::optional<std::string> repaired_scene();
+
+ private:
+  /// A model that files include.
+  struct Included {
+    std::filesystem::path file;    // as it is to be read
+    bool is_changed = false;       // against the one that was found
+    std::string name;              // of the model
+    std::set<std::string> frames;  // its links, joints, frames and models, those in others as inner::link
+  };
+
+  bool repair(tinyxml2::XMLElement& sdf, const std::string& file);
+  bool repair_below(tinyxml2::XMLElement& parent, const std::string& file);
+  bool repair_script(tinyxml2::XMLElement& script, const std::string& file);
+  bool repair_uri(tinyxml2::XMLElement& uri, const std::string& file);
+  bool leave_out_missing(tinyxml2::XMLElement& world, const std::string& file);
+  bool number_models(tinyxml2::XMLElement& parent, const std::string& file);
+  bool repair_joints(tinyxml2::XMLElement& model, const std::string& file);
+  std::string name_of(const tinyxml2::XMLElement& include);
+  std::set<std::string> frames_in(const tinyxml2::XMLElement& model);
+  /// Null when there is no such file, or none that can be read.
+  const Included* included(const tinyxml2::XMLElement& include);
+  void read_included(const std::filesystem::path& file, Included& included);
+  std::filesystem::path keep(const std::filesystem::path& original, const std::string& text);
+
+  SceneReading& reading_;
+  std::map<std::filesystem::path, Included> included_;
+  std::filesystem::path folder_;  // empty while nothing is kept
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SDFormat's <surface>.
+#pragma once
+
+#include <sdf/Element.hh>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "load/scene_reading.hpp"
+
+namespace bubblesim {
+
+/// `path` is the path of the collision that has it.
+Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, SceneReading& reading);
+
+}  // namespace bubblesim

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/urdf/urdf_reading.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "load/sdf/sdf_values.hpp"
+
+namespace bubblesim {
+namespace {
+
+using tinyxml2::XMLElement;
+
+// SDFormat says it of all files without a link, and URDF has links always.
+constexpr std::string_view kNoLink = "A model must have at least one link";
+constexpr const char* kNoOwnLink = "holds no <link> but the world";
+constexpr const char* kWorld = "world";
+constexpr int kMostLinks = 1000;  // one below the other
+
+void each(const XMLElement& parent, const char* name, const std::function<void(const XMLElement&)>& visit) {
+  for (const auto* element = parent.FirstChildElement(name); element != nullptr;
+       element = element->NextSiblingElement(name)) {
+    visit(*element);
+  }
+}
+
+std::string attribute(const XMLElement* element, const char* name) {
+  const char* value = element != nullptr ? element->Attribute(name) : nullptr;
+  return value != nullptr ? value : "";
+}
+
+std::string child_attribute(const XMLElement& parent, const char* child, const char* name) {
+  return attribute(parent.FirstChildElement(child), name);
+}
+
+/// Neither the world's motion nor the parent's holds the child of such a joint.
+bool lets_go(const XMLElement& joint) {
+  const std::string type = attribute(&joint, "type");
+  return type == "floating" || type == "planar";
+}
+
+bool is_massless(const XMLElement& link) {
+  const auto* inertial = link.FirstChildElement("inertial");
+  const auto* mass = inertial != nullptr ? inertial->FirstChildElement("mass") : nullptr;
+  return mass == nullptr || !(mass->DoubleAttribute("value") > 0);
+}
+
+/// SDFormat keeps a link without mass out of the model, so a fixed joint of it must be lumped, whatever a file asks.
+void lump_massless(XMLElement& robot) {
+  std::set<std::string> massless;
+  each(robot, "link", [&](const XMLElement& link) {
+    if (is_massless(link)) massless.insert(attribute(&link, "name"));
+  });
+  std::set<std::string> lumped;
+  each(robot, "joint", [&](const XMLElement& joint) {
+    for (const char* end : {"parent", "child"}) {
+      if (massless.count(child_attribute(joint, end, "link")) > 0) lumped.insert(attribute(&joint, "name"));
+    }
+  });
+  for (auto* extension = robot.FirstChildElement("gazebo"); extension != nullptr;
+       extension = extension->NextSiblingElement("gazebo")) {
+    if (lumped.count(attribute(extension, "reference")) == 0) continue;
+    for (const char* name : {"preserveFixedJoint", "disableFixedJointLumping"}) {
+      if (auto* element = extension->FirstChildElement(name)) extension->DeleteChild(element);
+    }
+  }
+}
+
+/// Whether it has mass once what fixed joints hold to it is one with it.
+bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
+  if (depth > kMostLinks) return false;  // links that carry each other, which SDFormat tells of
+  bool found = false;
+  each(robot, "link",
+       [&](const XMLElement& link) { found = found || (attribute(&link, "name") == name && !is_massless(link)); });
+  each(robot, "joint", [&](const XMLElement& joint) {
+    if (found || attribute(&joint, "type") != "fixed" || child_attribute(joint, "parent", "link") != name) return;
+    found = has_mass(robot, child_attribute(joint, "child", "link"), depth + 1);
+  });
+  return found;
+}
+
+/// A first link without mass would go, and the whole robot with it: nothing could move it, so the world holds it.
+void hold_massless_root(XMLElement& robot, const SceneReading& reading) {
+  std::set<std::string> children;
+  each(robot, "joint", [&](const XMLElement& joint) { children.insert(child_attribute(joint, "child", "link")); });
+  auto* root = robot.FirstChildElement("link");
+  while (root != nullptr && children.count(attribute(root, "name")) > 0) root = root->NextSiblingElement("link");
+  const std::string name = attribute(root, "name");
+  if (root == nullptr || name == kWorld || has_mass(robot, name)) return;
+  SceneReading::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
+                     "has no mass, so that nothing can move it: it is fixed to the world; give it an <inertial> if it "
+                     "is to move");
+  if (auto* inertial = root->FirstChildElement("inertial")) root->DeleteChild(inertial);
+  auto* inertial = root->InsertNewChildElement("inertial");
+  inertial->InsertNewChildElement("mass")->SetAttribute("value", 1);
+  auto* inertia = inertial->InsertNewChildElement("inertia");
+  for (const char* moment : {"ixx", "iyy", "izz"}) inertia->SetAttribute(moment, 1);
+  for (const char* product : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(product, 0);
+  robot.InsertNewChildElement("link")->SetAttribute("name", kWorld);
+  auto* joint = robot.InsertNewChildElement("joint");
+  joint->SetAttribute("name", (std::string(kWorld) + "_holds_" + name).c_str());
+  joint->SetAttribute("type", "fixed");
+  joint->InsertNewChildElement("parent")->SetAttribute("link", kWorld);
+  joint->InsertNewChildElement("child")->SetAttribute("link", name.c_str());
+}
+
+/// What a <gazebo> adds to a link or to the model is SDFormat, but for its own words.
+void repair_extension(XMLElement& extension, SceneReading& reading) {
+  const std::string& file = reading.xml().file();
+  const std::string link = attribute(&extension, "reference");
+  const std::string path = "/" + attribute(reading.xml().document().RootElement(), "name") + "/" + link;
+  for (auto* child = extension.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string_view name = child->Name();
+    if ((name == "mu1" || name == "mu2") && child->DoubleText() < 0) {
+      SceneReading::warn({file, child->GetLineNum()}, path,
+                         "<" + std::string(name) + "> is below 0: the friction is infinite");
+      child->SetText("inf");
+    } else if (name == "sensor") {
+      replace_bad_values(*child, link.empty() ? "model" : "link", file, reading);
+    }
+  }
+}
+
+std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
+  const auto* mimic = joint.FirstChildElement("mimic");
+  if (mimic == nullptr) return std::nullopt;
+  return MimicDescription{attribute(mimic, "joint"), 0, mimic->DoubleAttribute("multiplier", 1),
+                          mimic->DoubleAttribute("offset", 0), 0};
+}
+
+}  // namespace
+
+std::string prepared_urdf(SceneReading& reading) {
+  XMLElement& original = *reading.xml().document().RootElement();  // a copy has no lines
+  for (auto* extension = original.FirstChildElement("gazebo"); extension != nullptr;
+       extension = extension->NextSiblingElement("gazebo")) {
+    repair_extension(*extension, reading);
+  }
+  tinyxml2::XMLDocument document;
+  reading.xml().document().DeepCopy(&document);
+  XMLElement& robot = *document.RootElement();
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    // SDFormat knows no such joints and loses the pose of the link; finish_urdf() takes the joint away.
+    if (lets_go(*joint)) joint->SetAttribute("type", "continuous");
+  }
+  lump_massless(robot);
+  hold_massless_root(robot, reading);
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const std::string& prepared) {
+  sdf::Errors errors = root.LoadSdfString(prepared, config);
+  for (sdf::Error& error : errors) {
+    if (error.Message().find(kNoLink) != std::string::npos) error = sdf::Error(error.Code(), kNoOwnLink);
+  }
+  return errors;
+}
+
+void finish_urdf(ModelDescription& model, SceneReading& reading) {
+  const auto find = [&model](const std::string& name) {
+    return std::find_if(model.joints.begin(), model.joints.end(),
+                        [&name](const JointDescription& joint) { return joint.name == name; });
+  };
+  const XMLElement& robot = *reading.xml().document().RootElement();
+  each(robot, "link", [&](const XMLElement& link) {
+    const auto* inertial = link.FirstChildElement("inertial");
+    const std::string mass = inertial != nullptr ? child_attribute(*inertial, "mass", "value") : "";
+    if (mass.empty() || mass.front() != '-') return;  // none at all is left out, or part of what carries it
+    reading.report({reading.xml().file(), link.GetLineNum()}, "/" + model.name + "/" + attribute(&link, "name"),
+                   "the mass is " + mass + " kg, it must be above 0 and at most 1e6 kg");
+  });
+  each(robot, "joint", [&](const XMLElement& joint) {
+    const std::string name = attribute(&joint, "name");
+    const std::string path = "/" + model.name + "/" + name;
+    const Source source{reading.xml().file(), joint.GetLineNum()};
+    const auto found = find(name);
+    if (found == model.joints.end()) {
+      if (attribute(&joint, "type") == "fixed") return;  // lumped
+      SceneReading::warn(source, path,
+                         "is left out with all that hangs on it: '" + child_attribute(joint, "child", "link") +
+                             "', or a link that carries it, has no mass; give it an <inertial>");
+    } else if (lets_go(joint)) {
+      model.joints.erase(found);
+      if (attribute(&joint, "type") == "planar") {
+        SceneReading::warn(source, path, "planar joints are not simulated: its child moves freely");
+      }
+    }
+  });
+  each(robot, "joint", [&](const XMLElement& joint) {
+    const auto found = find(attribute(&joint, "name"));
+    const std::optional<MimicDescription> mimic = mimic_of(joint);
+    if (!mimic || found == model.joints.end() || found->axes.empty()) return;
+    // One that is in the file but not in the model stands still.
+    const auto* leader = robot.FirstChildElement("joint");
+    while (leader != nullptr && attribute(leader, "name") != mimic->joint) leader = leader->NextSiblingElement("joint");
+    if (leader != nullptr && find(mimic->joint) == model.joints.end()) {
+      SceneReading::warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
+                         "mimics '" + mimic->joint + "', which does not move: it is free instead");
+      return;
+    }
+    found->axes.front().mimic = mimic;
+  });
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/collision_mesh.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "meshes/convex_hull.hpp"
+#include "meshes/simplify.hpp"
+
+namespace bubblesim {
+namespace {
+
+// A mesh that fills its hull up to this part is convex; files round their corners.
+constexpr double kConvex = 0.001;
+// ODE takes ten microseconds for each that a body may touch, each time that it looks: with so many in a cubic metre, a
+// tenth of a second and more. Of fewer than the second number a body takes some hundredths.
+constexpr std::size_t kTooManyInCubicMetre = 10'000;
+constexpr std::size_t kFewInCubicMetre = 3'000;
+
+/// Corners that lie in the same place become one: files repeat them, and each would make contacts of its own.
+void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
+  std::map<TriangleMesh::Point, dTriIndex> index_of;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const TriangleMesh::Point& place = mesh.vertices[corner];
+      const auto [found, is_new] = index_of.try_emplace(place, static_cast<dTriIndex>(index_of.size()));
+      if (is_new) result.coordinates.insert(result.coordinates.end(), place.begin(), place.end());
+      result.indices.push_back(found->second);
+    }
+  }
+}
+
+void take_hull(const Hull& hull, CollisionMesh& result) {
+  for (const Vector3& corner : hull.corners) {
+    result.coordinates.insert(result.coordinates.end(), {corner.X(), corner.Y(), corner.Z()});
+  }
+  for (const TriangleMesh::Triangle& triangle : hull.triangles) {
+    result.indices.insert(result.indices.end(), triangle.begin(), triangle.end());
+  }
+}
+
+bool is_convex(const TriangleMesh& mesh, const Hull& hull) {
+  const double full = enclosed_volume(hull.triangles, [&](std::uint32_t i) { return hull.corners[i]; });
+  const double own = enclosed_volume(mesh.triangles, [&](std::uint32_t i) {
+    const TriangleMesh::Point& place = mesh.vertices[i];
+    return Vector3(place[0], place[1], place[2]);
+  });
+  // Also when it is inside out.
+  return full > 0 && std::abs(std::abs(own) / full - 1) < kConvex;
+}
+
+/// Leaves the corners that nothing needs any more where they are: ODE looks at triangles only.
+void make_coarser(CollisionMesh& mesh) {
+  const std::vector<float> coordinates(mesh.coordinates.begin(), mesh.coordinates.end());
+  CornerIndices triangles(mesh.indices.begin(), mesh.indices.end());
+  const std::size_t fullest = most_in_cubic_metre(coordinates, triangles);
+  if (fullest <= kTooManyInCubicMetre) return;
+  const std::size_t before = triangles.size() / 3;
+  const double moved = simplify(coordinates, triangles, kFewInCubicMetre);
+  mesh.indices.assign(triangles.begin(), triangles.end());
+  char millimetres[32];
+  std::snprintf(millimetres, sizeof millimetres, "%.2g", 1000 * moved);
+  mesh.remark = "is too fine to collide with (" + std::to_string(before) + " triangles, " + std::to_string(fullest) +
+                " of them within a cubic metre): it collides as a surface of " + std::to_string(triangles.size() / 3) +
+                " triangles that is up to about " + millimetres + " mm off; give the collision a simpler mesh";
+}
+
+std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
+  auto result = std::make_shared<CollisionMesh>();
+  const Hull hull = convex_hull(mesh);
+  if (is_convex(mesh, hull)) {
+    take_hull(hull, *result);
+  } else {
+    take_surface(mesh, *result);
+  }
+  make_coarser(*result);
+  result->data.reset(dGeomTriMeshDataCreate());
+  dGeomTriMeshDataBuildDouble(result->data.get(), result->coordinates.data(), 3 * sizeof(double),
+                              static_cast<int>(result->coordinates.size() / 3), result->indices.data(),
+                              static_cast<int>(result->indices.size()), 3 * sizeof(dTriIndex));
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh) {
+  // By owner, not by address: a new mesh may lie where an old one was.
+  using Known = std::map<std::weak_ptr<const TriangleMesh>, std::weak_ptr<const CollisionMesh>,
+                         std::owner_less<std::weak_ptr<const TriangleMesh>>>;
+  static std::mutex mutex;
+  static Known known;
+  const std::scoped_lock lock(mutex);
+  for (auto entry = known.begin(); entry != known.end();) {
+    entry = entry->first.expired() ? known.erase(entry) : std::next(entry);
+  }
+  std::weak_ptr<const CollisionMesh>& shared = known[mesh];
+  if (std::shared_ptr<const CollisionMesh> prepared = shared.lock()) return prepared;
+  std::shared_ptr<const CollisionMesh> prepared = prepare(*mesh);
+  shared = prepared;
+  return prepared;
+}
+
+}  // namespace bubblesim

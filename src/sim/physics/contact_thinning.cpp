@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contact_thinning.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "physics/contact_points.hpp"
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr std::size_t kEnough = 4;   // points on a plane
+constexpr double kSamePlane = 0.99;  // cosine between normals
+
+/// Contacts of two links, by their place among all.
+using Patch = std::vector<std::size_t>;
+
+bool same_surface(const dSurfaceParameters& a, const dSurfaceParameters& b) {
+  const auto values = [](const dSurfaceParameters& s) {
+    return std::tie(s.mu, s.mu2, s.rhoN, s.bounce, s.bounce_vel, s.soft_erp, s.soft_cfm, s.slip1, s.slip2);
+  };
+  return values(a) == values(b);  // what the mode does not ask for is 0 in both
+}
+
+bool belong_together(const dContact& a, const dContact& b) {
+  return dCalcVectorDot3(a.geom.normal, b.geom.normal) > kSamePlane && same_surface(a.surface, b.surface);
+}
+
+/// The patches of islands with many contacts, each of contacts between the same links.
+std::map<int, std::vector<Patch>> patches_by_island(const std::vector<FoundContact>& found, Islands& islands) {
+  std::map<std::pair<const Link*, const Link*>, std::vector<std::size_t>> by_links;  // to places in `all`
+  std::vector<std::pair<int, Patch>> all;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const int island = islands.of(found[i].first->island, found[i].second->island);
+    if (islands.contacts(island) <= Islands::kFew) continue;
+    std::vector<std::size_t>& patches = by_links[std::minmax(found[i].first->link, found[i].second->link)];
+    const auto patch = std::find_if(patches.begin(), patches.end(), [&](std::size_t other) {
+      return belong_together(found[all[other].second.front()].contact, found[i].contact);
+    });
+    if (patch == patches.end()) {
+      patches.push_back(all.size());
+      all.push_back({island, {i}});
+    } else {
+      all[*patch].second.push_back(i);
+    }
+  }
+  std::map<int, std::vector<Patch>> sorted;
+  for (auto& [island, patch] : all) sorted[island].push_back(std::move(patch));
+  return sorted;
+}
+
+/// Those that are enough of a patch.
+Patch enough(const Patch& patch, const std::vector<FoundContact>& found) {
+  if (patch.size() <= kEnough) return patch;
+  std::vector<dContactGeom> points;
+  points.reserve(patch.size());
+  for (const std::size_t i : patch) points.push_back(found[i].contact.geom);
+  Patch kept;
+  for (const std::size_t i : spread(points, kEnough)) kept.push_back(patch[i]);
+  return kept;
+}
+
+}  // namespace
+
+void thin_out(std::vector<FoundContact>& found, Islands& islands) {
+  std::vector<bool> keep(found.size(), true);
+  bool dropped = false;
+  for (const auto& [island, patches] : patches_by_island(found, islands)) {
+    std::vector<Patch> kept;
+    int count = 0;
+    for (const Patch& patch : patches) {
+      kept.push_back(enough(patch, found));
+      count += static_cast<int>(kept.back().size());
+    }
+    if (count > islands.limit(island)) continue;
+    islands.set_contacts(island, count);
+    dropped = true;
+    for (const Patch& patch : patches) {
+      for (const std::size_t i : patch) keep[i] = false;
+    }
+    for (const Patch& patch : kept) {
+      for (const std::size_t i : patch) keep[i] = true;
+    }
+  }
+  if (!dropped) return;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (keep[i]) found[end++] = found[i];
+  }
+  found.resize(end);
+}
+
+}  // namespace bubblesim

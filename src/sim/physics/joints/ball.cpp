@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ball: the child turns about a point.
+#include "physics/joints/kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Ball final : public Joint {
+ public:
+  Ball(dWorldID world, const JointSite& site) : Joint({}), joint_(dJointCreateBall(world, nullptr)) {
+    dJointAttach(joint_.get(), site.child, site.parent);
+    dJointSetBallAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+  }
+
+  double position(int) const override { return 0; }
+  double velocity(int) const override { return 0; }
+
+ private:
+  ode::JointHandle joint_;
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_ball(dWorldID world, const JointDescription&, const JointSite& site) {
+  return std::make_unique<Ball>(world, site);
+}
+
+}  // namespace bubblesim

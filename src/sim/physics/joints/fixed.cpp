@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// fixed: child and parent move as one.
+#include "physics/joints/kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Fixed final : public Joint {
+ public:
+  Fixed(dWorldID world, const JointSite& site) : Joint({}), joint_(dJointCreateFixed(world, nullptr)) {
+    dJointAttach(joint_.get(), site.child, site.parent);
+    dJointSetFixed(joint_.get());
+  }
+
+  double position(int) const override { return 0; }
+  double velocity(int) const override { return 0; }
+
+ private:
+  ode::JointHandle joint_;
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_fixed(dWorldID world, const JointDescription&, const JointSite& site) {
+  return std::make_unique<Fixed>(world, site);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// gearbox: when the parent turns in the reference body by an angle, the child turns by -ratio times that angle. Parent
+// and child are held in the reference body by hinges of their own.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_defaults.hpp"
+#include "physics/joints/kinds.hpp"
+#include "physics/joints/tooth.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kSmallestSize = 0.1;  // m, of gears whose axes meet
+/// Two axes lie on one line when the ways of a point beside them differ by less than this angle, rad.
+constexpr double kOneLine = 1e-2;
+/// Mass and inertia of a layshaft beside those of the child.
+constexpr double kLayshaftPart = 1e-3;
+
+/// A body, null is the world, and its motion.
+struct Frame {
+  explicit Frame(dBodyID body) {
+    if (body == nullptr) return;
+    const dReal* p = dBodyGetPosition(body);
+    const dReal* q = dBodyGetQuaternion(body);
+    const dReal* w = dBodyGetAngularVel(body);
+    pose = Pose({p[0], p[1], p[2]}, Quaternion(q[0], q[1], q[2], q[3]));
+    angular = {w[0], w[1], w[2]};
+  }
+  Pose pose;
+  Vector3 angular;  // rad/s
+};
+
+/// An axis in the frame of the reference body, and what turns about it.
+struct Shaft {
+  dBodyID body = nullptr;
+  Vector3 point;
+  Vector3 direction;
+
+  Vector3 way_of(const Vector3& at) const { return direction.Cross(at - point); }  // for a turn of one radian
+};
+
+/// Where two shafts hold each other.
+struct Mesh {
+  Vector3 point;  // in the frame of the reference body
+  Vector3 direction;
+  double arm = 0;  // m, that the first shaft moves along the direction when it turns by a radian
+};
+
+/// So that the second turns -ratio times as fast as the first. Nothing when the axes lie on one line.
+std::optional<Mesh> mesh_of(const Shaft& first, const Shaft& second, double ratio) {
+  const Vector3 apart = second.point - first.point;
+  const double size = std::max(apart.Length(), kSmallestSize);
+  std::optional<Mesh> best;
+  double widest = kOneLine;
+  for (const Vector3& aside : {Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ}) {
+    const Vector3 point = first.point + apart / 2 + aside * size / 2;
+    const Vector3 way1 = first.way_of(point);
+    const Vector3 way2 = second.way_of(point);
+    const double angle = way1.Cross(way2).Length() / std::max(way1.Length() * way2.Length(), 1e-12);
+    if (angle <= widest) continue;
+    widest = angle;
+    // Along the direction, way1 must be as long as way2 for a turn of -ratio.
+    const Vector3 difference = way1 + way2 * ratio;
+    const Vector3 direction = (way1 - difference * (way1.Dot(difference) / difference.SquaredLength())).Normalized();
+    best = Mesh{point, direction, way1.Dot(direction)};
+  }
+  return best;
+}
+
+class Gearbox final : public Joint {
+ public:
+  Gearbox(dWorldID world, const JointDescription& description, const JointSite& site)
+      : Joint(description.axes), reference_(site.reference), ratio_(description.gearbox_ratio) {
+    const Frame frame(reference_);
+    const auto shaft = [&](dBodyID body, const Vector3& point, int axis) {
+      return Shaft{body, frame.pose.Rot().RotateVectorReverse(point - frame.pose.Pos()),
+                   frame.pose.Rot().RotateVectorReverse(axis_direction(description, axis, site))};
+    };
+    shafts_[0] = shaft(site.parent, site.parent_shaft, 0);
+    shafts_[1] = shaft(site.child, site.child_shaft, 1);
+    for (int i = 0; i < 2; ++i) at_start_[i] = frame.pose.Rot().Inverse() * Frame(shafts_[i].body).pose.Rot();
+    if (const auto direct = mesh_of(shafts_[0], shafts_[1], ratio_)) {
+      teeth_.push_back({shafts_[0].body, shafts_[1].body, *direct, ratio_, Tooth(world)});
+    } else {
+      add_layshaft(world);
+    }
+  }
+
+  /// Of the parent (axis 0) and of the child (axis 1) in the reference body, with whole turns.
+  double position(int axis) const override {
+    const Quaternion turn =
+        Frame(reference_).pose.Rot().Inverse() * Frame(shafts_[axis].body).pose.Rot() * at_start_[axis].Inverse();
+    const double sine = Vector3(turn.X(), turn.Y(), turn.Z()).Dot(shafts_[axis].direction);
+    const double angle = 2 * std::atan2(sine, turn.W());
+    return followed_[axis] + std::remainder(angle - followed_[axis], 2 * M_PI);
+  }
+  double velocity(int axis) const override {
+    const Frame frame(reference_);
+    return (Frame(shafts_[axis].body).angular - frame.angular)
+        .Dot(frame.pose.Rot().RotateVector(shafts_[axis].direction));
+  }
+
+ private:
+  struct Pair {
+    dBodyID first;
+    dBodyID second;
+    Mesh mesh;
+    double ratio;
+    Tooth tooth;
+  };
+
+  /// Shafts on one line have no point in which they could hold each other: a small shaft beside them turns in between.
+  void add_layshaft(dWorldID world) {
+    const Shaft& parent = shafts_[0];
+    const Vector3 least = parent.direction.Abs().X() < 0.6 ? Vector3::UnitX : Vector3::UnitY;
+    const Vector3 aside = parent.direction.Cross(least).Normalized();
+    layshaft_.reset(dBodyCreate(world));
+    dMass mass;
+    dBodyGetMass(shafts_[1].body, &mass);
+    const double inertia = kLayshaftPart * std::min({mass.I[0], mass.I[5], mass.I[10]});
+    dMassSetParameters(&mass, kLayshaftPart * mass.mass, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
+    dBodySetMass(layshaft_.get(), &mass);
+    dBodySetGravityMode(layshaft_.get(), 0);
+    const Shaft lay{layshaft_.get(), parent.point + aside * kSmallestSize, parent.direction};
+    lay_ = lay;
+    carry_layshaft();
+    bearing_.reset(dJointCreateHinge(world, nullptr));
+    dJointAttach(bearing_.get(), layshaft_.get(), reference_);
+    const Pose frame = Frame(reference_).pose;
+    const Vector3 anchor = frame.CoordPositionAdd(lay.point);
+    const Vector3 direction = frame.Rot().RotateVector(lay.direction);
+    dJointSetHingeAnchor(bearing_.get(), anchor.X(), anchor.Y(), anchor.Z());
+    dJointSetHingeAxis(bearing_.get(), direction.X(), direction.Y(), direction.Z());
+    teeth_.push_back({parent.body, lay.body, *mesh_of(parent, lay, 1), 1, Tooth(world)});
+    teeth_.push_back({lay.body, shafts_[1].body, *mesh_of(lay, shafts_[1], -ratio_), -ratio_, Tooth(world)});
+  }
+
+  /// Puts the layshaft where the reference body has it, for that may have been moved. It is round: its own turn does
+  /// not matter, only its spin.
+  void carry_layshaft() {
+    const Frame frame(reference_);
+    const Vector3 at = frame.pose.CoordPositionAdd(lay_.point);
+    const Vector3 axis = frame.pose.Rot().RotateVector(lay_.direction);
+    const double spin = (Frame(lay_.body).angular - frame.angular).Dot(axis);
+    const Vector3 angular = frame.angular + axis * spin;
+    const Quaternion& q = frame.pose.Rot();
+    const dQuaternion rotation = {q.W(), q.X(), q.Y(), q.Z()};
+    dVector3 velocity = {};
+    if (reference_ != nullptr) dBodyGetPointVel(reference_, at.X(), at.Y(), at.Z(), velocity);
+    dBodySetPosition(lay_.body, at.X(), at.Y(), at.Z());
+    dBodySetQuaternion(lay_.body, rotation);
+    dBodySetLinearVel(lay_.body, velocity[0], velocity[1], velocity[2]);
+    dBodySetAngularVel(lay_.body, angular.X(), angular.Y(), angular.Z());
+  }
+
+  void follow(double step) override {
+    for (int i = 0; i < 2; ++i) followed_[i] = position(i);
+    if (layshaft_ != nullptr) carry_layshaft();
+    const double error = followed_[1] + ratio_ * followed_[0];
+    const Frame frame(reference_);
+    for (Pair& pair : teeth_) {
+      // Only the last pair can tell how far the child is off.
+      const double gain = &pair == &teeth_.back() ? kErrorReduction / step : 0;
+      pair.tooth.hold(pair.first, pair.second, frame.pose.CoordPositionAdd(pair.mesh.point),
+                      frame.pose.Rot().RotateVector(pair.mesh.direction), -gain * error * pair.mesh.arm / pair.ratio);
+    }
+  }
+
+  dBodyID reference_;
+  double ratio_;
+  Shaft shafts_[2];         // of the parent and of the child
+  Quaternion at_start_[2];  // in the reference body
+  double followed_[2] = {};
+  ode::BodyHandle layshaft_;  // null when the shafts mesh directly
+  Shaft lay_;
+  ode::JointHandle bearing_;
+  std::vector<Pair> teeth_;
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_gearbox(dWorldID world, const JointDescription& description, const JointSite& site) {
+  return std::make_unique<Gearbox>(world, description, site);
+}
+
+}  // namespace bubblesim

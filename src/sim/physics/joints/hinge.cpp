@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// revolute and continuous: the child turns about one axis.
+#include <cmath>
+
+#include "physics/joints/kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+bool beyond_half_a_turn(double limit) { return std::isfinite(limit) && std::abs(limit) > M_PI; }
+
+class Hinge final : public Joint {
+ public:
+  Hinge(dWorldID world, const JointDescription& description, const JointSite& site)
+      : Joint(description.axes), joint_(dJointCreateHinge(world, nullptr)) {
+    // Child first: ODE counts the angle of the first body relative to the second.
+    dJointAttach(joint_.get(), site.child, site.parent);
+    const Vector3 direction = axis_direction(description, 0, site);
+    dJointSetHingeAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    dJointSetHingeAxis(joint_.get(), direction.X(), direction.Y(), direction.Z());
+    const AxisDescription& axis = description.axes[0];
+    counts_turns_ = beyond_half_a_turn(axis.lower) || beyond_half_a_turn(axis.upper) || axis.spring_stiffness > 0;
+    add_rows(world, Motor(joint_.get(), dJointSetHingeParam, 0), Motion::kTurns, {direction, site.child, site.parent});
+  }
+
+  /// From -pi to pi, unless there are limits beyond, or a spring: then whole turns count.
+  double position(int) const override {
+    const double angle = dJointGetHingeAngle(joint_.get());
+    return counts_turns_ ? angle + 2 * M_PI * std::round((followed_ - angle) / (2 * M_PI)) : angle;
+  }
+  double velocity(int) const override { return dJointGetHingeAngleRate(joint_.get()); }
+
+ private:
+  void follow(double) override {
+    if (!counts_turns_) return;
+    followed_ = position(0);
+    // ODE knows angles from -pi to pi only and compares them with the stops: move those into the turn that we are in.
+    const double turns = followed_ - dJointGetHingeAngle(joint_.get());
+    set_stops(0, axis(0).lower - turns, axis(0).upper - turns);
+  }
+
+  ode::JointHandle joint_;
+  bool counts_turns_ = false;
+  double followed_ = 0;  // rad, position at the last substep
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_hinge(dWorldID world, const JointDescription& description, const JointSite& site) {
+  return std::make_unique<Hinge>(world, description, site);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// revolute2: a steered wheel in one joint. The first axis is fixed in the parent, the second in the child.
+#include "physics/joints/kinds.hpp"
+
+namespace bubblesim {
+namespace {
+
+class Hinge2 final : public Joint {
+ public:
+  Hinge2(dWorldID world, const JointDescription& description, const JointSite& site)
+      : Joint(description.axes), joint_(dJointCreateHinge2(world, nullptr)) {
+    // Hinge2 needs two bodies and wants the one that holds the first axis first: the parent. It counts the turn of the
+    // first body relative to the second; about the negative axes, that is the child's about the positive ones.
+    dJointAttach(joint_.get(), site.parent, site.child);
+    dJointSetHinge2Anchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    const Vector3 steering = -axis_direction(description, 0, site);
+    const Vector3 rolling = -axis_direction(description, 1, site);
+    const dVector3 axis1 = {steering.X(), steering.Y(), steering.Z()};
+    const dVector3 axis2 = {rolling.X(), rolling.Y(), rolling.Z()};
+    dJointSetHinge2Axes(joint_.get(), axis1, axis2);
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 0), Motion::kTurns,
+             {steering, site.parent, site.child, 1});
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 1), Motion::kTurns,
+             {rolling, site.parent, site.child, 2});
+  }
+
+  double position(int axis) const override {
+    return axis == 0 ? dJointGetHinge2Angle1(joint_.get())
+                     : -dJointGetHinge2Angle2(joint_.get());  // against its own rate
+  }
+  double velocity(int axis) const override {
+    return axis == 0 ? dJointGetHinge2Angle1Rate(joint_.get()) : dJointGetHinge2Angle2Rate(joint_.get());
+  }
+
+ private:
+  ode::JointHandle joint_;
+};
+
+}  // namespace
+
+std::unique_ptr<Joint> make_hinge2(dWorldID world, const JointDescription& description, const JointSite& site) {
+  return std::make_unique<Hinge2>(world, description, site);
+}
+
+}  // namespace bubblesim

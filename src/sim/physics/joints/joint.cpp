@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/joints/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/contact_defaults.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// How fast position control closes the gap to its target, as a time constant in seconds: one default pass.
+constexpr double kServoTime = 0.05;
+
+/// The turn from `from` to `to` that is at most half a revolution.
+double shortest_turn(double from, double to) { return std::remainder(to - from, 2 * M_PI); }
+
+bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) || std::isfinite(axis.upper); }
+
+bool needs_driving(const AxisDescription& axis) {
+  return axis.motor == MotorMode::kPosition || axis.mimic || (axis.motor == MotorMode::kVelocity && has_limits(axis));
+}
+
+double target_speed(const AxisDescription& axis, double target) {
+  return std::clamp(target, -axis.max_velocity, axis.max_velocity);
+}
+
+}  // namespace
+
+Joint::Joint(std::vector<AxisDescription> axes) {
+  for (AxisDescription& description : axes) {
+    if (needs_driving(description)) driven_.push_back(static_cast<int>(axes_.size()));
+    if (description.spring_stiffness > 0) sprung_.push_back(static_cast<int>(axes_.size()));
+    axes_.emplace_back().description = std::move(description);
+  }
+}
+
+void Joint::follow(double) {}
+
+void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line) {
+  std::size_t index = 0;
+  while (axes_[index].rows) ++index;
+  Axis& axis = axes_[index];
+  const AxisDescription& description = axis.description;
+  axis.rows = std::move(rows);
+  set_stops(static_cast<int>(index), description.lower, description.upper);
+
+  const Motor* free_rows = has_limits(description) ? nullptr : &*axis.rows;
+  const auto take = [&](std::optional<Motor>& own) -> const Motor* {
+    if (free_rows != nullptr) return std::exchange(free_rows, nullptr);
+    own = motion == Motion::kTurns ? Motor::turning(world, line) : Motor::sliding(world, line);
+    return &*own;
+  };
+  axis.motor = take(axis.own_motor);  // also when nothing drives it yet; it costs nothing then
+  if (description.friction > 0) {
+    // A motor at rest that may slip.
+    axis.friction = take(axis.own_friction);
+    axis.friction->hold(0, description.friction);
+  }
+  if (description.damping > 0 || description.spring_stiffness > 0) {
+    axis.damper = take(axis.own_damper);
+    if (description.damping > 0) axis.damper->damp(0, description.damping);
+  }
+  apply_motor(axis);
+}
+
+void Joint::set_stops(int axis, double lower, double upper) const {
+  const Motor& rows = *axes_[static_cast<std::size_t>(axis)].rows;
+  if (std::isfinite(lower)) rows.set(dParamLoStop, lower);
+  if (std::isfinite(upper)) rows.set(dParamHiStop, upper);
+}
+
+void Joint::apply_motor(Axis& axis) {
+  if (axis.motor == nullptr) return;
+  const AxisDescription& description = axis.description;
+  const bool driven = description.motor != MotorMode::kNone || description.mimic;
+  const bool by_velocity = description.motor == MotorMode::kVelocity && !description.mimic;
+  axis.motor->hold(by_velocity ? target_speed(description, axis.target_velocity) : 0,
+                   driven ? description.max_force : 0);
+}
+
+void Joint::set_motor_mode(int axis, MotorMode mode) {
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.description.motor = mode;
+  driven_.erase(std::remove(driven_.begin(), driven_.end(), axis), driven_.end());
+  if (set.motor != nullptr && needs_driving(set.description)) driven_.push_back(axis);
+  apply_motor(set);
+}
+
+void Joint::set_target_position(int axis, double position) {
+  axes_[static_cast<std::size_t>(axis)].target_position = position;
+}
+
+void Joint::set_target_velocity(int axis, double velocity) {
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.target_velocity = velocity;
+  apply_motor(set);
+}
+
+void Joint::set_max_force(int axis, double force) {
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.description.max_force = force;
+  apply_motor(set);
+}
+
+dJointID Joint::motor_joint(int axis) const {
+  const Motor* motor = axes_[static_cast<std::size_t>(axis)].motor;
+  return motor == nullptr ? nullptr : motor->joint();
+}
+
+void Joint::mimic(int axis, const Joint& leader) { axes_[static_cast<std::size_t>(axis)].leader = &leader; }
+
+void Joint::drive(double step) {
+  follow(step);
+  for (const int index : driven_) drive_motor(index, step);
+  for (const int index : sprung_) drive_spring(index, step);
+}
+
+void Joint::drive_motor(int index, double step) {
+  const Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const AxisDescription& description = axis.description;
+  const double here = position(index);
+  if (axis.leader != nullptr) {
+    const MimicDescription& mimic = *description.mimic;
+    const double wanted = mimic.multiplier * (axis.leader->position(mimic.axis) - mimic.reference) + mimic.offset;
+    const double reachable = std::clamp(wanted, description.lower, description.upper);
+    const double along = reachable == wanted ? mimic.multiplier * axis.leader->velocity(mimic.axis) : 0;
+    const double speed = along + kErrorReduction * (reachable - here) / step;
+    axis.motor->set(dParamVel, target_speed(description, speed));
+    return;
+  }
+  if (description.motor == MotorMode::kVelocity) {
+    // Not beyond the limit: motor and stop, each of any force, would meet somewhere behind it.
+    const double speed = target_speed(description, axis.target_velocity);
+    const double room = speed > 0 ? description.upper - here : here - description.lower;
+    axis.motor->set(dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
+    return;
+  }
+  const double gap = has_limits(description)
+                         ? std::clamp(axis.target_position, description.lower, description.upper) - here
+                         : shortest_turn(here, axis.target_position);
+  axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
+}
+
+void Joint::drive_spring(int index, double step) {
+  const Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const AxisDescription& description = axis.description;
+  // The spring's force at the end of the step, k (reference - x - h v), is damping towards a velocity: stable for any
+  // k.
+  const double coefficient = description.damping + step * description.spring_stiffness;
+  const double force = description.spring_stiffness * (description.spring_reference - position(index));
+  axis.damper->damp(force / coefficient, coefficient);
+}
+
+Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site) {
+  return site.pose.Rot().RotateVector(description.axes[static_cast<std::size_t>(axis)].direction);
+}
+
+}  // namespace bubblesim

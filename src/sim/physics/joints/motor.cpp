@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/joints/motor.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace bubblesim {
+
+Motor Motor::turning(dWorldID world, const AxisLine& line) {
+  ode::JointHandle joint(dJointCreateAMotor(world, nullptr));
+  dJointSetAMotorNumAxes(joint.get(), 1);
+  return between(line, std::move(joint), dJointSetAMotorAxis, dJointSetAMotorParam);
+}
+
+Motor Motor::sliding(dWorldID world, const AxisLine& line) {
+  ode::JointHandle joint(dJointCreateLMotor(world, nullptr));
+  dJointSetLMotorNumAxes(joint.get(), 1);
+  return between(line, std::move(joint), dJointSetLMotorAxis, dJointSetLMotorParam);
+}
+
+Motor Motor::between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set) {
+  dJointAttach(joint.get(), line.first, line.second);
+  set_axis(joint.get(), 0, line.carrier, line.direction.X(), line.direction.Y(), line.direction.Z());
+  Motor motor(joint.get(), set, 0);
+  motor.own_ = std::move(joint);
+  return motor;
+}
+
+void Motor::hold(double velocity, double max_force) const {
+  set(dParamVel, velocity);
+  set(dParamFMax, std::isfinite(max_force) ? max_force : dInfinity);
+}
+
+void Motor::damp(double velocity, double coefficient) const {
+  hold(velocity, dInfinity);
+  set(dParamCFM, 1 / coefficient);  // a row of force f lets the velocity differ by CFM f
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/joints/tooth.hpp"
+
+#include "check/checks.hpp"
+
+namespace bubblesim {
+
+void Tooth::hold(dBodyID first, dBodyID second, const Vector3& point, const Vector3& direction, double velocity) {
+  // The friction of a contact, of any force, holds the direction. The contact itself, at right angles to it, would hold
+  // only what comes nearer faster than anything can.
+  const dVector3 along = {direction.X(), direction.Y(), direction.Z()};
+  dVector3 normal;
+  dVector3 unused;
+  dPlaneSpace(along, normal, unused);
+  dContact contact{};
+  contact.surface.mode = dContactFDir1 | dContactMu2 | dContactMotion1 | dContactMotionN;
+  contact.surface.mu = dInfinity;
+  contact.surface.mu2 = 0;
+  contact.surface.motion1 = velocity;
+  contact.surface.motionN = -kMaxSpeed;
+  for (unsigned i = 0; i < 3; ++i) {
+    contact.geom.pos[i] = point[i];
+    contact.geom.normal[i] = normal[i];
+    contact.fdir1[i] = along[i];
+  }
+  contact_.reset(dJointCreateContact(world_, nullptr, &contact));
+  dJointAttach(contact_.get(), first, second);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/surface_pair.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "physics/contact_defaults.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kSoftest = 1e-3;  // N/m
+/// A stiffer contact gives less under a robot's weight than the layer in which rigid ones rest.
+constexpr double kStiff = 1e6;  // N/m
+
+using Optional = std::optional<double>;
+
+/// The lower of two values of which any may be missing.
+Optional lower(const Optional& a, const Optional& b) { return a && b ? std::min(*a, *b) : (a ? a : b); }
+Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max(*a, *b) : (a ? a : b); }
+
+/// How a contact gives, in ODE's terms.
+struct Softness {
+  int mode = 0;
+  double erp = kErrorReduction;
+  double cfm = 0;
+  bool rigid = true;
+};
+
+/// Two springs one behind the other, two dampers side by side: what both do in a step.
+Softness soften(const Surface& a, const Surface& b, double step) {
+  Softness made;
+  if (a.kp || b.kp) {
+    const auto compliance = [](const Surface& surface) { return 1 / std::max(surface.kp.value_or(kRigid), kSoftest); };
+    const double kp = 1 / (compliance(a) + compliance(b));
+    if (kp >= kStiff) return made;
+    const double kd = a.kd.value_or(0) + b.kd.value_or(0);
+    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false};
+  }
+  if (const Optional erp = lower(a.soft_erp, b.soft_erp)) {
+    made.mode |= dContactSoftERP;
+    made.erp = *erp;
+  }
+  if (const Optional cfm = higher(a.soft_cfm, b.soft_cfm)) {
+    made.mode |= dContactSoftCFM;
+    made.cfm = std::max(*cfm, kConstraintSoftness);
+  }
+  return made;
+}
+
+}  // namespace
+
+SurfacePair combine(const Surface& a, const Surface& b, double step) {
+  SurfacePair pair;
+  dSurfaceParameters& made = pair.ode;
+  // Approximation 1 makes mu a coefficient; without it ODE takes mu as a force and wheels drift outwards.
+  made.mode = dContactApprox1;
+  made.mu = std::min(a.mu, b.mu);
+  made.mu2 = std::min(a.mu2.value_or(a.mu), b.mu2.value_or(b.mu));
+  if (made.mu2 != made.mu) made.mode |= dContactMu2;
+  const bool a_directed = a.fdir1 != Vector3::Zero;
+  const bool b_directed = b.fdir1 != Vector3::Zero;
+  if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
+
+  // As Gazebo has it since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
+  made.slip1 = a.slip1 + b.slip1;
+  made.slip2 = a.slip2 + b.slip2;
+  if (made.slip1 > 0) made.mode |= dContactSlip1;
+  if (made.slip2 > 0) made.mode |= dContactSlip2;
+
+  made.rhoN = std::max(a.torsion, b.torsion);
+  if (made.rhoN > 0) made.mode |= dContactRolling | dContactAxisDep;
+
+  made.bounce = std::min(a.restitution, b.restitution);
+  made.bounce_vel = std::min(a.bounce_threshold, b.bounce_threshold);
+  if (made.bounce > 0) made.mode |= dContactBounce;
+
+  const Softness softness = soften(a, b, step);
+  made.mode |= softness.mode;
+  made.soft_erp = softness.erp;
+  made.soft_cfm = softness.cfm;
+  pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
+  // As deep as they may, and in no time: else each wheel would rest at a depth of its own, and a robot lean.
+  if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;
+  // What is soft pushes as its spring does; a limit would let heavy things sink in.
+  const double speed = higher(a.max_vel, b.max_vel).value_or(kMaxCorrectingVelocity);
+  const bool limited = softness.rigid && softness.erp > 0;
+  pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();
+  return pair;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The life of a world; time passes in world_step.cpp, its objects are read and written in world_objects.cpp and
+// world_joints.cpp.
+#include "bubblesim/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "check/scene_check.hpp"
+#include "physics/world_state.hpp"
+#include "scene/fnv1a.hpp"
+
+namespace bubblesim {
+namespace {
+
+void check_not_diverged(const World::State& state) {
+  if (state.diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
+}
+
+}  // namespace
+
+void World::Discard::operator()(State* state) const {
+  // When ODE was left in the middle of a step, perhaps with its spaces locked, taking them down would trip its
+  // assertions.
+  if (!state->interrupted) std::default_delete<State>()(state);
+}
+
+World::World(const SceneDescription& scene, std::uint64_t seed) {
+  std::vector<Problem> problems = check_scene(scene);
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  state_.reset(std::make_unique<State>(scene.gravity, seed).release());
+  for (const ModelDescription& model : scene.models) {
+    place_model(*state_, enter_model(state_->tree, model), model);
+  }
+  gather_statics(*state_);
+  list_moving(*state_);
+}
+
+World::~World() = default;
+
+void World::reset() {
+  // Built anew, for ODE keeps more of the past than poses and velocities: forces of the last step, the order of its
+  // lists.
+  std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->gravity, state_->seed).release());
+  built->tree = state_->tree;
+  for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
+  gather_statics(*built);
+  list_moving(*built);
+  state_ = std::move(built);
+}
+
+ObjectId World::add_model(ModelDescription model) {
+  check_not_diverged(*state_);
+  std::vector<Problem> problems = check_model(model);
+  for (const ObjectId id : state_->tree.models()) {
+    if (state_->tree.at(id).name != model.name) continue;
+    problems.push_back({model.source.file, model.source.line, "/" + model.name,
+                        "the world has a model of this name already; choose another name, or remove that one first"});
+  }
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  ode::prepare_this_thread();
+  model.pose.Rot().Normalize();
+  const bool is_static = model.is_static;
+  const ObjectId id = enter_model(state_->tree, model);
+  try {
+    place_model(*state_, id, std::move(model));
+  } catch (...) {
+    state_->tree.remove(id);
+    throw;
+  }
+  if (is_static) gather_statics(*state_);
+  list_moving(*state_);
+  return id;
+}
+
+void World::check_removable(ObjectId model) const {
+  const std::vector<ObjectId>& lost = state_->lost_models;
+  if (state_->interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(*state_);
+  const Object& object = state_->tree.at(model);
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    throw InvalidInput(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
+                       ": it belongs to its model; remove that");
+  }
+}
+
+void World::remove_model(ObjectId model) {
+  check_removable(model);
+  dJointGroupEmpty(state_->contacts.get());  // those of the last step may be with its bodies
+  forget_forces(*state_);                    // and these name its shapes
+  state_->models.erase(model);
+  state_->tree.remove(model);
+  std::vector<ObjectId>& lost = state_->lost_models;
+  lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
+  if (lost.empty()) state_->diverged = state_->interrupted;
+  list_moving(*state_);
+  wake(*state_);
+}
+
+const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }
+
+const SensorDescription& World::sensor_description(ObjectId sensor) const {
+  const Object& object = state_->tree.at(sensor);
+  if (object.kind != ObjectKind::kSensor) {
+    throw NoSuchObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
+  }
+  const Object& carrier = state_->tree.at(object.parent);
+  const ModelDescription& model = state_->model_of(sensor).description;
+  const std::vector<SensorDescription>& sensors =
+      carrier.kind == ObjectKind::kJoint ? model.joints[carrier.index].sensors : model.links[carrier.index].sensors;
+  const std::vector<ObjectId> below = state_->tree.children(carrier.id, ObjectKind::kSensor);
+  return sensors[static_cast<std::size_t>(std::find(below.begin(), below.end(), sensor) - below.begin())];
+}
+
+const SceneTree& World::tree() const { return state_->tree; }
+
+std::vector<PlacedShape> World::shapes() const {
+  std::vector<PlacedShape> shapes;
+  for (const auto& [id, model] : state_->models) {
+    for (const Collider& collider : model.colliders) {
+      shapes.push_back({collider.link->object, model.description.is_static, collider.geometry,
+                        link_pose(*collider.link) * collider.in_link});
+    }
+  }
+  return shapes;
+}
+
+std::uint64_t World::state_hash() const {
+  Fnv1a hash;
+  for (const auto& [id, model] : state_->models) {
+    for (const Link& link : model.links) {
+      dBodyID body = link.body.get();
+      if (body == nullptr) continue;
+      hash.add(dBodyGetPosition(body), 3);
+      hash.add(dBodyGetQuaternion(body), 4);
+      hash.add(dBodyGetLinearVel(body), 3);
+      hash.add(dBodyGetAngularVel(body), 3);
+    }
+  }
+  for (const auto& [id, model] : state_->models) {
+    for (const PlacedJoint& placed : model.joints) {
+      for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
+        const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
+                                  placed.joint->axis(axis).max_force};
+        hash.add(targets, 3);
+      }
+    }
+  }
+  hash.add(state_->seed);
+  return hash.value();
+}
+
+}  // namespace bubblesim

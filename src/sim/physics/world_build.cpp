@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the description of a model to bodies, joints and shapes in ODE.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "bubblesim/error.hpp"
+#include "check/scene_check.hpp"
+#include "meshes/made_meshes.hpp"
+#include "physics/contact_defaults.hpp"
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr int kIterations = 50;       // of the iterative solver
+constexpr int kSleepSamples = 10;     // substeps over which it is seen whether a body lies still
+constexpr double kSleepSpeed = 3e-3;  // m/s and rad/s; what is slower lies still
+constexpr double kSleepTime = 0.5;    // s that it lies still before it sleeps
+
+void set_pose(dGeomID geom, const Pose& pose) {
+  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
+  dGeomSetPosition(geom, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+  dGeomSetQuaternion(geom, rotation);
+}
+
+dGeomID make_geom(Collider& collider, const Pose& pose) {
+  struct Maker {
+    Collider& collider;
+    const Pose& pose;
+    dGeomID operator()(const Box& box) const { return dCreateBox(nullptr, box.size.X(), box.size.Y(), box.size.Z()); }
+    dGeomID operator()(const Sphere& sphere) const { return dCreateSphere(nullptr, sphere.radius); }
+    dGeomID operator()(const Cylinder& cylinder) const {
+      return dCreateCylinder(nullptr, cylinder.radius, cylinder.length);
+    }
+    dGeomID operator()(const Capsule& capsule) const { return dCreateCapsule(nullptr, capsule.radius, capsule.length); }
+    dGeomID operator()(const Ellipsoid& ellipsoid) const {
+      const Vector3& radii = ellipsoid.radii;
+      if (radii.X() == radii.Y() && radii.Y() == radii.Z()) return dCreateSphere(nullptr, radii.X());
+      return surface(tessellate(ellipsoid));  // ODE has no ellipsoids
+    }
+    dGeomID operator()(const Mesh& mesh) const { return surface(mesh.triangles); }
+    dGeomID operator()(const Plane& plane) const {
+      const Vector3 normal = pose.Rot().RotateVector(plane.normal.Normalized());
+      return dCreatePlane(nullptr, normal.X(), normal.Y(), normal.Z(), normal.Dot(pose.Pos()));
+    }
+
+   private:
+    dGeomID surface(const std::shared_ptr<const TriangleMesh>& mesh) const {
+      collider.mesh = collision_mesh(mesh);
+      return dCreateTriMesh(nullptr, collider.mesh->data.get(), nullptr, nullptr, nullptr);
+    }
+  };
+  return std::visit(Maker{collider, pose}, collider.geometry);
+}
+
+void place_body(dBodyID body, const LinkDescription& link, const Pose& pose) {
+  const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
+  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
+  dBodySetPosition(body, centre.X(), centre.Y(), centre.Z());
+  dBodySetQuaternion(body, rotation);
+}
+
+ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
+  dMass mass;
+  dMassSetParameters(&mass, link.mass, 0, 0, 0, link.inertia_diagonal.X(), link.inertia_diagonal.Y(),
+                     link.inertia_diagonal.Z(), link.inertia_products.X(), link.inertia_products.Y(),
+                     link.inertia_products.Z());
+  ode::BodyHandle body(dBodyCreate(world));
+  dBodySetMass(body.get(), &mass);
+  dBodySetGravityMode(body.get(), link.has_weight ? 1 : 0);
+  place_body(body.get(), link, pose);
+  return body;
+}
+
+/// Whether nobody commands or watches the model: it may sleep when it lies still.
+bool is_prop(const ModelDescription& model) {
+  const auto quiet = [](const NestedModelDescription& nested) {
+    return nested.child_script.empty() && nested.plugins.empty();
+  };
+  return model.child_script.empty() && model.plugins.empty() && model.joints.empty() &&
+         std::all_of(model.nested.begin(), model.nested.end(), quiet) &&
+         std::all_of(model.links.begin(), model.links.end(),
+                     [](const LinkDescription& link) { return link.sensors.empty(); });
+}
+
+bool is_watched(const LinkDescription& link, const std::string& collision) {
+  return std::any_of(link.sensors.begin(), link.sensors.end(), [&](const SensorDescription& sensor) {
+    const auto* contact = std::get_if<ContactDescription>(&sensor.kind);
+    return contact != nullptr && watches(*contact, collision);
+  });
+}
+
+/// Makes what one model has in ODE, for the objects that it has in the tree.
+class ModelBuilder {
+ public:
+  ModelBuilder(const World::State& state, ObjectId id, ModelDescription description) : state_(state), id_(id) {
+    model_.description = std::move(description);
+    if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.movers.get()));
+    is_prop_ = is_prop(model_.description);
+  }
+
+  PlacedModel build() {
+    const ModelDescription& description = model_.description;
+    const std::vector<ObjectId> links = state_.tree.parts(id_, ObjectKind::kLink);
+    for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
+    const std::vector<ObjectId> joints = state_.tree.parts(id_, ObjectKind::kJoint);
+    for (std::size_t i = 0; i < joints.size(); ++i) add_joint(description.joints[i], joints[i]);
+    connect_mimics();
+    model_.frame = frame_at(description.canonical_link, description.pose);
+    for (const NestedModelDescription& nested : description.nested) {
+      model_.nested.push_back(frame_at(nested.canonical_link, description.pose * nested.pose));
+    }
+    for (std::size_t i = 0; i < links.size(); ++i) start_at(description.links[i], model_.links[i]);
+    return std::move(model_);
+  }
+
+ private:
+  const Link* link_named(const std::string& name) const {
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      if (model_.description.links[i].name == name) return &model_.links[i];
+    }
+    return nullptr;  // "world"
+  }
+
+  ModelFrame frame_at(const std::string& canonical_link, const Pose& pose) const {
+    const Link* canonical = canonical_link.empty() ? &model_.links.front() : link_named(canonical_link);
+    return {canonical->object, link_pose(*canonical).Inverse() * pose};
+  }
+
+  void add_link(const LinkDescription& description, ObjectId id) {
+    const Pose pose = model_.description.pose * description.pose;
+    Link& link = model_.links.emplace_back();
+    link.object = id;
+    link.centre_of_mass = description.centre_of_mass;
+    link.pose = pose;
+    if (!model_.description.is_static) {
+      link.body = make_body(state_.world.get(), description, pose);
+      dBodySetAutoDisableFlag(link.body.get(), is_prop_ && state_.gravity != Vector3::Zero ? 1 : 0);
+    }
+    for (const CollisionDescription& collision : description.collisions) {
+      add_collider(link, collision, is_watched(description, collision.name));
+    }
+    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
+  }
+
+  void tell_remark(const CollisionMesh& mesh, const CollisionDescription& collision) const {
+    if (mesh.remark.empty()) return;
+    const std::string path = "/" + model_.description.name + "/" + collision.name;
+    const Problem problem{collision.source.file, collision.source.line, path, mesh.remark};
+    std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
+  }
+
+  /// After the joints are made, whose positions it decides.
+  void start_at(const LinkDescription& description, const Link& link) const {
+    if (!description.start || link.body == nullptr) return;
+    place_body(link.body.get(), description, model_.description.pose * *description.start);
+  }
+
+  void add_collider(const Link& link, const CollisionDescription& description, bool watched) {
+    const Pose pose = link.pose * description.pose;
+    Collider& collider = model_.colliders.emplace_back();
+    collider.geometry = description.geometry;
+    collider.geom.reset(make_geom(collider, pose));
+    if (collider.mesh != nullptr && collider.mesh.use_count() == 1) tell_remark(*collider.mesh, description);
+    collider.link = &link;
+    collider.name = description.name;
+    collider.watched = watched;
+    collider.surface = description.surface;
+    collider.in_link = description.pose;
+    dGeomID geom = collider.geom.get();
+    dGeomSetData(geom, &collider);
+    // Pairs of shapes that share no bit are left out before anything else is looked at.
+    const unsigned long bits = description.surface.collide_without_contact ? 0 : description.surface.collide_bitmask;
+    dGeomSetCategoryBits(geom, bits);
+    dGeomSetCollideBits(geom, bits);
+    if (std::holds_alternative<Plane>(description.geometry)) {
+      dSpaceAdd(state_.planes.get(), geom);
+    } else if (link.body == nullptr) {
+      set_pose(geom, pose);  // goes into the statics' space when their extent is known
+    } else {
+      dSpaceAdd(model_.space.get(), geom);
+      dGeomSetBody(geom, link.body.get());
+      const Vector3 offset = description.pose.Pos() - link.centre_of_mass;
+      const Quaternion& turn = description.pose.Rot();
+      const dQuaternion rotation = {turn.W(), turn.X(), turn.Y(), turn.Z()};
+      dGeomSetOffsetPosition(geom, offset.X(), offset.Y(), offset.Z());
+      dGeomSetOffsetQuaternion(geom, rotation);
+    }
+  }
+
+  void add_joint(const JointDescription& description, ObjectId id) {
+    const Link* parent = link_named(description.parent);
+    const Link& child = *link_named(description.child);
+    const Pose pose = model_.description.pose * description.pose;
+    PlacedJoint joint;
+    joint.object = id;
+    joint.parent = parent == nullptr ? kNoObject : parent->object;
+    joint.child = child.object;
+    joint.in_parent = parent == nullptr ? pose : link_pose(*parent).Inverse() * pose;
+    joint.in_child = link_pose(child).Inverse() * pose;
+    if (!model_.description.is_static) {
+      JointSite site;
+      site.pose = pose;
+      site.parent = body_named(description.parent);
+      site.child = child.body.get();
+      if (description.type == "gearbox") {
+        site.reference = body_named(description.gearbox_reference);
+        site.parent_shaft = shaft_point(description.gearbox_reference, description.parent);
+        site.child_shaft = shaft_point(description.gearbox_reference, description.child);
+      }
+      joint.joint = make_joint(state_.world.get(), description, site);
+    }
+    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
+    if (joint.joint && !description.sensors.empty()) {
+      joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
+    }
+    model_.joints.push_back(std::move(joint));
+  }
+
+  /// A point in the world of the axis about which a link turns in the reference body of a gearbox.
+  Vector3 shaft_point(const std::string& reference, const std::string& link) const {
+    const JointDescription* hinge = hinge_between(model_.description, reference, link);
+    return (model_.description.pose * hinge->pose).Pos();
+  }
+
+  dBodyID body_named(const std::string& name) const {
+    const Link* link = link_named(name);
+    return link == nullptr ? nullptr : link->body.get();
+  }
+
+  void connect_mimics() {
+    for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+      const std::vector<AxisDescription>& axes = model_.description.joints[i].axes;
+      for (std::size_t axis = 0; axis < axes.size() && model_.joints[i].joint; ++axis) {
+        if (!axes[axis].mimic) continue;
+        const auto leader =
+            std::find_if(model_.description.joints.begin(), model_.description.joints.end(),
+                         [&](const JointDescription& joint) { return joint.name == axes[axis].mimic->joint; });
+        model_.joints[i].joint->mimic(
+            static_cast<int>(axis),
+            *model_.joints[static_cast<std::size_t>(leader - model_.description.joints.begin())].joint);
+      }
+    }
+  }
+
+  const World::State& state_;
+  ObjectId id_;
+  bool is_prop_ = false;
+  PlacedModel model_;
+};
+
+}  // namespace
+
+World::State::State(const Vector3& gravity_, std::uint64_t seed_)
+    : gravity(gravity_), seed(seed_), random(static_cast<std::uint32_t>(seed_)) {
+  ode::prepare_this_thread();
+  threading.reset(dThreadingAllocateSelfThreadedImplementation());
+  world.reset(dWorldCreate());
+  dWorldSetStepThreadingImplementation(world.get(), dThreadingImplementationGetFunctions(threading.get()),
+                                       threading.get());
+  dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
+  dWorldSetERP(world.get(), kErrorReduction);
+  dWorldSetCFM(world.get(), kConstraintSoftness);
+  dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
+  movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
+  planes.reset(dSimpleSpaceCreate(nullptr));
+  dWorldSetQuickStepNumIterations(world.get(), kIterations);
+  dWorldSetAutoDisableAverageSamplesCount(world.get(), kSleepSamples);
+  dWorldSetAutoDisableLinearThreshold(world.get(), kSleepSpeed);
+  dWorldSetAutoDisableAngularThreshold(world.get(), kSleepSpeed);
+  dWorldSetAutoDisableTime(world.get(), kSleepTime);
+  dWorldSetAutoDisableSteps(world.get(), 0);
+  contacts.reset(dJointGroupCreate(0));
+}
+
+void place_model(World::State& state, ObjectId id, ModelDescription model) {
+  state.models.emplace(id, ModelBuilder(state, id, std::move(model)).build());
+}
+
+}  // namespace bubblesim

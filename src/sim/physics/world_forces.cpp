@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The forces that sensors feel: those of contacts and those that joints transmit.
+#include <algorithm>
+
+#include "bubblesim/error.hpp"
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// The force of a contact on its first shape's body, or what a body would get that is not there.
+Vector3 force_on_first(const TouchReport& report) {
+  // ODE's first force acts on the body that the joint has, when it has one only.
+  const bool first_is_fixed = report.first->link->body == nullptr;
+  const Vector3 force = to_vector(report.feedback.f1);
+  return first_is_fixed ? -force : force;
+}
+
+Touch& touch_of(World::State& state, const Collider* watched, const Collider* other) {
+  for (Touch& touch : state.touches) {
+    if (touch.watched == watched && touch.other == other) return touch;
+  }
+  Touch& touch = state.touches.emplace_back();
+  touch.watched = watched;
+  touch.other = other;
+  return touch;
+}
+
+void add_point(World::State& state, const TouchReport& report, bool of_first, double step) {
+  Touch& touch = of_first ? touch_of(state, report.first, report.second) : touch_of(state, report.second, report.first);
+  if (touch.step != state.steps) touch.points.clear();
+  touch.step = state.steps;
+  const double sign = of_first ? 1 : -1;  // ODE's normal points into the first shape
+  const Vector3 force = force_on_first(report) * sign;
+  touch.impulse += force * step;
+  touch.points.push_back(
+      {to_vector(report.contact.pos), to_vector(report.contact.normal) * sign, report.contact.depth, force});
+}
+
+/// What the parent does to the child, by one of ODE's joints: torque about the child's centre of mass.
+Wrench on_child(dJointID joint, const dJointFeedback& feedback, dBodyID child) {
+  const dBodyID first = dJointGetBody(joint, 0);
+  const dBodyID second = dJointGetBody(joint, 1);
+  // A joint with one body tells its force first, whichever place the body has.
+  if (first == child || second == nullptr || first == nullptr) return {to_vector(feedback.f1), to_vector(feedback.t1)};
+  return {to_vector(feedback.f2), to_vector(feedback.t2)};
+}
+
+void gather_wrench(const World::State& state, const PlacedJoint& placed, double step) {
+  const Link& child = state.link(placed.child);
+  const Vector3 origin = (link_pose(child) * placed.in_child).Pos();
+  const Vector3 lever = to_vector(dBodyGetPosition(child.body.get())) - origin;
+  for (const JointReport& report : placed.meter->reports) {
+    const Wrench wrench = on_child(report.joint, report.feedback, child.body.get());
+    // The child does the opposite to the parent.
+    placed.meter->sum.force -= wrench.force * step;
+    placed.meter->sum.torque -= (wrench.torque + lever.Cross(wrench.force)) * step;
+  }
+}
+
+/// The frame that an axis stands still in: of several, the first is fixed in the parent and the second in the child.
+Pose frame_of_axis(const World::State& state, const PlacedJoint& placed, int axis) {
+  if (axis == placed.joint->axis_count() - 1) return link_pose(state.link(placed.child)) * placed.in_child;
+  return placed.parent == kNoObject ? placed.in_parent : link_pose(state.link(placed.parent)) * placed.in_parent;
+}
+
+void gather_motor(const World::State& state, const PlacedJoint& placed, MotorMeter& meter, double step) {
+  const Wrench wrench = on_child(meter.joint, *dJointGetFeedback(meter.joint), state.link(placed.child).body.get());
+  const Vector3 effort = meter.slides ? wrench.force : wrench.torque + meter.lever.Cross(wrench.force);
+  meter.sum += effort.Dot(meter.along) * step;
+}
+
+}  // namespace
+
+void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
+                   const dContactGeom& contact) {
+  TouchReport& report = state.touch_reports.emplace_back();
+  report.first = &first;
+  report.second = &second;
+  report.joint = joint;
+  report.contact = contact;
+  dJointSetFeedback(joint, &report.feedback);
+}
+
+const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides) {
+  for (const auto& meter : placed.motor_meters) {
+    if (meter->axis == axis) return meter.get();
+  }
+  dJointID joint = placed.joint->motor_joint(axis);
+  if (joint == nullptr) return nullptr;
+  auto& meter = placed.motor_meters.emplace_back(std::make_unique<MotorMeter>());
+  meter->axis = axis;
+  meter->slides = slides;
+  meter->joint = joint;
+  if (dJointGetFeedback(joint) == nullptr) dJointSetFeedback(joint, &meter->feedback);
+  return meter.get();
+}
+
+std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child) {
+  auto meter = std::make_unique<WrenchMeter>();
+  for (int i = 0; i < dBodyGetNumJoints(child); ++i) {
+    dJointID joint = dBodyGetJoint(child, i);
+    const dBodyID first = dJointGetBody(joint, 0);
+    const dBodyID second = dJointGetBody(joint, 1);
+    if ((first == child ? second : first) != parent) continue;
+    JointReport& report = meter->reports.emplace_back();
+    report.joint = joint;
+    dJointSetFeedback(joint, &report.feedback);
+  }
+  return meter;
+}
+
+void aim_motor_meters(const World::State& state, const PlacedJoint& placed) {
+  for (const auto& meter : placed.motor_meters) {
+    const Pose frame = frame_of_axis(state, placed, meter->axis);
+    meter->along = frame.Rot().RotateVector(placed.joint->axis(meter->axis).direction);
+    meter->lever = to_vector(dBodyGetPosition(state.link(placed.child).body.get())) - frame.Pos();
+  }
+}
+
+void forget_forces(World::State& state) {
+  state.touches.clear();
+  state.touch_reports.clear();
+  state.steps = 0;
+  for (const PlacedModel* model : state.moving) {
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.meter != nullptr) placed.meter->sum = {};
+      for (const auto& meter : placed.motor_meters) meter->sum = 0;
+    }
+  }
+}
+
+void gather_forces(World::State& state, double step) {
+  ++state.steps;
+  for (const TouchReport& report : state.touch_reports) {
+    if (report.first->watched) add_point(state, report, true, step);
+    if (report.second->watched) add_point(state, report, false, step);
+  }
+  state.touch_reports.clear();
+  for (const PlacedModel* model : state.moving) {
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.meter != nullptr) gather_wrench(state, placed, step);
+      for (const auto& meter : placed.motor_meters) gather_motor(state, placed, *meter, step);
+    }
+  }
+}
+
+std::vector<Contact> World::contacts(ObjectId link) const {
+  if (state_->tree.at(link).kind != ObjectKind::kLink) throw NoSuchObject(state_->shown(link) + " is no link");
+  std::vector<Contact> contacts;
+  for (const Touch& touch : state_->touches) {
+    if (touch.watched->link->object != link) continue;
+    contacts.push_back({touch.watched->name, touch.other->link->object, touch.other->name,
+                        touch.impulse / state_->last_duration, touch.points});
+  }
+  return contacts;
+}
+
+Wrench World::joint_wrench(ObjectId joint) const {
+  const Object& object = state_->tree.at(joint);
+  const PlacedJoint* placed =
+      object.kind == ObjectKind::kJoint ? &state_->model_of(joint).joints[object.index] : nullptr;
+  if (placed != nullptr && placed->joint == nullptr) return {};  // of a static model
+  if (placed == nullptr || placed->meter == nullptr) {
+    throw InvalidInput(state_->shown(joint) + " is no joint that moves and has a force-torque sensor");
+  }
+  if (state_->last_duration == 0) return {};
+  return {placed->meter->sum.force / state_->last_duration, placed->meter->sum.torque / state_->last_duration};
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joints as scripts and programs see them.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "check/checks.hpp"
+#include "physics/world_state.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
+
+const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
+  const Object& object = state.tree.at(id);
+  if (object.kind != ObjectKind::kJoint) {
+    throw NoSuchObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
+  }
+  return state.model_of(id).joints[object.index];
+}
+
+/// A joint and one of its axes. The second axis of a joint is an object of its own.
+struct JointAxis {
+  Joint& joint;
+  int index;
+};
+
+JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
+  const PlacedJoint& placed = placed_joint(state, id);
+  if (placed.object != id) axis = 1;
+  if (placed.joint == nullptr) throw NoSuchObject(state.shown(id) + " belongs to a static model: it does not move");
+  if (axis < 0 || axis >= placed.joint->axis_count()) {
+    throw NoSuchObject(state.shown(id) + " has " + std::to_string(placed.joint->axis_count()) +
+                       " axes: there is none with index " + std::to_string(axis));
+  }
+  return {*placed.joint, axis};
+}
+
+void check_target(const World::State& state, ObjectId id, const char* what, double value) {
+  if (within(value, kMaxTarget)) return;
+  throw InvalidInput(state.shown(id) + ": the " + what + " " + text(value) +
+                     " is not usable: it must be finite and at most 1e6");
+}
+
+/// The links that are connected to a joint's child by other joints, and the child itself.
+std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& joint) {
+  std::vector<ObjectId> found{joint.child};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const PlacedJoint& other : model.joints) {
+      if (&other == &joint) continue;
+      for (const auto& [here, there] : {std::pair(other.parent, other.child), std::pair(other.child, other.parent)}) {
+        if (here != found[i] || there == kNoObject) continue;
+        if (std::find(found.begin(), found.end(), there) == found.end()) found.push_back(there);
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Pose World::joint_moving_pose(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return link_pose(state_->link(placed.child)) * placed.in_child;
+}
+
+double World::joint_position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.position(found.index);
+}
+
+double World::joint_velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.velocity(found.index);
+}
+
+double World::motor_force(ObjectId joint, int axis) {
+  const int index = joint_axis(*state_, joint, axis).index;
+  const Object& object = state_->tree.at(joint);
+  PlacedJoint& placed = state_->models.at(state_->tree.outermost_model_of(joint)).joints[object.index];
+  const MotorMeter* meter = motor_meter(placed, index, joint_description(joint).type == "prismatic");
+  return meter == nullptr || state_->last_duration == 0 ? 0 : meter->sum / state_->last_duration;
+}
+
+std::pair<ObjectId, ObjectId> World::joint_links(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return {placed.parent, placed.child};
+}
+
+int World::joint_axes(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  return placed.joint == nullptr ? 0 : placed.joint->axis_count();
+}
+
+double World::target_position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.target_position(found.index);
+}
+
+double World::target_velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.target_velocity(found.index);
+}
+
+double World::max_force(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.axis(found.index).max_force;
+}
+
+void World::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  found.joint.set_motor_mode(found.index, mode);
+}
+
+void World::set_target_position(ObjectId joint, double position, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  check_target(*state_, joint, "target position", position);
+  found.joint.set_target_position(found.index, position);
+}
+
+void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  check_target(*state_, joint, "target velocity", velocity);
+  found.joint.set_target_velocity(found.index, velocity);
+}
+
+const JointDescription& World::joint_description(ObjectId joint) const {
+  placed_joint(*state_, joint);
+  return state_->model_of(joint).description.joints[state_->tree.at(joint).index];
+}
+
+void World::set_joint_position(ObjectId joint, double position) {
+  const PlacedJoint& placed = placed_joint(*state_, joint);
+  const JointDescription& description = joint_description(joint);
+  const bool slides = description.type == "prismatic";
+  if (!slides && description.type != "revolute" && description.type != "continuous") {
+    throw InvalidInput(state_->shown(joint) + " is a " + description.type +
+                       " joint: only revolute, continuous and prismatic ones can be put somewhere");
+  }
+  check_target(*state_, joint, "position", position);
+  const double way = position - joint_position(joint);
+  const Pose frame = pose(joint);
+  const Vector3 axis = frame.Rot().RotateVector(description.axes.front().direction);
+  const Pose to_frame(frame.Pos(), Quaternion::Identity);
+  const Pose motion = slides ? Pose(way * axis, Quaternion::Identity)
+                             : to_frame * Pose(Vector3::Zero, Quaternion(axis, way)) * to_frame.Inverse();
+  const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
+  if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
+    throw InvalidInput(state_->shown(joint) + " belongs to a closed chain of links: no part hangs on it alone");
+  }
+  for (const ObjectId link : moved) set_pose(link, motion * pose(link));
+}
+
+void World::set_max_force(ObjectId joint, double force, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  if (!(force >= 0)) {
+    throw InvalidInput(state_->shown(joint) + ": the force limit " + text(force) +
+                       " is not usable: it must be zero or more");
+  }
+  found.joint.set_max_force(found.index, force);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is kept of all models together when one comes or goes: the tree's names, static shapes, islands, sleep.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <variant>
+
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+// Static shapes of finite size are in a quadtree: a moving shape then meets only those near it. 6 levels: its cells are
+// 1/64 of the scene.
+constexpr int kQuadtreeDepth = 6;
+
+/// The largest a finite static scene needs; grows with the shapes in it.
+struct Extent {
+  Vector3 low{-1, -1, -1};
+  Vector3 high{1, 1, 1};
+
+  void include(dGeomID geom) {
+    dReal box[6];
+    dGeomGetAABB(geom, box);
+    low.Min({box[0], box[2], box[4]});
+    high.Max({box[1], box[3], box[5]});
+  }
+};
+
+}  // namespace
+
+ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
+  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
+  std::map<std::string, ObjectId> models{{"", id}};  // the outermost one, and those in it by name
+  // `a::b` lies below `a` by the name of b.
+  const auto add = [&](ObjectKind kind, const std::string& name, std::size_t index) {
+    const std::size_t split = name.rfind("::");
+    const auto outer = models.find(split == std::string::npos ? "" : name.substr(0, split));
+    if (split == std::string::npos || outer == models.end()) return tree.add(kind, name, id, index);
+    return tree.add(kind, name.substr(split + 2), outer->second, index);
+  };
+  for (std::size_t i = 0; i < model.nested.size(); ++i) {
+    models[model.nested[i].name] = add(ObjectKind::kModel, model.nested[i].name, i);
+  }
+  std::size_t sensors = 0;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const ObjectId link = add(ObjectKind::kLink, model.links[i].name, i);
+    for (const SensorDescription& sensor : model.links[i].sensors) {
+      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++);
+    }
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const ObjectId joint = add(ObjectKind::kJoint, model.joints[i].name, i);
+    for (const SensorDescription& sensor : model.joints[i].sensors) {
+      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++);
+    }
+    // The second axis of a steered wheel is an object of its own, so that scripts can name it.
+    for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
+      tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);
+    }
+  }
+  return id;
+}
+
+void list_moving(World::State& state) {
+  state.moving.clear();
+  const Vector3 down = state.gravity.Normalized();
+  for (auto& [id, model] : state.models) {
+    const bool moves = model.space != nullptr;
+    const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
+    if (moves) state.moving.push_back(&model);
+    for (Collider& collider : model.colliders) collider.island = number;
+    for (const Link& link : model.links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
+  }
+}
+
+void wake(World::State& state) {
+  for (const PlacedModel* model : state.moving) {
+    for (const Link& link : model->links) dBodyEnable(link.body.get());
+  }
+}
+
+void gather_statics(World::State& state) {
+  Extent extent;
+  std::vector<dGeomID> geoms;
+  for (const auto& [id, model] : state.models) {
+    for (const Collider& collider : model.colliders) {
+      dGeomID geom = collider.geom.get();
+      if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
+      if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.statics.get(), geom);
+      geoms.push_back(geom);
+      extent.include(geom);
+    }
+  }
+  const Vector3 centre = (extent.low + extent.high) / 2;
+  const Vector3 half = (extent.high - extent.low) / 2;
+  const dVector3 ode_centre = {centre.X(), centre.Y(), centre.Z()};
+  const dVector3 ode_half = {half.X(), half.Y(), half.Z()};
+  state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, kQuadtreeDepth));
+  for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
+}
+
+}  // namespace bubblesim

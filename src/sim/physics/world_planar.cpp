@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models that move in the plane as a whole, as if pushed by wheels in all directions.
+#include <cmath>
+#include <string>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "check/checks.hpp"
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+// m/s^2, of the motor's force over the model's mass: twice what a friction of 1 takes away.
+constexpr double kMaxAcceleration = 20;
+constexpr double kLever = 1;  // m, of its torque over its force
+
+double total_mass(const ModelDescription& model) {
+  double mass = 0;
+  for (const LinkDescription& link : model.links) mass += link.mass;
+  return mass;
+}
+
+PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
+  PlanarMotor motor{ode::JointHandle(dJointCreateLMotor(world, nullptr)),
+                    ode::JointHandle(dJointCreateAMotor(world, nullptr))};
+  dJointAttach(motor.linear.get(), body, nullptr);
+  dJointSetLMotorNumAxes(motor.linear.get(), 2);
+  dJointSetLMotorAxis(motor.linear.get(), 0, 0, 1, 0, 0);
+  dJointSetLMotorAxis(motor.linear.get(), 1, 0, 0, 1, 0);
+  dJointSetLMotorParam(motor.linear.get(), dParamFMax, force);
+  dJointSetLMotorParam(motor.linear.get(), dParamFMax2, force);
+  dJointAttach(motor.angular.get(), body, nullptr);
+  dJointSetAMotorNumAxes(motor.angular.get(), 1);
+  dJointSetAMotorAxis(motor.angular.get(), 0, 0, 0, 0, 1);
+  dJointSetAMotorParam(motor.angular.get(), dParamFMax, force * kLever);
+  return motor;
+}
+
+}  // namespace
+
+void World::drive_in_plane(ObjectId model, double x, double y, double turning) {
+  const Object& object = state_->tree.at(model);
+  const std::string name = state_->shown(model);
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    throw InvalidInput(name + " is a " + std::string(kind_name(object.kind)) +
+                       ": only an outermost model is driven as a whole");
+  }
+  PlacedModel& placed = state_->models.at(model);
+  if (placed.description.is_static) throw InvalidInput(name + " is static: it stays where the scene put it");
+  if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
+    throw InvalidInput(name + ": a velocity in the plane must be finite and at most 1e6");
+  }
+  const Link& link = state_->link(placed.frame.canonical_link);
+  dBodyID body = link.body.get();
+  if (placed.planar_motor.linear == nullptr) {
+    placed.planar_motor = make_motor(state_->world.get(), body, kMaxAcceleration * total_mass(placed.description));
+  }
+  // ODE's motor moves the centre of mass, which goes round the model's origin.
+  const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).Pos();
+  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel, x - turning * arm.Y());
+  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel2, y + turning * arm.X());
+  dJointSetAMotorParam(placed.planar_motor.angular.get(), dParamVel, turning);
+  dBodyEnable(body);
+}
+
+}  // namespace bubblesim

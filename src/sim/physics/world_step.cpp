@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How time passes in a world, and what it notices when the motion leaves the finite world.
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <ostream>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "check/checks.hpp"
+#include "physics/world_state.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kMaxDuration = 1000;  // s, of one call
+/// When the exact solver found no solution, what hangs together so badly has this long to change.
+constexpr int kStepsToIterate = 20;
+constexpr std::size_t kRememberedPasses = 10;
+
+bool is_finite(dBodyID body) {
+  return within(to_vector(dBodyGetPosition(body)), kMaxDistance) &&
+         within(to_vector(dBodyGetLinearVel(body)), kMaxSpeed) &&
+         within(to_vector(dBodyGetAngularVel(body)), kMaxSpeed);
+}
+
+void check_bodies(World::State& state) {
+  const Link* first = nullptr;
+  for (const PlacedModel* model : state.moving) {
+    for (const Link& link : model->links) {
+      if (is_finite(link.body.get())) continue;
+      if (first == nullptr) first = &link;
+      const ObjectId id = state.tree.outermost_model_of(link.object);
+      if (state.lost_models.empty() || state.lost_models.back() != id) state.lost_models.push_back(id);
+    }
+  }
+  if (first == nullptr) return;
+  state.diverged = true;
+  dBodyID body = first->body.get();
+  const Twist velocity = body_velocity(body);
+  throw Diverged("the physics diverged at " + state.tree.path(first->object) + ": position " +
+                 text(to_vector(dBodyGetPosition(body))) + " m, velocity " + text(velocity.linear) + " m/s, " +
+                 text(velocity.angular) +
+                 " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics step");
+}
+
+/// ODE keeps one state of random numbers for all worlds and threads, which its iterative solver draws from: each world
+/// has its own in there while it steps.
+void step_iteratively(World::State& state, double step) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const unsigned long others = dRandGetSeed();
+  dRandSetSeed(state.random);
+  dWorldQuickStep(state.world.get(), step);
+  state.random = dRandGetSeed();
+  dRandSetSeed(others);
+}
+
+void substep(World::State& state, double step) {
+  try {
+    find_contacts(state, step);
+    for (const PlacedModel* model : state.moving) {
+      for (const PlacedJoint& placed : model->joints) {
+        if (placed.joint) placed.joint->drive(step);
+        aim_motor_meters(state, placed);
+      }
+    }
+    if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
+      step_iteratively(state, step);
+      state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
+    } else {
+      dWorldStep(state.world.get(), step);
+      if (ode::solver_complained()) state.steps_to_iterate = kStepsToIterate;
+    }
+    gather_forces(state, step);
+  } catch (const Diverged&) {
+    state.diverged = state.interrupted = true;
+    throw;
+  }
+  check_bodies(state);
+}
+
+/// Remembers where everything is, for a report when it diverges.
+void remember(World::State& state, double duration) {
+  std::vector<LinkState> now;
+  for (PlacedModel* model : state.moving) {
+    for (Link& link : model->links) {
+      link.before = body_velocity(link.body.get());
+      now.push_back({link.object, body_pose(link.body.get()), link.before});
+    }
+  }
+  state.last_duration = duration;
+  if (state.history.size() == kRememberedPasses) state.history.pop_front();
+  state.history.push_back({state.age, std::move(now)});
+}
+
+}  // namespace
+
+void World::advance(double duration, double step) {
+  if (!(step >= kMinPhysicsStep && step <= kMaxPhysicsStep)) {
+    throw InvalidInput("a physics step of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
+  }
+  if (!(duration >= 0 && duration <= kMaxDuration)) {
+    throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
+  }
+  if (state_->diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
+  ode::prepare_this_thread();
+  remember(*state_, duration);
+  forget_forces(*state_);
+  for (long left = std::lround(duration / step); left > 0; --left) substep(*state_, step);
+  state_->age += duration;
+}
+
+const std::vector<ObjectId>& World::diverged_models() const { return state_->lost_models; }
+
+std::vector<ObjectId> World::fallen_models() const {
+  std::vector<ObjectId> fallen;
+  const Vector3 down = state_->gravity.Normalized();
+  if (down == Vector3::Zero) return fallen;
+  for (const auto& [id, model] : state_->models) {
+    const bool all_below = std::all_of(model.links.begin(), model.links.end(), [&](const Link& link) {
+      return link.body != nullptr && to_vector(dBodyGetPosition(link.body.get())).Dot(down) > state_->bottom + kFall;
+    });
+    if (all_below) fallen.push_back(id);
+  }
+  return fallen;
+}
+
+void World::write_last_states(std::ostream& out) const {
+  out << "time,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
+  for (const StateSample& sample : state_->history) {
+    for (const LinkState& link : sample.links) {
+      if (state_->tree.objects().count(link.object) == 0) continue;
+      const Vector3& p = link.pose.Pos();
+      const Quaternion& q = link.pose.Rot();
+      const Vector3& v = link.velocity.linear;
+      const Vector3& w = link.velocity.angular;
+      out << sample.time << ',' << state_->tree.path(link.object);
+      for (const double value :
+           {p.X(), p.Y(), p.Z(), q.X(), q.Y(), q.Z(), q.W(), v.X(), v.Y(), v.Z(), w.X(), w.Y(), w.Z()}) {
+        out << ',' << value;
+      }
+      out << '\n';
+    }
+  }
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "check/checks.hpp"
+#include "rays/ray_scene.hpp"
+#include "scene/describe.hpp"
+#include "scene/fnv1a.hpp"
+
+namespace bubblesim {
+
+void Participant::actuate(World&, double) {}
+void Participant::sense(const World&, double) {}
+void Participant::publish(const World&, double) {}
+void Participant::model_added(World&, ObjectId) {}
+void Participant::model_removing(World&, ObjectId) {}
+
+struct Simulation::SensorSlot {
+  ObjectId id = kNoObject;
+  std::unique_ptr<Sensor> sensor;
+  double period = 0;    // s
+  double due = 0;       // s of simulation time
+  double time = 0;      // s, at which it was last due, or measured for somebody who wanted it at once
+  bool wanted = false;  // somebody read it since it last measured
+  bool measured = false;
+  bool shows = false;  // a picture that somebody gave it
+};
+
+Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      world_(scene_, seed),
+      rays_(std::make_unique<RayScene>()),
+      first_time_step_(scene_.time_step) {
+  for (const ObjectId model : world_.tree().models()) rays_->add_model(world_, model, world_.description(model));
+  make_all_sensors();
+}
+
+void Simulation::make_sensors(ObjectId model) {
+  const SceneTree& tree = world_.tree();
+  const ModelDescription& description = world_.description(model);
+  const auto make_below = [&](ObjectId carrier, const std::vector<SensorDescription>& sensors) {
+    auto sensor = sensors.begin();
+    for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
+      SensorSlot& slot = sensors_.emplace_back();
+      slot.id = id;
+      slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
+      slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
+      ++sensor;
+    }
+  };
+  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) {
+    make_below(id, description.links[tree.at(id).index].sensors);
+  }
+  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) {
+    make_below(id, description.joints[tree.at(id).index].sensors);
+  }
+}
+
+void Simulation::make_all_sensors() {
+  sensors_.clear();
+  for (const ObjectId model : world_.tree().models()) make_sensors(model);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::add(Participant& participant) { participants_.push_back(&participant); }
+
+void Simulation::drain() {
+  for (Participant* participant : participants_) participant->drain();
+}
+
+namespace {
+
+/// Sets a flag as long as it lives.
+class Noted {
+ public:
+  explicit Noted(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Noted() { flag_ = false; }
+  Noted(const Noted&) = delete;
+  Noted& operator=(const Noted&) = delete;
+
+ private:
+  bool& flag_;
+};
+
+/// Seconds of a physics step when scripts have changed the time step: a whole number of them make a pass.
+double substep(const SceneDescription& scene) {
+  constexpr double kRounding = 1e-6;
+  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.physics_step - kRounding));
+}
+
+}  // namespace
+
+void Simulation::set_time_step(double seconds) {
+  if (!(seconds >= kMinTimeStep && seconds <= kMaxTimeStep)) {
+    throw InvalidInput("a time step of " + text(seconds) + " s is not usable: it must be from 1e-4 to 10 s");
+  }
+  time_before_ = time();
+  passes_before_ = passes_;
+  scene_.time_step = seconds;
+}
+
+void Simulation::step() {
+  if (stepping_.is_mine()) {
+    throw std::logic_error("a pass is being run: step() cannot be called by what takes part in it");
+  }
+  const AccessLock::Hold alone(stepping_);
+  drain();
+  const AccessLock::Hold hold(world_.access());
+  const Noted in_pass(in_pass_);
+  const double now = time();  // a reset while draining sets it back
+  for (Participant* participant : participants_) participant->actuate(world_, now);
+  advance_physics(scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
+  update_sensors();
+  for (Participant* participant : participants_) participant->sense(world_, now);
+  for (Participant* participant : participants_) participant->publish(world_, now);
+  ++passes_;
+}
+
+void Simulation::check_may_change() const {
+  if (!in_pass_) return;
+  if (!stepping_.is_mine()) {
+    throw std::logic_error("another thread is in the middle of a pass of this simulation: change it between passes");
+  }
+  throw std::logic_error("a pass is being run: the world can be changed before its actuation or after it");
+}
+
+void Simulation::reset_world() {
+  const AccessLock::Hold hold(world_.access());
+  check_may_change();
+  world_.reset();
+  std::vector<SensorSlot> before = std::exchange(sensors_, {});
+  make_all_sensors();
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // they keep to their rates, for time goes on
+    sensors_[i].due = before[i].due;
+    sensors_[i].wanted = before[i].wanted;
+  }
+  for (Participant* participant : participants_) participant->reset();
+}
+
+void Simulation::reset() {
+  const AccessLock::Hold hold(world_.access());
+  check_may_change();
+  world_.reset();
+  make_all_sensors();
+  passes_ = passes_before_ = 0;
+  time_before_ = 0;
+  scene_.time_step = first_time_step_;
+  for (Participant* participant : participants_) participant->reset();
+}
+
+ObjectId Simulation::add_model(ModelDescription model) {
+  const AccessLock::Hold hold(world_.access());
+  check_may_change();
+  const ObjectId id = world_.add_model(std::move(model));
+  rays_->add_model(world_, id, world_.description(id));
+  make_sensors(id);
+  for (Participant* participant : participants_) participant->model_added(world_, id);
+  return id;
+}
+
+void Simulation::remove_model(ObjectId model) {
+  const AccessLock::Hold hold(world_.access());
+  check_may_change();
+  world_.check_removable(model);
+  take_out(model);
+}
+
+void Simulation::take_out(ObjectId model) {
+  for (Participant* participant : participants_) participant->model_removing(world_, model);
+  const auto gone = [&](const SensorSlot& slot) { return world_.tree().outermost_model_of(slot.id) == model; };
+  sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
+  rays_->remove_model(model);
+  world_.remove_model(model);
+}
+
+void Simulation::update_sensors() {
+  // Half a pass of tolerance: a due time that lies on a pass must not slip to the next by rounding.
+  const double until = time() + scene_.time_step / 2;
+  for (SensorSlot& slot : sensors_) {
+    if (slot.due > until) continue;
+    slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
+    if (slot.shows) continue;
+    slot.time = time();
+    slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
+    if (slot.wanted) update(slot);
+    slot.wanted = false;
+  }
+}
+
+void Simulation::update(SensorSlot& slot) {
+  slot.sensor->update({world_, *rays_, time(), seed_});
+  ++measurements_;
+}
+
+Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
+  for (SensorSlot& slot : sensors_) {
+    if (slot.id == sensor) return slot;
+  }
+  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " +
+                     std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
+}
+
+std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
+  SensorSlot& found = slot(sensor);
+  if (!found.measured && !found.shows) update(found);
+  found.measured = true;
+  found.wanted = true;
+  return found.sensor->reading();
+}
+
+std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
+  SensorSlot& found = slot(sensor);
+  if (found.shows) return found.sensor->reading();
+  update(found);
+  found.time = time();
+  return found.sensor->reading();
+}
+
+void Simulation::show_picture(ObjectId camera, const std::vector<std::uint8_t>& rgb) {
+  SensorSlot& found = slot(camera, "camera");
+  const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
+  if (image == nullptr) {
+    throw NoSuchObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
+                       ", not a camera");
+  }
+  if (image->rgb.size() != rgb.size()) {
+    throw InvalidInput(world_.tree().short_path(camera) + " shows " + std::to_string(image->width) + " x " +
+                       std::to_string(image->height) + " pixels in " + std::to_string(image->rgb.size()) +
+                       " bytes: a picture of " + std::to_string(rgb.size()) + " bytes does not fit");
+  }
+  CameraImage picture = *image;
+  picture.rgb = rgb;
+  found.sensor->replace(time(), std::move(picture));
+  found.shows = true;
+  found.time = time();
+}
+
+double Simulation::reading_time(ObjectId sensor) { return slot(sensor).time; }
+
+std::string_view Simulation::sensor_kind(ObjectId sensor) {
+  return kind_name(slot(sensor).sensor->reading()->measurement);
+}
+
+void Simulation::require_proximity(ObjectId sensor) {
+  if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
+  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
+                     ", not a proximity sensor");
+}
+
+ProximityReading Simulation::read_proximity(ObjectId sensor) {
+  require_proximity(sensor);
+  return std::get<ProximityReading>(read(sensor)->measurement);
+}
+
+ProximityReading Simulation::measure_proximity(ObjectId sensor) {
+  require_proximity(sensor);
+  return std::get<ProximityReading>(measure(sensor)->measurement);
+}
+
+std::uint64_t Simulation::state_hash() const {
+  Fnv1a hash;
+  hash.add(passes_);
+  hash.add(seed_);
+  hash.add(world_.state_hash());
+  return hash.value();
+}
+
+}  // namespace bubblesim

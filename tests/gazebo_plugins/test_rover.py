@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A robot from a URDF file with Gazebo's plugins, spawned and used as its users do it."""
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ros_peer import Message, Peer
+from ros_support import REPOSITORY, RosCore, wait_until
+
+HERE = Path(__file__).parent
+ROVER = (REPOSITORY / "scenes/models/rover/rover.urdf").read_text()
+WALL = 3.0  # m ahead of the origin
+LASER_AHEAD = 0.1  # m from base_link
+
+
+@pytest.fixture(scope="module")
+def running(run: Callable[..., object]) -> Iterator[object]:
+    """The rover at the origin of a world with a wall."""
+    world = run(HERE / "walls.sdf", "--gazebo-compat", "--speed", "4")
+    spawn(world.peer, "rover", "/")
+    yield world
+    assert "error" not in world.node.output, world.node.output
+
+
+def spawn(peer: Peer, name: str, namespace: str, y: float = 0.0) -> None:
+    response = peer.call(
+        "/gazebo/spawn_urdf_model",
+        model_name=name,
+        model_xml=ROVER,
+        robot_namespace=namespace,
+        initial_pose={"position": {"y": y}, "orientation": {"w": 1.0}},
+    )
+    assert response["success"], response["status_message"]
+
+
+@pytest.fixture
+def peer(running: object) -> Peer:
+    """At its start, without commands."""
+    running.peer.call("/gazebo/reset_world")
+    return running.peer
+
+
+def position(message: Message) -> list[float]:
+    return [message["pose"]["pose"]["position"][axis] for axis in "xyz"]
+
+
+def yaw(message: Message) -> float:
+    orientation = message["pose"]["pose"]["orientation"]
+    return 2 * math.atan2(orientation["z"], orientation["w"])
+
+
+def truth(peer: Peer) -> Message:
+    return peer.next("/truth", "nav_msgs/Odometry")
+
+
+def at_time(messages: list[Message], message: Message) -> Message:
+    """The one of the same pass as another."""
+    return next(each for each in messages if each["header"]["stamp"] == message["header"]["stamp"])
+
+
+def test_it_drives_at_the_speed_that_a_twist_says(peer: Peer) -> None:
+    truths = peer.heard("/truth", "nav_msgs/Odometry")
+    peer.heard("/odom", "nav_msgs/Odometry")
+    peer.drive("/cmd_vel", 0.5, 0.0)
+    rolling = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.3, "a start")
+    odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 1.0, "1 m of driving")
+    assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("odom", "base_link")
+    assert odom["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.01)
+    wait_until(lambda: peer.heard("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that pass")
+    really = at_time(truths, odom)
+    driven = position(really)[0] - position(at_time(truths, rolling))[0]  # the wheels slip when it starts
+    assert driven == pytest.approx(position(odom)[0] - position(rolling)[0], rel=0.01)
+    assert really["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.02)
+
+
+def test_it_turns_to_the_left_for_a_positive_twist(peer: Peer) -> None:
+    peer.drive("/cmd_vel", 0.0, 1.0)
+    odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: yaw(message) > 1.0, "a turn of 1 rad")
+    assert odom["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.01)
+    assert truth(peer)["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.02)
+
+
+def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
+    peer.heard("/tf", "tf2_msgs/TFMessage")
+    odom = peer.next("/odom", "nav_msgs/Odometry", count=3)
+
+    def of_that_pass(message: Message) -> bool:
+        return bool(message["transforms"][0]["header"]["stamp"] == odom["header"]["stamp"])
+
+    wait_until(lambda: any(map(of_that_pass, peer.heard("/tf"))), "the transforms of that pass")
+    (message,) = filter(of_that_pass, peer.heard("/tf"))
+    frames = {each["child_frame_id"]: each for each in message["transforms"]}
+    base = frames["base_link"]
+    assert base["header"]["frame_id"] == "odom"
+    assert base["transform"]["translation"] == odom["pose"]["pose"]["position"]
+    assert base["transform"]["rotation"] == odom["pose"]["pose"]["orientation"]
+    wheel = frames["left_wheel"]
+    assert wheel["header"]["frame_id"] == "base_link"
+    assert wheel["transform"]["translation"] == pytest.approx({"x": 0.0, "y": 0.2, "z": 0.1}, abs=1e-3)
+
+
+def test_it_tells_how_its_wheels_stand(peer: Peer) -> None:
+    state = peer.next("/joint_states", "sensor_msgs/JointState")
+    assert state["name"] == ["right_wheel_joint", "left_wheel_joint"]
+    assert state["position"] == pytest.approx([0.0, 0.0], abs=0.01)
+
+
+def test_its_laser_sees_the_wall(peer: Peer) -> None:
+    scan = peer.next("/scan", "sensor_msgs/LaserScan", count=2)
+    assert scan["header"]["frame_id"] == "laser_link"
+    assert (scan["range_min"], scan["range_max"]) == pytest.approx((0.1, 5.0))
+    angles = scan["angle_min"] + scan["angle_increment"] * np.arange(181)
+    assert angles[-1] == pytest.approx(scan["angle_max"])
+    ranges = np.array(scan["ranges"], float)
+    expected = (WALL - LASER_AHEAD) / np.cos(angles[30:151])
+    seen = np.abs(np.tan(angles[30:151])) * (WALL - LASER_AHEAD) < 3.9
+    np.testing.assert_allclose(ranges[30:151][seen & (expected < 5)], expected[seen & (expected < 5)], atol=0.02)
+    assert ranges[0] == math.inf, "REP 117"
+
+
+def test_its_camera_looks_at_the_wall(peer: Peer) -> None:
+    image = peer.next("/front/image_raw", "sensor_msgs/Image")
+    assert (image["width"], image["height"], image["encoding"], image["step"]) == (64, 48, "rgb8", 192)
+    pixels = np.frombuffer(image["data"], np.uint8).reshape(48, 64, 3)
+    red, green, blue = pixels[20, 32]
+    assert red > 100 > max(green, blue)
+
+
+def test_its_camera_tells_of_its_optics(peer: Peer) -> None:
+    info = peer.next("/front/camera_info", "sensor_msgs/CameraInfo")
+    assert info["header"]["frame_id"] == "camera_link"
+    # f = width / (2 tan(fov / 2)), the centre as gazebo_ros_pkgs has it
+    assert info["K"] == pytest.approx([32.0, 0, 32.5, 0, 32.0, 24.5, 0, 0, 1], rel=1e-6)
+    assert info["P"] == pytest.approx([32.0, 0, 32.5, -32.0 * 0.07, 0, 32.0, 24.5, 0, 0, 0, 1, 0], rel=1e-6)
+    assert info["distortion_model"] == "plumb_bob"
+
+
+def test_its_pictures_come_compressed_too(peer: Peer) -> None:
+    picture = peer.next("/front/image_raw/compressed", "sensor_msgs/CompressedImage")
+    assert picture["data"].startswith(b"\xff\xd8"), "JPEG"
+
+
+def test_its_imu_feels_its_weight(peer: Peer) -> None:
+    imu = peer.next("/imu", "sensor_msgs/Imu", count=10)
+    assert imu["header"]["frame_id"] == "base_link"
+    felt = [imu["linear_acceleration"][axis] for axis in "xyz"]
+    assert felt == pytest.approx([0, 0, 9.81], abs=0.1), "REP 145"
+
+
+def test_a_twist_that_is_not_finite_is_left_out(running: object, peer: Peer) -> None:
+    peer.drive("/cmd_vel", 0.2, 0.0)
+    peer.wait_for("/odom", "nav_msgs/Odometry", lambda odom: odom["twist"]["twist"]["linear"]["x"] > 0.1, "driving")
+    peer.drive("/cmd_vel", math.nan, 0.0)
+    running.node.wait_for_output("a Twist of nan, 0 is left out")
+    assert peer.next("/odom", count=3)["twist"]["twist"]["linear"]["x"] == pytest.approx(0.2, rel=0.05)
+
+
+def test_a_reset_stops_it(peer: Peer) -> None:
+    peer.drive("/cmd_vel", 0.5, 0.0)
+    peer.wait_for("/odom", "nav_msgs/Odometry", lambda odom: position(odom)[0] > 0.3, "driving")
+    peer.call("/gazebo/reset_world")
+    odom = peer.next("/odom", count=5)
+    assert position(odom) == pytest.approx([0, 0, 0], abs=0.01)
+
+
+def test_a_second_one_has_topics_and_frames_in_its_namespace_until_it_goes(running: object, peer: Peer) -> None:
+    core: RosCore = running.core
+    spawn(peer, "other", "/other", y=2.0)
+    odom = peer.next("/other/odom", "nav_msgs/Odometry")
+    assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("other/odom", "other/base_link")
+    assert peer.next("/other/scan", "sensor_msgs/LaserScan")["header"]["frame_id"] == "other/laser_link"
+    peer.drive("/other/cmd_vel", 0.3, 0.0)
+    peer.wait_for("/other/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.1, "driving")
+    assert position(truth(peer)) == pytest.approx([0, 0, 0], abs=0.01)
+    assert peer.call("/gazebo/delete_model", model_name="other")["success"]
+    wait_until(lambda: "/other/odom" not in core.state()["publishers"], "its topics to go")
+    assert "/odom" in core.state()["publishers"]

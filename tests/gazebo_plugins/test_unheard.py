@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What nobody listens to is not measured: a camera is the dearest thing that a robot has."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from node_support import Node, write
+from ros_peer import Peer
+from ros_support import RosCore, wait_until
+
+ROBOT = """\
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
+  <model name="robot">
+    <static>true</static>
+    <link name="eye">
+      <sensor name="own" type="camera">
+        <bubblesim:topic>own</bubblesim:topic>{camera}
+      </sensor>
+      <sensor name="plugged" type="camera">{camera}
+        <plugin name="camera" filename="libgazebo_ros_camera.so"><cameraName>plugged</cameraName></plugin>
+      </sensor>
+      <sensor name="lidar" type="ray">
+        <ray><scan><horizontal><samples>9</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal></scan>
+          <range><min>0.1</min><max>9</max></range></ray>
+        <plugin name="laser" filename="libgazebo_ros_laser.so"><topicName>scan</topicName></plugin>
+      </sensor>
+    </link>
+  </model>
+</sdf>
+"""
+CAMERA = """
+        <camera><horizontal_fov>1</horizontal_fov><image><width>8</width><height>6</height></image>
+          <clip><near>0.1</near><far>9</far></clip></camera>"""
+
+
+@pytest.fixture(scope="module")
+def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Peer:
+    file: Path = write(tmp_path_factory.mktemp("unheard") / "robot.sdf", ROBOT.replace("{camera}", CAMERA))
+    peer: Peer = run(file).peer
+    return peer
+
+
+def measurements(peer: Peer) -> tuple[float, int]:
+    """The simulated time of the next report, and how many times sensors had measured by then."""
+    while True:
+        message = peer.next("/diagnostics", "diagnostic_msgs/DiagnosticArray")
+        for status in message["status"]:
+            values = {pair["key"]: pair["value"] for pair in status["values"]}
+            if "Measurements of sensors" in values:
+                return float(values["Simulation time (s)"]), int(values["Measurements of sensors"])
+
+
+def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
+    time, unheard = measurements(peer)
+    later, still_unheard = measurements(peer)
+    assert later > time, "the simulation runs"
+    assert still_unheard == unheard
+    peer.next("/scan", "sensor_msgs/LaserScan")
+    wait_until(lambda: measurements(peer)[1] > unheard, "the lidar's measurements")
+    time, before = measurements(peer)
+    later, after = measurements(peer)
+    # 20 passes a second, of the lidar alone: two cameras at its side would make it three times as many.
+    assert 0 < after - before < 2 * 20 * (later - time)
+
+
+@pytest.mark.parametrize(
+    ("scene", "infos", "image", "others"),
+    [
+        ("robot", ["/camera_info", "/plugged/camera_info"], "/own", 0),
+        ("tricycle", ["/camera_info"], "/image", 20),  # its script reads the sonar in each pass
+    ],
+)
+def test_the_optics_of_a_camera_alone_do_not_have_it_measure(
+    roscore: RosCore, tmp_path: Path, scene: str, infos: list[str], image: str, others: float
+) -> None:
+    """`others`: measurements of other sensors in a simulated second."""
+    file = write(tmp_path / "robot.sdf", ROBOT.replace("{camera}", CAMERA)) if scene == "robot" else scene
+    with Node(roscore.env, tmp_path / "log", file), Peer(roscore, tmp_path / "heard") as peer:
+        for info in infos:
+            peer.next(info, "sensor_msgs/CameraInfo")
+        measurements(peer)
+        time, before = measurements(peer)
+        optics = [peer.next(info, count=5) for info in infos]
+        later, after = measurements(peer)
+        assert after - before == pytest.approx(others * (later - time), abs=1)
+        assert all(message["width"] > 0 and message["K"][0] > 0 for message in optics)
+        picture = peer.next(image, "sensor_msgs/Image")
+        assert (picture["width"], picture["height"]) == (optics[0]["width"], optics[0]["height"])

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Subscribers that stop, or come and go."""
+
+import os
+import re
+import signal
+import socket
+import struct
+import time
+import xmlrpc.client
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from bridge_probe import Probe
+from ros_support import DEADLINE, RosCore, wait_until
+
+NAME = "/sim_ros_interface"
+MEGABYTE = 1_000_000
+RATE = 50
+QUEUE = 10
+CYCLES = 200
+MASTER_CONNECTIONS = 2  # that roscpp keeps open between calls, or not, as it happens: a leak would show CYCLES times
+
+
+def resident_megabytes(probe: Probe) -> float:
+    status = Path(f"/proc/{probe.process.pid}/status").read_text()
+    found = re.search(r"VmRSS:\s+(\d+) kB", status)
+    assert found
+    return int(found[1]) / 1000
+
+
+def open_descriptors(probe: Probe) -> int:
+    return len(list(Path(f"/proc/{probe.process.pid}/fd").iterdir()))
+
+
+def flood(probe: Probe, publisher: str, seconds: int) -> None:
+    """One megabyte, 50 times a second; in pieces, so that no answer takes longer than a test waits."""
+    for _ in range(seconds):
+        probe.ask("flood", publisher, MEGABYTE, RATE)
+
+
+@pytest.mark.parametrize("seconds", [10, pytest.param(60, marks=pytest.mark.long)])
+def test_stopped_subscriber_costs_its_queue_and_the_others_nothing(roscore: RosCore, seconds: int) -> None:
+    with (
+        Probe(roscore.env) as probe,
+        Probe(roscore.env, "__name:=live") as live,
+        Probe(roscore.env, "__name:=stuck") as stuck,
+    ):
+        publisher = probe.ask("advertise", "/big", "string", "-", QUEUE)
+        subscriber = live.ask("subscribe", "/big", "string", "size")
+        probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the live subscriber to connect")
+        wait_until(lambda: "/live" in roscore.state()["subscribers"].get("/big", []), "the live subscriber")
+        flood(probe, publisher, 1)
+        live.wait_for(lambda: len(live.messages(subscriber)) == RATE, "the first messages")
+        before = resident_megabytes(probe)
+
+        late = stuck.ask("subscribe", "/big", "string", "size")
+        sent = RATE
+        end = time.monotonic() + DEADLINE
+        while not stuck.messages(late):
+            assert time.monotonic() < end, "the second subscriber did not connect"
+            probe.ask("flood", publisher, MEGABYTE, 1)
+            sent += 1
+        os.kill(stuck.process.pid, signal.SIGSTOP)
+        flood(probe, publisher, seconds)
+        live.wait_for(lambda: len(live.messages(subscriber)) == sent + seconds * RATE, "all messages")
+        os.kill(stuck.process.pid, signal.SIGCONT)
+        # The queue, one message that is being written, and as much again for what an allocator keeps.
+        assert resident_megabytes(probe) - before < 2 * (QUEUE + 1)
+
+
+def connect_as_subscriber(core: RosCore, topic: str) -> socket.socket:
+    """A TCPROS connection as far as the publisher's answer."""
+    master: Any = xmlrpc.client.ServerProxy(core.env["ROS_MASTER_URI"])
+    node: Any = xmlrpc.client.ServerProxy(master.lookupNode("/test", NAME)[2])
+    _, host, port = node.requestTopic("/test", topic, [["TCPROS"]])[2]
+    fields = (f"topic={topic}", "callerid=/test", "md5sum=*", "type=*")
+    header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    connection = socket.create_connection((host, port))
+    connection.sendall(struct.pack("<I", len(header)) + header)
+    assert connection.recv(4)
+    return connection
+
+
+def test_subscribers_that_come_and_die_leave_no_descriptors(roscore: RosCore) -> None:
+    with Probe(roscore.env) as probe:
+        publisher = probe.ask("advertise", "/big", "string", "-", QUEUE)
+        wait_until(lambda: NAME in roscore.state()["publishers"].get("/big", []), "the publisher")
+        connect_as_subscriber(roscore, "/big").close()
+        probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the first to be gone")
+        baseline = open_descriptors(probe)
+        for _ in range(CYCLES):
+            connection = connect_as_subscriber(roscore, "/big")
+            probe.ask("flood", publisher, MEGABYTE, 1)
+            # As the kernel does for a process that was killed with unread data: a reset.
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            connection.close()
+        # roscpp works through 200 ends one after the other, which takes a while on a busy machine.
+        probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the last to be gone", timeout=60.0)
+        wait_until(
+            lambda: open_descriptors(probe) <= baseline + MASTER_CONNECTIONS,
+            "the descriptors to be closed",
+            timeout=60.0,
+        )

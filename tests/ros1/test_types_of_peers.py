@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodes that take a topic or a service for another type: one line says so, however often they try."""
+
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from bridge_probe import Probe
+from ros_support import RosCore, start, stop, wait_until
+
+FLOAT = "std_msgs/Float32 (md5 73fcbf46b49191e672908e50842a83d4)"
+STRING = "std_msgs/String (md5 992ce8a1687cec8c8bd883ec73ca41d1)"
+OTHER_FLOAT = "std_msgs/Float32 (md5 00000000000000000000000000000000)"
+REBUILD = (
+    "their definitions differ: build the messages of both nodes from the same definition, and start both after "
+    "sourcing that workspace"
+)
+
+
+@contextmanager
+def rospy_node(core: RosCore, code: str, log: Path) -> Iterator[None]:
+    """A node /peer that runs `code`, and what it writes in `log`."""
+    head = "import rospy, std_msgs.msg, std_srvs.srv\nrospy.init_node('peer')\n"
+    with log.open("w") as file:
+        process = start(["/usr/bin/python3", "-c", head + code], core.env, stdout=file, stderr=subprocess.STDOUT)
+        try:
+            yield
+        finally:
+            stop(process)
+
+
+def told(probe: Probe) -> list[str]:
+    """What the bridge and roscpp said since the bridge connected."""
+    return [line for line in probe.errors if "load succeeded" not in line]
+
+
+def test_subscriber_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+    def attempts() -> int:
+        return sum(file.read_text().count("unable to create subscriber") for file in tmp_path.rglob("peer*.log"))
+
+    with Probe(roscore.env) as probe:
+        probe.ask("advertise", "/speed", "float")
+        wait_until(lambda: "/speed" in roscore.state()["publishers"], "the publisher")
+        again = "s = rospy.Subscriber('/speed', std_msgs.msg.String); rospy.sleep(0.5); s.unregister()"
+        with rospy_node(roscore, f"while not rospy.is_shutdown(): {again}", tmp_path / "peer"):
+            wait_until(lambda: attempts() >= 2, "the peer to have tried twice")
+        assert told(probe) == [
+            f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to it as {STRING}, but here it is published "
+            f"as {FLOAT}, so nothing is sent to that node; let both use one type"
+        ]
+
+
+def test_publisher_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+    with Probe(roscore.env) as probe:
+        probe.ask("subscribe", "/speed", "float")
+        node = (
+            "p = rospy.Publisher('/speed', std_msgs.msg.String, queue_size=1, latch=True); p.publish('x'); rospy.spin()"
+        )
+        with rospy_node(roscore, node, tmp_path / "peer"):
+            probe.wait_for(lambda: bool(told(probe)), "the line")
+            # A second one shows that two more looks have passed.
+            with Probe(roscore.env, "__name:=second") as second:
+                second.ask("advertise", "/speed", "other_float")
+                probe.wait_for(lambda: len(told(probe)) > 1, "the second publisher's line")
+        assert told(probe) == [
+            f"plugin 'ROSInterface': topic '/speed': node /peer publishes it as {STRING}, but here it is subscribed as "
+            f"{FLOAT}, so nothing comes from that node; let both use one type",
+            f"plugin 'ROSInterface': topic '/speed': node /second publishes it as {OTHER_FLOAT}, but here it is "
+            f"subscribed as {FLOAT}, so nothing comes from that node; {REBUILD}",
+        ]
+
+
+def test_subscriber_with_another_version_of_the_type_is_told_to_rebuild(roscore: RosCore) -> None:
+    with Probe(roscore.env) as probe, Probe(roscore.env, "__name:=other") as other:
+        probe.ask("advertise", "/speed", "float")
+        other.ask("subscribe", "/speed", "other_float")
+        probe.wait_for(lambda: bool(told(probe)), "the line")
+        assert told(probe) == [
+            f"plugin 'ROSInterface': topic '/speed': node /other subscribes to it as {OTHER_FLOAT}, but here it is "
+            f"published as {FLOAT}, so nothing is sent to that node; {REBUILD}"
+        ]
+        other.wait_for(lambda: bool(told(other)), "the other's line")
+        assert f"node /sim_ros_interface publishes it as {FLOAT}, but here it is subscribed" in told(other)[0]
+
+
+def test_client_of_another_service_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+    call = "rospy.ServiceProxy('/paint', std_srvs.srv.Trigger)()"
+    code = f"for i in range(2):\n try: {call}\n except rospy.ServiceException: print('refused')"
+    log = tmp_path / "peer"
+    with Probe(roscore.env) as probe:
+        probe.ask("serve", "/paint", "setbool")
+        wait_until(lambda: "/paint" in roscore.state()["services"], "the service")
+        with rospy_node(roscore, code, log):
+            wait_until(lambda: log.read_text().count("refused") == 2, "both calls")
+        assert told(probe) == [
+            "plugin 'ROSInterface': service '/paint': a client calls it with a type of md5 "
+            "937c9679a518e3a18d831e57125ea522, but here it is offered as std_srvs/SetBool (md5 "
+            "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; let both use one type, built from the same "
+            "definition"
+        ]
+
+
+def test_other_errors_of_roscpp_are_still_printed(roscore: RosCore) -> None:
+    with Probe(roscore.env) as probe:
+        probe.ask("serve", "/paint", "setbool", "fail")
+        wait_until(lambda: "/paint" in roscore.state()["services"], "the service")
+        subprocess.run(
+            ["rosservice", "call", "/paint", "true"], env=roscore.env, capture_output=True, timeout=60, check=False
+        )
+        probe.wait_for(lambda: any("out of paint" in line for line in probe.errors), "roscpp's own line")

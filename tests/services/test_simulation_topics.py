@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The topics of CoppeliaSim's helper for ROS, as programs made for it use them."""
+
+from node_support import NAME, Node
+from remote_control import Remote, Run
+from ros_support import RosCore, wait_until
+
+STATE, TIME, DONE = "/simulationState", "/simulationTime", "/simulationStepDone"
+HEAR = [f"{STATE}=Int32", f"{TIME}=Float32", f"{DONE}=Bool"]
+COUNTING = """
+    def sysCall_init(): pass
+    def sysCall_sensing(): print(f'pass {sim.getSimulationTime():.2f}')
+"""
+
+
+def passes(node: Node) -> int:
+    return node.output.count("pass ")
+
+
+def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
+    """Returns how many passes there have been when no more come, and all are heard of, while a service is called."""
+    remote.send("/enableSyncMode", value=True)
+
+    def nothing_goes_on() -> bool:
+        before = passes(node), len(remote.heard(TIME)), len(remote.heard(DONE))
+        core.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")
+        return (passes(node), len(remote.heard(TIME)), len(remote.heard(DONE))) == before
+
+    wait_until(nothing_goes_on, "the passes to wait for triggers")
+    return passes(node)
+
+
+def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run, roscore: RosCore) -> None:
+    node, remote = run(COUNTING, "--speed", "5", hear=HEAR)
+    free = enter_synchronous_mode(roscore, node, remote)
+    before = len(remote.heard(DONE))
+    remote.send("/triggerNextStep", value=False, count=100)
+    wait_until(lambda: len(remote.heard(DONE)) == before + 100, "all to be done")
+    for _ in range(3):  # one by one, as a controller does
+        done = len(remote.heard(DONE))
+        remote.send("/triggerNextStep", value=True)
+        wait_until(lambda goal=done + 1: len(remote.heard(DONE)) == goal, "the pass to be done")
+    assert passes(node) == free + 103
+    assert set(remote.heard(DONE)) == {"True"}
+    told = [f"{float(time):.2f}" for time in remote.heard(TIME)[-103:]]
+    assert told == [f"{0.05 * number:.2f}" for number in range(free, free + 103)]
+
+    remote.send("/enableSyncMode", value=False)
+    wait_until(lambda: passes(node) > free + 200, "the passes to wait no more")
+
+
+def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
+    node, remote = run(COUNTING, "--speed", "5", hear=HEAR)
+    free = enter_synchronous_mode(roscore, node, remote)
+    remote.press("pause")
+    wait_until(lambda: remote.heard(STATE)[-1:] == ["2"], "the pause")
+    remote.send("/triggerNextStep", value=True, count=5)
+    remote.press("start")
+    wait_until(lambda: passes(node) == free + 5, "the passes")
+
+
+def test_the_state_is_told_in_all_states(run: Run) -> None:
+    _, remote = run(COUNTING, "--paused", hear=HEAR)
+    for button, state in ((None, "2"), ("start", "1"), ("stop", "0"), ("start", "1"), ("pause", "2"), ("stop", "0")):
+        if button:
+            remote.press(button)
+        wait_until(lambda state=state: remote.heard(STATE)[-1:] == [state], f"state {state} after {button}")
+    assert remote.heard(TIME)[0] == "0.0"
+
+
+OWN_TIME = """
+    def sysCall_init(): self.time = None
+    def sysCall_actuation():
+        if sim.getSimulationTime() >= {begin} and self.time is None:
+            self.time = simROS.advertise('/simulationTime', 'std_msgs/Float32')
+    def sysCall_sensing():
+        if self.time: simROS.publish(self.time, {{'data': -sim.getSimulationTime() - 1}})
+"""
+
+
+def test_a_script_that_advertises_a_topic_has_it_for_itself(run: Run) -> None:
+    node, remote = run(OWN_TIME.format(begin=0), "--paused", hear=HEAR)
+    for starts in (1, 2):
+        begin = len(remote.heard(TIME))
+        remote.press("start")
+        wait_until(lambda goal=begin + 20: len(remote.heard(TIME)) > goal, "the times of the script")
+        remote.press("stop")
+        wait_until(lambda: remote.heard(STATE)[-1:] == ["0"], f"stop {starts}")
+    times = [float(time) for time in remote.heard(TIME)]
+    assert all(time <= -1 for time in times)
+    assert "error" not in node.output
+
+
+def test_a_script_may_take_a_topic_later(run: Run) -> None:
+    _, remote = run(OWN_TIME.format(begin=1), hear=HEAR)
+    wait_until(lambda: "-2.5" in remote.heard(TIME), "the times of the script")
+    times = [float(time) for time in remote.heard(TIME)]
+    first = next(number for number, time in enumerate(times) if time < 0)
+    assert all(0 <= time < 1 for time in times[:first])
+    assert all(time <= -2 for time in times[first:])
+
+
+def test_a_script_may_use_a_topic_as_another_type(run: Run, roscore: RosCore) -> None:
+    node, remote = run("""
+        def sysCall_init(): self.time = simROS.advertise('/simulationTime', 'std_msgs/String')
+        def sysCall_sensing(): simROS.publish(self.time, {'data': 'late'})
+    """)
+    assert roscore.run("rostopic", "echo", "-n", "1", TIME).startswith('data: "late"')
+    remote.press("stop")
+    wait_until(lambda: "Float32" in roscore.run("rostopic", "type", TIME), "the node's own topic")
+    assert "error" not in node.output
+
+
+def test_a_script_that_subscribes_to_a_topic_has_it_for_itself(run: Run, roscore: RosCore) -> None:
+    node, remote = run("""
+        def sysCall_init():
+            self.stop = simROS.subscribe('/stopSimulation', 'std_msgs/Bool', 'hear')
+            print('init')
+        def hear(message):
+            print('heard')
+            simROS.shutdownSubscriber(self.stop)
+        def sysCall_cleanup(): print('cleanup')
+    """)
+    node.wait_for_output("init")
+    remote.press("stop")
+    node.wait_for_output("heard")
+    roscore.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")  # takes passes to be answered
+    assert "cleanup" not in node.output
+    remote.press("stop")
+    node.wait_for_output("cleanup")

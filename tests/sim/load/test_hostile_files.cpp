@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that would take a parser for ever, all memory or the whole process.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <sdf/sdf.hh>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "scene_files.hpp"
+
+namespace bubblesim::test::test_hostile_files {
+namespace {
+
+class HostileFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("bubblesim_hostile_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const fs::path& file, const std::string& text) const {
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text;
+    return (folder_ / file).string();
+  }
+  void write_model(const std::string& name, const std::string& content, const std::string& version = "1.9") const {
+    write(name + "/model.config",
+          "<model><name>" + name + "</name><sdf version='" + version + "'>model.sdf</sdf></model>");
+    write(name + "/model.sdf",
+          "<sdf version='" + version + "'>\n<model name='" + name + "'>" + content + "</model></sdf>");
+  }
+  std::string complaint(const std::string& text, const std::string& name = "scene.sdf") const {
+    return complaint_of([&] { load_scene(write(name, text)); });
+  }
+  template <class Load>
+  static std::string complaint_of(const Load& load) {
+    try {
+      load();
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "it loads";
+  }
+  static std::string included(const std::string& name) { return "<include><uri>model://" + name + "</uri></include>"; }
+  static bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+  fs::path folder_;
+};
+
+TEST_F(HostileFiles, AModelThatIncludesItselfIsAnError) {
+  write_model("self", included("self") + "<link name='l'/>");
+  const std::string told = complaint(in_world(included("self")));
+  EXPECT_TRUE(holds(told, "self/model.sdf:2: the file includes itself")) << told;
+}
+
+TEST_F(HostileFiles, ModelsThatIncludeEachOtherAreAnError) {
+  write_model("a", included("b") + "<link name='l'/>");
+  write_model("b", included("a") + "<link name='l'/>");
+  const std::string told = complaint(in_world(included("a")));
+  EXPECT_TRUE(holds(told, "b/model.sdf:2: includes ")) << told;
+  EXPECT_TRUE(holds(told, "a/model.sdf, which includes this file")) << told;
+}
+
+TEST_F(HostileFiles, IncludesThatMultiplyAreAnError) {
+  write_model("m0", "<link name='l'/>");
+  for (int i = 1; i <= 10; ++i) {
+    std::string ten;
+    for (int n = 0; n < 10; ++n) ten += included("m" + std::to_string(i - 1));
+    write_model("m" + std::to_string(i), ten);
+  }
+  const std::string told = complaint(in_world(included("m10")));
+  EXPECT_TRUE(holds(told, "over 1000000 of them")) << told;
+}
+
+TEST_F(HostileFiles, AnIncludedFifoIsAnError) {
+  fs::create_directories(folder_ / "pipe");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe/model.config").c_str(), 0600), 0);
+  const std::string told = complaint(in_world(included("pipe")));
+  EXPECT_TRUE(holds(told, "pipe/model.config, which is no regular file")) << told;
+}
+
+TEST_F(HostileFiles, ADeviceAsAHeightmapIsAnError) {
+  const std::string told =
+      complaint(in_world("<model name='m'><link name='l'><collision name='c'><geometry><heightmap><uri>/dev/zero"
+                         "</uri></heightmap></geometry></collision></link></model>"));
+  EXPECT_TRUE(holds(told, "/m/l/c: /dev/zero is no regular file")) << told;
+}
+
+TEST_F(HostileFiles, AModelConfigWithoutANameIsAnError) {
+  write_model("nameless", "<link name='l'/>");
+  write("nameless/model.config", "<model><description/></model>");
+  const std::string told = complaint(in_world(included("nameless")));
+  EXPECT_TRUE(holds(told, "nameless/model.config:1: has no <name>")) << told;
+}
+
+TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
+  const std::string megabytes(20'000'000, 'a');
+  const std::string named = complaint(in_world("<model name='" + megabytes + "'><link name='l'/></model>"));
+  EXPECT_TRUE(holds(named, "scene.sdf:1: the name 'aaaa")) << named.substr(0, 200);
+  const std::string posed = complaint(in_world("<model name='m'><pose>" + megabytes + "</pose></model>"));
+  EXPECT_TRUE(holds(posed, "scene.sdf:1: the text of <pose> 'aaaa")) << posed.substr(0, 200);
+  EXPECT_LT(named.size() + posed.size(), 1000U);
+}
+
+/// Old files have the links of inner models in the outer one, called inner::link: this joint of `a` has a link of `b`.
+const char* const kAsserted =
+    "<sdf version='1.6'><world name='w'><model name='m'><link name='a::l'/><link name='b::l'/>"
+    "<joint name='a::j' type='revolute'><parent>b::l</parent><child>a::l</child><axis><xyz>0 0 1</xyz></axis></joint>"
+    "</model></world></sdf>";
+
+TEST_F(HostileFiles, WhatSdformatAssertsIsAnErrorOfTheFile) {
+  const std::string told = complaint(kAsserted);
+  EXPECT_TRUE(holds(told, "scene.sdf: SDFormat cannot read it: Joint's <parent> value does not start with")) << told;
+  const std::string added = complaint_of([&] { load_model(kAsserted, folder_); });
+  EXPECT_TRUE(holds(added, "SDFormat cannot read it: Joint's <parent> value does not start with")) << added;
+}
+
+TEST_F(HostileFiles, WhatSdformatAssertsOfAnIncludedFileNamesThatFile) {
+  write_model("fine", "<link name='l'/>");
+  write_model("odd", "");
+  write("odd/model.sdf", kAsserted);
+  const std::string told = complaint(in_world(included("fine") + included("odd")));
+  EXPECT_TRUE(holds(told, "odd/model.sdf: SDFormat cannot read it: Joint's")) << told;
+}
+
+// SDFormat alone takes a megabyte for each of these models.
+TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
+  std::string models;
+  for (int i = 0; i < 3000; ++i) {
+    models += "<model name='m" + std::to_string(i) +
+              "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry>"
+              "</collision></link></model>";
+  }
+  EXPECT_EQ(load_scene(write("many.sdf", in_world(models))).models.size(), 3000U);
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  EXPECT_LT(used.ru_maxrss, 500'000) << "kB";
+}
+
+TEST_F(HostileFiles, MoreLinksThanCanBePlacedAreAnError) {
+  std::string links;
+  for (int i = 0; i < 20'000; ++i) links += "<link name='l" + std::to_string(i) + "'/>";
+  const std::string told = complaint(in_world("<model name='m'>" + links + "</model>"));
+  EXPECT_TRUE(holds(told, "scene.sdf:1: has 20000 links, joints and frames, too many")) << told;
+}
+
+TEST_F(HostileFiles, AChainOfThousandsOfFramesIsAnError) {
+  std::string links = "<link name='l0'/>";
+  for (int i = 1; i < 3000; ++i) {
+    links += "<link name='l" + std::to_string(i) + "'><pose relative_to='l" + std::to_string(i - 1) +
+             "'>0 0 1 0 0 0</pose></link>";
+  }
+  const std::string told = complaint(in_world("<model name='m'>" + links + "</model>"));
+  EXPECT_TRUE(holds(told, "has 3000 links, joints and frames, too many")) << told;
+}
+
+TEST_F(HostileFiles, XacroThatDoesNotEndIsEnded) {
+  ::setenv("BUBBLESIM_XACRO_SECONDS", "1", 1);
+  const std::string told = complaint("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
+  ::unsetenv("BUBBLESIM_XACRO_SECONDS");
+  EXPECT_TRUE(holds(told, "endless.xacro: xacro did not end within 1.00 s and was killed")) << told;
+}
+
+TEST(SharedDescriptions, AreThoseOfTheElementThatIsCloned) {
+  const sdf::SDFPtr root(new sdf::SDF);
+  sdf::init(root);
+  const sdf::ElementPtr world = root->Root()->GetElementDescription("world");
+  const sdf::ElementPtr clone = world->Clone();
+  EXPECT_NE(clone, world);
+  EXPECT_EQ(clone->GetElementDescription("model"), world->GetElementDescription("model"));
+  EXPECT_NE(clone->GetAttribute("name"), world->GetAttribute("name"));
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_hostile_files

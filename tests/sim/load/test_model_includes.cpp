@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes that include models: where these are looked for, and what an include may add.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/scene_loader.hpp"
+#include "scene_files.hpp"
+
+namespace bubblesim::test::test_model_includes {
+namespace {
+
+const std::string kModel =
+    "<sdf version='1.9' xmlns:bubblesim='https://bubblesim'><model name='robot'>"
+    "<bubblesim:child_script>own.py</bubblesim:child_script><link name='base'/></model></sdf>";
+
+/// A scene, and a model in a folder of the given name beside it.
+class ModelIncludes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("bubblesim_includes_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    ::unsetenv("BUBBLESIM_MODEL_PATH");
+    ::unsetenv("GAZEBO_MODEL_PATH");
+    fs::remove_all(folder_);
+  }
+
+  fs::path write(const fs::path& file, const std::string& text) const {
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text;
+    return folder_ / file;
+  }
+
+  void write_model(const fs::path& folder) const {
+    write(folder / "model.config", "<model><name>robot</name><sdf version='1.9'>model.sdf</sdf></model>");
+    write(folder / "model.sdf", kModel);
+    write(folder / "own.py", "");
+  }
+
+  SceneDescription load(const std::string& includes) const {
+    return load_scene(write("scene/scene.sdf", in_world(includes)).string());
+  }
+
+  std::string complaint(const std::string& includes) const {
+    try {
+      load(includes);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ModelIncludes, AreFoundBesideTheScene) {
+  write_model("scene/near");
+  write_model("scene/models/shared");
+  const SceneDescription scene = load(
+      "<include><uri>near</uri><name>A</name></include>"
+      "<include><uri>model://shared</uri><name>B</name><pose>1 2 3 0 0 0</pose></include>");
+  ASSERT_EQ(scene.models.size(), 2u);
+  EXPECT_EQ(scene.models[0].name, "A");
+  EXPECT_EQ(scene.models[1].name, "B");
+  EXPECT_EQ(scene.models[1].pose.Pos(), Vector3(1, 2, 3));
+}
+
+TEST_F(ModelIncludes, AreFoundInTheFoldersOfTheEnvironment) {
+  write_model("ours/one");
+  write_model("gazebos/two");
+  ::setenv("BUBBLESIM_MODEL_PATH", ("/nowhere:" + (folder_ / "ours").string()).c_str(), 1);
+  ::setenv("GAZEBO_MODEL_PATH", (folder_ / "gazebos").c_str(), 1);
+  EXPECT_EQ(load("<include><uri>model://one</uri></include>").models.size(), 1u);
+  EXPECT_EQ(load("<include><uri>model://two</uri></include>").models.size(), 1u);
+}
+
+TEST_F(ModelIncludes, AreFoundByAFilesPath) {
+  write_model("anywhere");
+  const std::string uri = "file://" + (folder_ / "anywhere" / "model.sdf").string();
+  EXPECT_EQ(load("<include><uri>" + uri + "</uri></include>").models.size(), 1u);
+}
+
+TEST_F(ModelIncludes, OfTheShippedModelsNeedNoFolder) {
+  EXPECT_EQ(load("<include><uri>model://tricycle</uri></include>").models.at(0).name, "Tricycle");
+}
+
+TEST_F(ModelIncludes, KeepTheScriptBesideTheModel) {
+  write_model("scene/near");
+  const SceneDescription scene = load("<include><uri>near</uri></include>");
+  EXPECT_TRUE(fs::equivalent(scene.models.at(0).child_script, folder_ / "scene/near/own.py"));
+}
+
+TEST_F(ModelIncludes, MayGiveAnotherScriptBesideTheScene) {
+  write_model("scene/near");
+  write("scene/other.py", "");
+  const SceneDescription scene =
+      load("<include><uri>near</uri><bubblesim:child_script>other.py</bubblesim:child_script></include>");
+  EXPECT_TRUE(fs::equivalent(scene.models.at(0).child_script, folder_ / "scene/other.py"));
+}
+
+TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
+  write_model("scene/near");
+  const std::string told =
+      complaint("\n<include><uri>near</uri><bubblesim:child_script>none.py</bubblesim:child_script></include>");
+  EXPECT_NE(told.find("scene.sdf:2"), std::string::npos) << told;
+  EXPECT_NE(told.find("none.py does not exist"), std::string::npos) << told;
+}
+
+TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndTellWhereWasSearched) {
+  testing::internal::CaptureStderr();
+  EXPECT_TRUE(load("\n<include><uri>model://nothing</uri></include>").models.empty());
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("scene.sdf:2: the model 'model://nothing' is not found and is left out"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find((folder_ / "scene" / "models").string()), std::string::npos) << told;
+  EXPECT_NE(told.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << told;
+}
+
+TEST_F(ModelIncludes, ProblemsInsideAModelAreToldInItsFile) {
+  write_model("scene/near");
+  write("scene/near/model.sdf",
+        "<sdf version='1.9'><model name='robot'><link name='base'><inertial><mass>-1</mass></inertial>\n"
+        "</link></model></sdf>");
+  EXPECT_NE(complaint("<include><uri>near</uri></include>").find("near/model.sdf:1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_model_includes

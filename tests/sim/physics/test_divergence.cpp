@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What happens when motion leaves the finite world, and when things fall off it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/simulation.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_divergence {
+namespace {
+
+/// A ball that is about to leave the world, and a box on the floor.
+struct Leaving {
+  explicit Leaving(OnDivergence policy) : simulation(described(policy)) {
+    World& world = simulation.world();
+    world.set_pose(world.tree().find("/Ball"), at(999999, 0, 5));
+    world.set_velocity(world.tree().find("/Ball"), {{1e5, 0, 0}, {}});
+  }
+
+  static SceneDescription described(OnDivergence policy) {
+    SceneDescription made = scene({floor(), model("Ball", link_with(Sphere{0.5}), at(0, 0, 5)),
+                                   model("Box", link_with(Box{{1, 1, 1}}), at(0, 3, 2))});
+    made.on_divergence = policy;
+    return made;
+  }
+
+  Simulation simulation;
+};
+
+/// Notes the models that are about to be removed.
+struct Witness : Participant {
+  void model_removing(World& world, ObjectId model) override { removed.push_back(world.tree().path(model)); }
+  std::vector<std::string> removed;
+};
+
+TEST(Divergence, PausesTheSimulationAndTellsWhereTheLastStatesAre) {
+  Leaving leaving(OnDivergence::kPause);
+  std::string told;
+  try {
+    leaving.simulation.step();
+    FAIL();
+  } catch (const Diverged& error) {
+    told = error.what();
+  }
+  EXPECT_EQ(leaving.simulation.state(), RunState::kPaused);
+  EXPECT_NE(told.find("/Ball"), std::string::npos);
+  const std::string before = "the last states are in ";
+  const std::string file = told.substr(told.find(before) + before.size());
+  std::ifstream in(file);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(text.find("/Ball/link,999999,"), std::string::npos) << text;
+}
+
+TEST(Divergence, StopPutsAPausedWorldBack) {
+  Leaving leaving(OnDivergence::kPause);
+  EXPECT_THROW(leaving.simulation.step(), Diverged);
+  leaving.simulation.stop();
+  leaving.simulation.carry_out_requests();
+  EXPECT_EQ(leaving.simulation.state(), RunState::kStopped);
+  leaving.simulation.start();
+  leaving.simulation.carry_out_requests();
+  EXPECT_NO_THROW(leaving.simulation.step());
+}
+
+TEST(Divergence, ResetsTheWorldWhenTheSceneSaysSo) {
+  Leaving leaving(OnDivergence::kReset);
+  leaving.simulation.step();
+  const World& world = leaving.simulation.world();
+  EXPECT_EQ(world.pose(world.tree().find("/Ball")).Pos(), Vector3(0, 0, 5));
+  EXPECT_EQ(leaving.simulation.state(), RunState::kRunning);
+  EXPECT_NO_THROW(leaving.simulation.step());
+}
+
+TEST(Divergence, RemovesTheModelWhenTheSceneSaysSo) {
+  Leaving leaving(OnDivergence::kRemove);
+  Witness witness;
+  leaving.simulation.add(witness);
+  leaving.simulation.step();
+  EXPECT_EQ(witness.removed, std::vector<std::string>{"/Ball"});
+  const World& world = leaving.simulation.world();
+  EXPECT_THROW(world.tree().find("/Ball"), NoSuchObject);
+  for (int i = 0; i < 40; ++i) leaving.simulation.step();
+  EXPECT_NEAR(world.pose(world.tree().find("/Box")).Pos().Z(), 0.5, 0.01) << "the rest goes on";
+}
+
+TEST(FallingOff, ModelsFarBelowEverythingAreRemoved) {
+  Simulation simulation(scene({model("Low", link_with(Sphere{0.5}), at(0, 0, -300)),
+                               still(model("Table", link_with(Box{{1, 1, 1}}), at(5, 0, 0)))}));
+  Witness witness;
+  simulation.add(witness);
+  const ObjectId low = simulation.world().tree().find("/Low");
+  double last = 0;
+  for (int i = 0; i < 400 && witness.removed.empty(); ++i) {
+    last = simulation.world().pose(low).Pos().Z();
+    simulation.step();
+  }
+  EXPECT_EQ(witness.removed, std::vector<std::string>{"/Low"});
+  EXPECT_NEAR(last, -1300, 10) << "1000 m under where it began";
+  EXPECT_NO_THROW(simulation.step());
+}
+
+TEST(FallingOff, NothingFallsWithoutGravity) {
+  Simulation simulation(scene({model("Far", link_with(Sphere{0.5}))}, Vector3::Zero));
+  simulation.world().set_pose(simulation.world().tree().find("/Far"), at(0, 0, -5000));
+  simulation.step();
+  EXPECT_NO_THROW(simulation.world().tree().find("/Far"));
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_divergence

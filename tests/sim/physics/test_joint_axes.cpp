@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kinds of joint leave free, and how their positions are counted.
+#include <gtest/gtest.h>
+
+#include "bubblesim/error.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_joint_axes {
+namespace {
+
+constexpr double kStep = 0.005;
+
+/// A world of two jointed links and what the tests ask of it.
+struct Jointed {
+  explicit Jointed(JointDescription description) : world(jointed(std::move(description)), 0) {}
+
+  Pose arm_in_base() const { return world.pose(base).Inverse() * world.pose(arm); }
+
+  World world;
+  ObjectId base = world.tree().find("/base");
+  ObjectId arm = world.tree().find("/arm");
+  ObjectId joint = world.tree().find("/joint");
+};
+
+TEST(JointPosition, IsZeroAsBuiltEvenWhenTheLinksAreTurned) {
+  for (const char* type : {"revolute", "continuous", "prismatic"}) {
+    ModelDescription robot = model("Robot", link("base"), Pose(1, 2, 3, 0.3, -0.2, 1));
+    robot.links.push_back(link("arm", {0.5, 0, 0}));
+    robot.links[1].pose.Rot() = turn(0.7, 0.1, -2);
+    robot.joints.push_back(joint(type, {axis({0, 0.6, 0.8})}, {0.2, 0, 0}));
+    const World world(scene({robot}, Vector3::Zero), 0);
+    EXPECT_NEAR(world.joint_position(world.tree().find("/joint")), 0, 1e-12) << type;
+  }
+}
+
+class TurningJoint : public ::testing::TestWithParam<std::tuple<const char*, const char*, Vector3>> {};
+
+TEST_P(TurningJoint, PositiveVelocityTurnsTheChildAboutPlusAxis) {
+  const auto& [type, parent, direction] = GetParam();
+  Jointed pair(joint(type, {axis(direction, MotorMode::kVelocity)}, {}, parent));
+  pair.world.set_target_velocity(pair.joint, 0.5);
+  pair.world.advance(2, kStep);
+  const bool fixed_parent = std::string(parent) == "world";
+  const Pose from = fixed_parent ? Pose::Zero : pair.world.pose(pair.base);
+  const double turned = turn_about(direction, from, pair.world.pose(pair.arm));
+  EXPECT_NEAR(turned, 1, 0.01);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint), turned, 1e-6);
+  EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 0.5, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, TurningJoint,
+    ::testing::Combine(::testing::Values("revolute", "continuous"), ::testing::Values("base", "world"),
+                       ::testing::Values(Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ, Vector3(0, 0.6, -0.8))));
+
+class SlidingJoint : public ::testing::TestWithParam<std::tuple<const char*, Vector3>> {};
+
+TEST_P(SlidingJoint, PositiveVelocityMovesTheChildAlongPlusAxis) {
+  const auto& [parent, direction] = GetParam();
+  Jointed pair(joint("prismatic", {axis(direction, MotorMode::kVelocity)}, {}, parent));
+  pair.world.set_target_velocity(pair.joint, 0.5);
+  pair.world.advance(2, kStep);
+  const bool fixed_parent = std::string(parent) == "world";
+  const Pose from = fixed_parent ? Pose::Zero : pair.world.pose(pair.base);
+  const Vector3 moved = (from.Inverse() * pair.world.pose(pair.arm)).Pos();
+  EXPECT_LT((moved - direction).Length(), 0.01);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint), moved.Dot(direction), 1e-6);
+  EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 0.5, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parents, SlidingJoint,
+                         ::testing::Combine(::testing::Values("base", "world"),
+                                            ::testing::Values(Vector3::UnitX, Vector3::UnitZ, Vector3(0, 0.6, -0.8))));
+
+TEST(JointFrame, TurnsItsAxisAlong) {
+  JointDescription turned = joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)});
+  turned.pose.Rot() = turn(-M_PI / 2, 0, 0);  // z of the joint is y of the model
+  Jointed pair(turned);
+  pair.world.set_target_velocity(pair.joint, 0.5);
+  pair.world.advance(1, kStep);
+  EXPECT_NEAR(turn_about(Vector3::UnitY, pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0.5, 0.01);
+}
+
+JointDescription steered_wheel(MotorMode steering, MotorMode rolling) {
+  return joint("revolute2", {axis(Vector3::UnitZ, steering), axis(Vector3::UnitY, rolling)});
+}
+
+TEST(Revolute2, FirstAxisTurnsTheChildPositively) {
+  Jointed pair(steered_wheel(MotorMode::kVelocity, MotorMode::kVelocity));
+  pair.world.set_target_velocity(pair.joint, 0.5, 0);
+  pair.world.advance(2, kStep);
+  const double turned = turn_about(Vector3::UnitZ, pair.world.pose(pair.base), pair.world.pose(pair.arm));
+  EXPECT_NEAR(turned, 1, 0.01);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), turned, 1e-4);
+  EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 0), 0.5, 1e-4);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 1), 0, 1e-4);
+}
+
+TEST(Revolute2, SecondAxisTurnsTheChildPositively) {
+  Jointed pair(steered_wheel(MotorMode::kVelocity, MotorMode::kVelocity));
+  pair.world.set_target_velocity(pair.joint, 0.5, 1);
+  pair.world.advance(2, kStep);
+  const double turned = turn_about(Vector3::UnitY, pair.world.pose(pair.base), pair.world.pose(pair.arm));
+  EXPECT_NEAR(turned, 1, 0.01);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 1), turned, 1e-4);
+  EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 1), 0.5, 1e-4);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), 0, 1e-4);
+}
+
+TEST(Revolute2, SteersByPositionWhileItRolls) {
+  Jointed pair(steered_wheel(MotorMode::kPosition, MotorMode::kVelocity));
+  pair.world.set_target_position(pair.joint, 0.4, 0);
+  pair.world.set_target_velocity(pair.joint, 2, 1);
+  pair.world.advance(3, kStep);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), 0.4, 1e-3);
+  EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 1), 2, 1e-3);
+  const Vector3 axle = pair.arm_in_base().Rot().RotateVector(Vector3::UnitY);
+  EXPECT_NEAR(std::atan2(-axle.X(), axle.Y()), 0.4, 1e-3) << "the axle points where the steering says";
+}
+
+TEST(Revolute2, LimitsOfTheFirstAxisHoldOnTheirOwnSide) {
+  JointDescription described = steered_wheel(MotorMode::kVelocity, MotorMode::kNone);
+  described.axes[0].lower = -0.3;
+  described.axes[0].upper = 0.8;
+  described.axes[0].max_force = 5;
+  Jointed pair(described);
+  pair.world.set_target_velocity(pair.joint, 1, 0);
+  pair.world.advance(3, kStep);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), 0.8, 0.01);
+  pair.world.set_target_velocity(pair.joint, -1, 0);
+  pair.world.advance(3, kStep);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), -0.3, 0.01);
+}
+
+TEST(Revolute2, SecondAxisIsAnObjectOfItsOwn) {
+  Jointed pair(steered_wheel(MotorMode::kVelocity, MotorMode::kVelocity));
+  const ObjectId rolling = pair.world.tree().find("/joint/axis2");
+  pair.world.set_target_velocity(rolling, 3);
+  EXPECT_EQ(pair.world.target_velocity(pair.joint, 1), 3);
+  EXPECT_EQ(pair.world.target_velocity(pair.joint, 0), 0);
+  pair.world.advance(0.1, kStep);
+  EXPECT_EQ(pair.world.joint_position(rolling), pair.world.joint_position(pair.joint, 1));
+}
+
+TEST(BallJoint, LeavesAllTurnsFreeAndHoldsThePoint) {
+  Jointed pair(joint("ball", {}, {0.5, 0, 0}));
+  const Vector3 anchor(0.5, 0, 0);
+  pair.world.set_velocity(pair.arm, {Vector3::Zero, {0.3, 0.7, 1.1}});
+  pair.world.advance(1, kStep);
+  const Vector3 of_base = pair.world.pose(pair.base).CoordPositionAdd(anchor);
+  const Vector3 of_arm = pair.world.pose(pair.arm).CoordPositionAdd(anchor);
+  EXPECT_LT((of_base - of_arm).Length(), 2e-3);
+  for (const Vector3& direction : {Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ}) {
+    EXPECT_GT(std::abs(turn_about(direction, pair.world.pose(pair.base), pair.world.pose(pair.arm))), 0.02);
+  }
+}
+
+TEST(FixedJoint, MovesBothLinksAsOne) {
+  Jointed pair(joint("fixed", {}));
+  const Pose before = pair.arm_in_base();
+  pair.world.set_velocity(pair.arm, {{1, 0, 0}, {0, 0, 1}});
+  pair.world.advance(1, kStep);
+  EXPECT_LT((pair.arm_in_base().Pos() - before.Pos()).Length(), 1e-3);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ, pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0, 1e-3);
+  EXPECT_NEAR(pair.world.velocity(pair.base).linear.X(), 0.5, 0.01) << "two equal masses share the momentum";
+}
+
+TEST(FixedJoint, HoldsALinkInTheWorld) {
+  SceneDescription described = jointed(joint("fixed", {}, {}, "world"));
+  described.gravity = {0, 0, -9.81};
+  World world(described, 0);
+  world.advance(1, kStep);
+  EXPECT_LT(world.pose(world.tree().find("/arm")).Pos().Length(), 1e-6);
+}
+
+TEST(JointWithoutAxes, HasNoPosition) {
+  for (const char* type : {"fixed", "ball"}) {
+    const Jointed pair(joint(type, {}));
+    EXPECT_THROW(pair.world.joint_position(pair.joint), NoSuchObject) << type;
+  }
+}
+
+TEST(JointPose, IsAttachedToTheParentAndItsMovingFrameToTheChild) {
+  Jointed pair(joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {1, 0, 0}));
+  EXPECT_LT((pair.world.pose(pair.joint).Pos() - Vector3(1, 0, 0)).Length(), 1e-12);
+  pair.world.set_target_velocity(pair.joint, 0.5);
+  pair.world.advance(2, kStep);
+  const Pose still = pair.world.pose(pair.joint);
+  const Pose moving = pair.world.joint_moving_pose(pair.joint);
+  EXPECT_LT((still.Pos() - moving.Pos()).Length(), 1e-3);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ, pair.world.pose(pair.base), still), 0, 1e-9);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ, still, moving), pair.world.joint_position(pair.joint), 1e-6);
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_joint_axes

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motors, limits, friction and damping of joints, against what mechanics says.
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_joint_motors {
+namespace {
+
+constexpr double kStep = 0.005;
+
+/// `arm` on one axis against the world, 1 kg and 1 kg m^2, so that force is acceleration for both kinds of joint.
+class Axis {
+ public:
+  Axis(const char* type, AxisDescription description, const Vector3& gravity = {})
+      : world(described(type, std::move(description), gravity), 0) {}
+
+  void run(double duration) { world.advance(duration, kStep); }
+  double position() const { return world.joint_position(joint); }
+  double velocity() const { return world.joint_velocity(joint); }
+  void push(double velocity) {
+    const bool slides = world.tree().at(joint).name == "prismatic";
+    const Vector3 along = Vector3::UnitZ * velocity;
+    world.set_velocity(world.tree().find("/arm"), slides ? Twist{along, {}} : Twist{{}, along});
+  }
+
+  World world;
+  ObjectId joint = world.tree().find("/Robot/*", kNoObject, 2);
+
+ private:
+  static SceneDescription described(const char* type, AxisDescription description, const Vector3& gravity) {
+    JointDescription made = test::joint(type, {std::move(description)}, {}, "world");
+    made.name = type;
+    SceneDescription scene = jointed(made);
+    scene.gravity = gravity;
+    return scene;
+  }
+};
+
+class AnyAxis : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, AnyAxis, ::testing::Values("revolute", "prismatic"));
+
+TEST_P(AnyAxis, VelocityMotorReachesItsTarget) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  axis.world.set_target_velocity(axis.joint, -1.5);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), -1.5, 1e-6);
+}
+
+TEST_P(AnyAxis, ForceLimitBoundsTheAcceleration) {
+  AxisDescription weak = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  weak.max_force = 2;
+  Axis axis(GetParam(), weak);
+  axis.world.set_target_velocity(axis.joint, 100);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), 2 * 0.5, 1e-6) << "v = F/m t";
+}
+
+TEST_P(AnyAxis, ForceLimitCanBeSetWhileRunning) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  axis.world.set_max_force(axis.joint, 3);
+  axis.world.set_target_velocity(axis.joint, 100);
+  axis.run(0.5);
+  EXPECT_EQ(axis.world.max_force(axis.joint), 3);
+  EXPECT_NEAR(axis.velocity(), 3 * 0.5, 1e-6);
+}
+
+TEST_P(AnyAxis, VelocityLimitBoundsTheMotor) {
+  AxisDescription slow = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  slow.max_velocity = 0.7;
+  Axis axis(GetParam(), slow);
+  axis.world.set_target_velocity(axis.joint, 100);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), 0.7, 1e-6);
+}
+
+TEST_P(AnyAxis, PositionMotorReachesItsTargetAndHoldsIt) {
+  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  servo.lower = -2;
+  servo.upper = 2;
+  Axis axis(GetParam(), servo, {0, 0, -9.81});
+  axis.world.set_target_position(axis.joint, 1.2);
+  axis.run(1);
+  EXPECT_NEAR(axis.position(), 1.2, 1e-6);
+  axis.run(5);
+  EXPECT_NEAR(axis.position(), 1.2, 1e-9);
+  EXPECT_NEAR(axis.velocity(), 0, 1e-9);
+}
+
+TEST_P(AnyAxis, PositionMotorStopsAtALimitBeforeItsTarget) {
+  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  servo.lower = -0.5;
+  servo.upper = 0.25;
+  Axis axis(GetParam(), servo);
+  axis.world.set_target_position(axis.joint, 9);
+  axis.run(2);
+  EXPECT_NEAR(axis.position(), 0.25, 1e-6);
+}
+
+TEST(EndlessJoint, PositionMotorTakesTheShortWay) {
+  Axis axis("continuous", test::axis(Vector3::UnitZ, MotorMode::kPosition));
+  axis.world.set_target_position(axis.joint, 3);
+  axis.run(2);
+  EXPECT_NEAR(axis.position(), 3, 1e-6);
+  axis.world.set_target_position(axis.joint, -3);
+  for (int i = 0; i < 40; ++i) {
+    axis.run(0.05);
+    ASSERT_GT(std::abs(axis.position()), 2.9) << "it must not turn back through zero";
+  }
+  EXPECT_NEAR(axis.position(), -3, 1e-6);
+}
+
+TEST(EndlessJoint, TargetBeyondATurnMeansTheSameDirection) {
+  Axis axis("continuous", test::axis(Vector3::UnitZ, MotorMode::kPosition));
+  axis.world.set_target_position(axis.joint, 2 * M_PI * 3 + 0.5);
+  axis.run(2);
+  EXPECT_NEAR(axis.position(), 0.5, 1e-6);
+}
+
+TEST(WideLimits, PositionMotorReachesATargetBeyondHalfATurn) {
+  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  servo.lower = -6.2;
+  servo.upper = 6.2;
+  Axis axis("revolute", servo);
+  for (const double target : {4.0, -5.5, 6.2, 0.0}) {
+    axis.world.set_target_position(axis.joint, target);
+    axis.run(3);
+    EXPECT_NEAR(axis.position(), target, 1e-6);
+    EXPECT_NEAR(axis.velocity(), 0, 1e-6);
+  }
+}
+
+TEST(WideLimits, HoldBeyondHalfATurn) {
+  AxisDescription wide = test::axis(Vector3::UnitZ);
+  wide.lower = -0.5;
+  wide.upper = 4;
+  Axis axis("revolute", wide);
+  axis.push(1);
+  double furthest = 0;
+  for (int i = 0; i < 200; ++i) {
+    axis.run(0.05);
+    furthest = std::max(furthest, axis.position());
+  }
+  EXPECT_NEAR(furthest, 4, 0.01);
+}
+
+TEST_P(AnyAxis, LimitsStopAMovingLink) {
+  for (const double side : {-1.0, 1.0}) {
+    AxisDescription limited = test::axis(Vector3::UnitZ);
+    limited.lower = -0.4;
+    limited.upper = 0.4;
+    Axis axis(GetParam(), limited);
+    axis.push(side);
+    double furthest = 0;
+    for (int i = 0; i < 600; ++i) {
+      axis.run(kStep);
+      furthest = std::max(furthest, side * axis.position());
+    }
+    EXPECT_NEAR(furthest, 0.4, 1.5 * kStep) << "goes beyond by no more than a step's way";
+    EXPECT_LE(std::abs(axis.velocity()), 0.21) << "rebounds by no more than ODE's correction of that";
+  }
+}
+
+TEST_P(AnyAxis, LimitHoldsAgainstAMotorOfAnyForce) {
+  for (const double force : {1.0, 1e4, kInfinity}) {
+    AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+    limited.lower = -0.4;
+    limited.upper = 0.4;
+    limited.max_force = force;
+    Axis axis(GetParam(), limited);
+    axis.world.set_target_velocity(axis.joint, 1);
+    axis.run(3);
+    EXPECT_NEAR(axis.position(), 0.4, 1e-3) << force;
+    axis.world.set_target_velocity(axis.joint, -0.1);
+    axis.run(1);
+    EXPECT_NEAR(axis.velocity(), -0.1, 1e-3) << "leaves the limit at its own pace, " << force;
+    EXPECT_NEAR(axis.position(), 0.3, 0.01) << force;
+  }
+}
+
+TEST_P(AnyAxis, DampedLinkRestsOnItsLimit) {
+  AxisDescription damped = test::axis(Vector3::UnitZ);
+  damped.lower = -0.4;
+  damped.upper = 0.4;
+  damped.damping = 5;
+  Axis axis(GetParam(), damped);
+  axis.push(4);
+  axis.run(3);
+  EXPECT_NEAR(axis.position(), 0.4, 0.1) << "but for the rebound";
+  EXPECT_NEAR(axis.velocity(), 0, 1e-3);
+}
+
+TEST(Friction, HoldsBelowItsForceAndYieldsAbove) {
+  AxisDescription rough = test::axis(Vector3::UnitZ);
+  rough.friction = 10;
+  Axis holds("prismatic", rough, {0, 0, -9.81});
+  holds.run(1);
+  EXPECT_NEAR(holds.position(), 0, 1e-9);
+  rough.friction = 9;
+  Axis yields("prismatic", rough, {0, 0, -9.81});
+  yields.run(1);
+  EXPECT_NEAR(yields.velocity(), -0.81, 1e-6) << "a = g - F/m";
+}
+
+TEST_P(AnyAxis, FrictionStopsAMovingLinkAfterItsTime) {
+  AxisDescription rough = test::axis(Vector3::UnitZ);
+  rough.friction = 0.5;
+  Axis axis(GetParam(), rough);
+  axis.push(1);
+  axis.run(1);
+  EXPECT_NEAR(axis.velocity(), 0.5, 1e-6);
+  axis.run(1.5);
+  EXPECT_NEAR(axis.velocity(), 0, 1e-9);
+}
+
+TEST_P(AnyAxis, DampingDecaysExponentially) {
+  for (const double damping : {0.2, 1.0, 5.0}) {
+    AxisDescription damped = test::axis(Vector3::UnitZ);
+    damped.damping = damping;
+    Axis axis(GetParam(), damped);
+    axis.push(1);
+    axis.run(0.4);
+    const double exact = std::exp(-damping * 0.4);
+    // The implicit step errs by d h / 2m of the exponent.
+    EXPECT_NEAR(axis.velocity(), exact, exact * damping * 0.4 * damping * kStep);
+  }
+}
+
+TEST_P(AnyAxis, StrongDampingStaysStable) {
+  AxisDescription damped = test::axis(Vector3::UnitZ);
+  damped.damping = 1e6;
+  Axis axis(GetParam(), damped);
+  axis.push(1);
+  axis.run(1);
+  EXPECT_NEAR(axis.velocity(), 0, 1e-6);
+  EXPECT_LT(std::abs(axis.position()), 1e-3);
+}
+
+TEST_P(AnyAxis, FrictionAndDampingAddUp) {
+  AxisDescription both = test::axis(Vector3::UnitZ);
+  both.friction = 0.5;
+  both.damping = 0.4;
+  Axis axis(GetParam(), both);
+  axis.push(2);
+  axis.run(0.5);
+  // m v' = -f - d v
+  const double exact = (2 + 0.5 / 0.4) * std::exp(-0.4 * 0.5) - 0.5 / 0.4;
+  EXPECT_NEAR(axis.velocity(), exact, 0.005);
+  axis.run(5);
+  EXPECT_NEAR(axis.velocity(), 0, 1e-9) << "friction brings it to a stand";
+}
+
+TEST(Pendulum, SwingsWithThePeriodOfTheory) {
+  constexpr double kLength = 0.5;
+  constexpr double kFineStep = 0.001;
+  ModelDescription pendulum = model("Pendulum", link("arm", {kLength, 0, 0}));
+  pendulum.links[0].inertia_diagonal = Vector3(0.01, 0.01, 0.01);
+  pendulum.joints.push_back(joint("revolute", {axis(Vector3::UnitY)}, {}, "world"));
+  SceneDescription described = scene({pendulum}, Vector3(9.81, 0, 0));  // down is where the arm points
+  World world(described, 0);
+  const ObjectId id = world.tree().find("/joint");
+  world.set_velocity(world.tree().find("/arm"), {{0, 0, -0.05 * kLength}, {0, 0.05, 0}});
+  // Upward passages through zero, found between steps by interpolation.
+  std::vector<double> passages;
+  double before = 0;
+  for (int i = 1; passages.size() < 11 && i < 40000; ++i) {
+    world.advance(kFineStep, kFineStep);
+    const double now = world.joint_position(id);
+    if (before < 0 && now >= 0) passages.push_back((i - now / (now - before)) * kFineStep);
+    before = now;
+  }
+  ASSERT_EQ(passages.size(), 11u);
+  const double theory = 2 * M_PI * std::sqrt((0.01 + kLength * kLength) / (9.81 * kLength));
+  EXPECT_NEAR((passages.back() - passages.front()) / 10, theory, theory * 1e-3);
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_joint_motors

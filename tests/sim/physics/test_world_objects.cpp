@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Poses and velocities of objects, and what setters refuse.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_world_objects {
+namespace {
+
+constexpr double kStep = 0.005;
+
+/// A turned robot: `base` with an offset centre of mass and a sensor, `arm` on a hinge; and a static wall.
+SceneDescription robot() {
+  ModelDescription robot = model("Robot", link("base", {0.1, 0.2, 0.3}), Pose(1, 2, 3, 0.1, 0.2, 0.3));
+  robot.links[0].pose.Rot() = turn(0.5, -0.4, 0.2);
+  robot.links[0].centre_of_mass = {0.4, -0.3, 0.2};
+  SensorDescription sonar;
+  sonar.name = "Sonar";
+  sonar.pose = Pose(0.5, 0, 0.1, 0, 0, 0.7);
+  sonar.kind = SonarDescription{0, 2, 0.1};
+  robot.links[0].sensors.push_back(sonar);
+  robot.links.push_back(link("arm", {1, 0, 0}));
+  robot.links[1].centre_of_mass = {0, 0.5, 0};
+  robot.joints.push_back(joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {0.5, 0, 0}));
+  return scene({robot, still(model("Wall", link_with(Box{{1, 1, 1}}), Pose(5, 0, 0, 0, 0, 1)))}, Vector3::Zero);
+}
+
+class RobotWorld : public ::testing::Test {
+ protected:
+  ObjectId find(const std::string& path) const { return world.tree().find(path); }
+  static void expect_same(const Pose& a, const Pose& b, double tolerance = 1e-12) {
+    EXPECT_LT(a.Pos().Distance(b.Pos()), tolerance);
+    EXPECT_LT((a.Rot().Inverse() * b.Rot()).Euler().Length(), 1e-6 + tolerance);
+  }
+
+  SceneDescription described = robot();
+  World world{described, 0};
+};
+
+TEST_F(RobotWorld, PosesAreWhereTheSceneSays) {
+  const ModelDescription& model = described.models[0];
+  expect_same(world.pose(find("/Robot")), model.pose);
+  expect_same(world.pose(find("/base")), model.pose * model.links[0].pose);
+  expect_same(world.pose(find("/arm")), model.pose * model.links[1].pose);
+  expect_same(world.pose(find("/joint")), model.pose * model.joints[0].pose);
+  expect_same(world.joint_moving_pose(find("/joint")), model.pose * model.joints[0].pose);
+  expect_same(world.pose(find("/Sonar")), model.pose * model.links[0].pose * model.links[0].sensors[0].pose);
+  expect_same(world.pose(find("/Wall/link")), described.models[1].pose);
+}
+
+TEST_F(RobotWorld, VelocityOfEachObjectIsThatOfItsOrigin) {
+  const Vector3 linear(0.3, -0.2, 0.1);
+  const Vector3 angular(0.2, 0.5, -0.7);
+  world.set_velocity(find("/Robot"), {linear, angular});
+  const Vector3 centre = world.pose(find("/Robot")).Pos();
+  for (const char* path : {"/Robot", "/base", "/arm", "/joint", "/Sonar"}) {
+    const Twist twist = world.velocity(find(path));
+    EXPECT_LT(twist.angular.Distance(angular), 1e-12) << path;
+    const Vector3 rigid = linear + angular.Cross(world.pose(find(path)).Pos() - centre);
+    EXPECT_LT(twist.linear.Distance(rigid), 1e-12) << path;
+  }
+  EXPECT_EQ(world.velocity(find("/Wall")).linear.Length(), 0);
+}
+
+TEST_F(RobotWorld, StateIsPoseAndVelocityAtOnceOrNone) {
+  world.set_state(find("/Robot"), at(7, 8, 9), {{1, 2, 3}, {}});
+  EXPECT_LT(world.pose(find("/Robot")).Pos().Distance({7, 8, 9}), 1e-12);
+  EXPECT_LT(world.velocity(find("/arm")).linear.Distance({1, 2, 3}), 1e-12);
+  const std::uint64_t before = world.state_hash();
+  EXPECT_THROW(world.set_state(find("/Robot"), at(1, 2, 3), {{kNaN, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.set_state(find("/Robot"), at(1, kNaN, 3), {{1, 0, 0}, {}}), InvalidInput);
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+TEST_F(RobotWorld, VelocityOfALinkIsSetForItAlone) {
+  world.set_velocity(find("/arm"), {{1, 2, 3}, {4, 5, 6}});
+  EXPECT_LT(world.velocity(find("/arm")).linear.Distance({1, 2, 3}), 1e-12);
+  EXPECT_LT(world.velocity(find("/arm")).angular.Distance({4, 5, 6}), 1e-12);
+  EXPECT_EQ(world.velocity(find("/base")).angular.Length(), 0);
+}
+
+TEST_F(RobotWorld, SpinningFreeBodyTurnsAboutItsCentreOfMass) {
+  ModelDescription top = model("Top", link("link"));
+  top.links[0].centre_of_mass = {1, 0, 0};
+  World one(scene({top}, Vector3::Zero), 0);
+  const ObjectId id = one.tree().find("/Top");
+  one.set_velocity(id, {{0, -0.5, 0}, {0, 0, 0.5}});  // so that the centre of mass rests
+  one.advance(2, kStep);
+  const Vector3 centre = one.pose(id).CoordPositionAdd(Vector3(1, 0, 0));
+  EXPECT_LT(centre.Distance({1, 0, 0}), 1e-9);
+  EXPECT_NEAR(one.pose(id).Rot().Yaw(), 1, 1e-4);
+}
+
+TEST_F(RobotWorld, SettingAModelsPoseKeepsItsLinksTogether) {
+  world.set_target_velocity(find("/joint"), 0.5);
+  world.advance(1, kStep);
+  const Pose before = world.pose(find("/Robot"));
+  const double angle = world.joint_position(find("/joint"));
+  const Pose wanted(-3, 4, 0.5, 1, -0.5, 2);
+  std::vector<std::pair<ObjectId, Pose>> relative;
+  for (const char* path : {"/base", "/arm", "/joint", "/Sonar"}) {
+    relative.emplace_back(find(path), before.Inverse() * world.pose(find(path)));
+  }
+  world.set_pose(find("/Robot"), wanted);
+  expect_same(world.pose(find("/Robot")), wanted, 1e-9);
+  for (const auto& [id, pose] : relative) expect_same(wanted.Inverse() * world.pose(id), pose, 1e-9);
+  EXPECT_NEAR(world.joint_position(find("/joint")), angle, 1e-9);
+}
+
+TEST_F(RobotWorld, SettingALinksPoseMovesItAlone) {
+  const Pose base = world.pose(find("/base"));
+  const Pose wanted(7, 8, 9, 0.3, 0.2, 0.1);
+  world.set_pose(find("/arm"), wanted);
+  expect_same(world.pose(find("/arm")), wanted, 1e-9);
+  expect_same(world.pose(find("/base")), base);
+}
+
+TEST_F(RobotWorld, SettingAPoseKeepsVelocities) {
+  world.set_velocity(find("/arm"), {{1, 2, 3}, {}});
+  world.set_pose(find("/arm"), at(9, 9, 9));
+  EXPECT_LT(world.velocity(find("/arm")).linear.Distance({1, 2, 3}), 1e-12);
+}
+
+TEST_F(RobotWorld, ModelFrameIsCarriedByTheCanonicalLink) {
+  SceneDescription other = robot();
+  other.models[0].canonical_link = "arm";
+  World carried(other, 0);
+  const Pose before = carried.pose(carried.tree().find("/Robot"));
+  carried.set_pose(carried.tree().find("/base"), at(50, 0, 0));
+  expect_same(carried.pose(carried.tree().find("/Robot")), before);
+}
+
+TEST_F(RobotWorld, ShapesAreReportedWhereTheyStand) {
+  const std::vector<PlacedShape> shapes = world.shapes();
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_TRUE(shapes[0].is_static);
+  EXPECT_EQ(shapes[0].link, find("/Wall/link"));
+  expect_same(shapes[0].pose, described.models[1].pose);
+}
+
+/// Expects an InvalidInput whose text holds all of `parts`, and a world that did not change.
+void expect_refused(World& world, const std::function<void()>& call, const std::vector<std::string>& parts) {
+  const std::uint64_t before = world.state_hash();
+  try {
+    call();
+    ADD_FAILURE() << "accepted: " << parts.back();
+  } catch (const InvalidInput& error) {
+    for (const std::string& part : parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what() << "\nlacks " << part;
+    }
+  }
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+struct BadNumber {
+  double value;
+  const char* shown;
+};
+const BadNumber kBadNumbers[] = {{kNaN, "nan"}, {kInfinity, "inf"}, {-kInfinity, "-inf"}, {1e300, "1e+300"}};
+
+TEST_F(RobotWorld, BadPositionsAndVelocitiesAreRefusedByName) {
+  for (const auto& [value, shown] : kBadNumbers) {
+    for (int i = 0; i < 3; ++i) {
+      Vector3 bad;
+      bad[i] = value;
+      for (const char* path : {"/Robot", "/Robot/arm"}) {
+        const ObjectId id = find(path);
+        const std::string name = world.tree().short_path(id);
+        expect_refused(world, [&] { world.set_pose(id, Pose(bad, Quaternion::Identity)); }, {name, "position", shown});
+        expect_refused(world, [&] { world.set_velocity(id, {bad, {}}); }, {name, "velocity", shown});
+        expect_refused(world, [&] { world.set_velocity(id, {{}, bad}); }, {name, "velocity", shown});
+      }
+    }
+  }
+}
+
+TEST_F(RobotWorld, OrientationsThatAreNoRotationsAreRefused) {
+  for (const Quaternion& bad : {Quaternion(0, 0, 0, 0), Quaternion(kNaN, 0, 0, 0), Quaternion(1, 0, kInfinity, 0),
+                                Quaternion(1e300, 0, 0, 0), Quaternion(2, 0, 0, 0), Quaternion(0, 0, 0, 0.5)}) {
+    expect_refused(world, [&] { world.set_pose(find("/Robot"), Pose(Vector3::Zero, bad)); },
+                   {"/Robot", "orientation", "length 1"});
+  }
+}
+
+TEST_F(RobotWorld, BadTargetsAreRefusedByName) {
+  const ObjectId id = find("/joint");
+  for (const auto& [value, shown] : kBadNumbers) {
+    const double bad = value;
+    expect_refused(world, [&] { world.set_target_position(id, bad); }, {"/joint", "target position", shown});
+    expect_refused(world, [&] { world.set_target_velocity(id, bad); }, {"/joint", "target velocity", shown});
+  }
+  expect_refused(world, [&] { world.set_max_force(id, kNaN); }, {"/joint", "force limit", "nan"});
+  expect_refused(world, [&] { world.set_max_force(id, -1); }, {"/joint", "force limit", "-1"});
+  world.set_max_force(id, kInfinity);
+  world.set_max_force(id, 1e300);
+  world.set_target_velocity(id, 1);
+  world.advance(0.1, kStep);
+  EXPECT_NEAR(world.joint_velocity(id), 1, 1e-6) << "a force without limit is fine";
+}
+
+TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
+  expect_refused(world, [&] { world.joint_position(find("/base")); }, {"/base", "link", "not a joint"});
+  expect_refused(world, [&] { world.joint_moving_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
+  expect_refused(world, [&] { world.set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
+  expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "moves with its link"});
+  expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "moves with its link"});
+  expect_refused(world, [&] { world.set_pose(find("/Wall"), {}); }, {"/Wall", "static"});
+  expect_refused(world, [&] { world.set_velocity(find("/Wall/link"), {}); }, {"/link", "static"});
+  expect_refused(world, [&] { world.joint_position(find("/joint"), 1); }, {"/joint", "index 1"});
+  expect_refused(world, [&] { world.joint_position(find("/joint"), -1); }, {"/joint", "index -1"});
+}
+
+TEST_F(RobotWorld, HandlesThatNameNothingAreRefused) {
+  for (const ObjectId id : {kNoObject, ObjectId{1000}}) {
+    expect_refused(world, [&] { world.pose(id); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.velocity(id); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.set_pose(id, {}); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.set_velocity(id, {}); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.joint_position(id); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.set_max_force(id, 1); }, {"no object", std::to_string(id)});
+  }
+}
+
+TEST_F(RobotWorld, SetterOnALinkFarFromItsModelStaysFinite) {
+  world.set_pose(find("/Robot"), at(999999, 0, 0));
+  EXPECT_NO_THROW(world.pose(find("/arm")));
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_world_objects

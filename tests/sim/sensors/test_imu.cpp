@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "bubblesim/simulation.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_imu {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// A model with an IMU at `place` on its only link.
+ModelDescription with_imu(LinkDescription link, const Pose& place, const Pose& pose = {},
+                          const ImuDescription& imu = {}) {
+  SensorDescription sensor;
+  sensor.name = "Imu";
+  sensor.pose = place;
+  sensor.kind = imu;
+  link.sensors.push_back(sensor);
+  return model("Robot", std::move(link), pose);
+}
+
+ImuReading measured(Simulation& simulation) {
+  return std::get<ImuReading>(simulation.measure(simulation.world().tree().find("/Imu"))->measurement);
+}
+
+void expect_near(const Vector3& found, const Vector3& wanted, double tolerance) {
+  EXPECT_LT(found.Distance(wanted), tolerance) << found << " instead of " << wanted;
+}
+
+TEST(Imu, AtRestFeelsWhatHoldsItAgainstGravity) {
+  Simulation simulation(scene({floor(), with_imu(link_with(Box{{1, 1, 1}}), {}, at(0, 0, 0.499))}));
+  for (int i = 0; i < 20; ++i) simulation.step();
+  const ImuReading reading = measured(simulation);
+  expect_near(reading.linear_acceleration, {0, 0, kGravity}, 1e-3);
+  expect_near(reading.angular_velocity, {}, 1e-3);
+}
+
+TEST(Imu, MeasuresInItsOwnFrame) {
+  const Pose leaning(0, 0, 0, 0.5, 0, 0);  // about x: its y axis points up by as much
+  Simulation simulation(scene({still(with_imu(link("link"), leaning))}));
+  const ImuReading reading = measured(simulation);
+  expect_near(reading.linear_acceleration, {0, kGravity * std::sin(0.5), kGravity * std::cos(0.5)}, 1e-9);
+  EXPECT_TRUE(reading.orientation.Equal(leaning.Rot(), 1e-9));
+}
+
+TEST(Imu, FallingFeelsNothing) {
+  Simulation simulation(scene({with_imu(link_with(Sphere{0.1}), at(0.3, 0, 0))}));
+  for (int i = 0; i < 5; ++i) simulation.step();
+  expect_near(measured(simulation).linear_acceleration, {}, 1e-6);
+}
+
+TEST(Imu, AwayFromTheAxisFeelsTheTurn) {
+  constexpr double kTurn = 2;     // rad/s
+  constexpr double kLever = 0.5;  // m
+  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero));
+  simulation.world().set_velocity(simulation.world().tree().find("/Robot"), {{}, {0, 0, kTurn}});
+  for (int i = 0; i < 7; ++i) simulation.step();
+  const ImuReading reading = measured(simulation);
+  expect_near(reading.angular_velocity, {0, 0, kTurn}, 1e-6);
+  expect_near(reading.linear_acceleration, {-kTurn * kTurn * kLever, 0, 0}, 1e-6);
+}
+
+TEST(Imu, HasNoiseOnEachAxisForItself) {
+  ImuDescription noisy;
+  noisy.angular_velocity_noise[1].mean = 0.25;
+  noisy.linear_acceleration_noise[0].mean = 0.5;
+  noisy.linear_acceleration_noise[2].stddev = 0.1;
+  Simulation simulation(scene({still(with_imu(link("link"), {}, {}, noisy))}), 5);
+  const ImuReading reading = measured(simulation);
+  expect_near(reading.angular_velocity, {0, 0.25, 0}, 1e-12);
+  EXPECT_NEAR(reading.linear_acceleration.X(), 0.5, 1e-12);
+  EXPECT_EQ(reading.linear_acceleration.Y(), 0);
+  EXPECT_NE(reading.linear_acceleration.Z(), kGravity);
+  EXPECT_NEAR(reading.linear_acceleration.Z(), kGravity, 0.5) << "five standard deviations";
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_imu

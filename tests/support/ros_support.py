@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Real ROS processes for tests: a master on a port of its own, and the places of what was built.
+
+Use as a pytest fixture: ``from ros_support import roscore`` in a conftest.py or test module.
+"""
+
+import itertools
+import os
+import signal
+import socket
+import subprocess
+import time
+import xmlrpc.client
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import pytest
+
+SUPPORT = Path(__file__).resolve().parent
+REPOSITORY = SUPPORT.parents[1]
+DEADLINE = 20.0
+"""Seconds after which something that should happen counts as missing; long, because machines may be busy."""
+
+
+def built(name: str) -> Path:
+    """Path of the built program or library `name`: in BUBBLESIM_BUILD_DIR (searched in depth), else in the workspace
+    that scripts/setup makes."""
+    directory = os.environ.get("BUBBLESIM_BUILD_DIR")
+    if directory:
+        found = [path for path in sorted(Path(directory).rglob(name)) if path.is_file()]
+    else:
+        devel = REPOSITORY / ".ws" / "devel"
+        places = [devel / "lib" / "bubblesim" / name, devel / "lib" / name]
+        found = [path for path in places if path.is_file()]
+    if not found:
+        pytest.fail(f"{name} is not built: build with BUBBLESIM_BUILD_TESTS=ON, or point BUBBLESIM_BUILD_DIR to it")
+    return found[0]
+
+
+def _worker_ports() -> Iterator[int]:
+    """Ports for the tests of this process: below those that the kernel gives to others, and apart from those of the
+    other processes that run tests (the workers of pytest-xdist)."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    first = 10000 + 2000 * (worker % 10)
+    return itertools.cycle(range(first + os.getpid() % 1000, first + 2000))
+
+
+_PORTS = _worker_ports()
+
+
+def free_port() -> int:
+    """A port of 127.0.0.1 on which nobody listens, and which no other test is given."""
+    return next(port for port in _PORTS if _is_free(port))
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
+
+
+def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:
+    """Returns as soon as `condition` holds; fails the test, naming `what`, when it does not in time."""
+    end = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > end:
+            pytest.fail(f"waited {timeout:g} s in vain for {what}")
+        time.sleep(0.02)
+
+
+def ros_environment(port: int, log_directory: Path) -> dict[str, str]:
+    """What a process needs to talk to the master on `port` of this machine."""
+    return {
+        **os.environ,
+        "PATH": "/usr/bin:" + os.environ.get("PATH", ""),  # Debian's python3 first: ROS is built for it
+        "ROS_MASTER_URI": f"http://localhost:{port}",
+        "ROS_HOSTNAME": "localhost",
+        "ROS_LOG_DIR": str(log_directory),
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+def start(command: list[str], env: dict[str, str], **options: object) -> "subprocess.Popen[str]":
+    """A process in a group of its own, with signals as a shell in the foreground would give it."""
+    return subprocess.Popen(  # type: ignore[call-overload, no-any-return]
+        command, env=env, text=True, start_new_session=True, restore_signals=True, **options
+    )
+
+
+def stop(process: "subprocess.Popen[str]") -> None:
+    """Ends the process and everything that it started."""
+    for number in (signal.SIGINT, signal.SIGKILL):
+        try:
+            os.killpg(process.pid, number)
+            process.wait(timeout=10)
+        except (ProcessLookupError, subprocess.TimeoutExpired):
+            continue
+
+
+class RosCore:
+    """A running roscore. `env` is the environment of its clients; as a context manager it ends with the block."""
+
+    def __init__(self, directory: Path, port: int | None = None) -> None:
+        self.port = port or free_port()
+        self.env = ros_environment(self.port, directory)
+        self.process = start(
+            ["roscore", "-p", str(self.port)], self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        wait_until(lambda: "/rosout" in self.nodes(), "roscore to start")
+        self._master_pid = int(self._ask_master("getPid", "/test"))
+
+    def __enter__(self) -> "RosCore":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.resume()
+        stop(self.process)
+
+    def state(self) -> dict[str, dict[str, list[str]]]:
+        """The master's books: {"publishers": {topic: [node, ...]}, "subscribers": ..., "services": ...}; empty while
+        it does not answer."""
+        kinds = ("publishers", "subscribers", "services")
+        try:
+            books = self._ask_master("getSystemState", "/test")
+        except (OSError, xmlrpc.client.Error):
+            return {kind: {} for kind in kinds}
+        return {kind: dict(book) for kind, book in zip(kinds, books, strict=True)}
+
+    def _ask_master(self, method: str, *arguments: Any) -> Any:
+        master: Any = xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
+        code, message, value = getattr(master, method)(*arguments)
+        assert code == 1, message
+        return value
+
+    def nodes(self) -> set[str]:
+        return {node for book in self.state().values() for nodes in book.values() for node in nodes}
+
+    def set_param(self, name: str, value: object) -> None:
+        self._ask_master("setParam", "/test", name, value)
+
+    def run(self, *command: str) -> str:
+        """Output of a ROS tool that ends by itself, such as `rosnode list`."""
+        return subprocess.run(
+            command, env=self.env, text=True, stdout=subprocess.PIPE, timeout=2 * DEADLINE, check=True
+        ).stdout
+
+    def pause(self) -> None:
+        """Makes the master hang, as an overloaded machine does: connections open, answers never come."""
+        os.kill(self._master_pid, signal.SIGSTOP)
+
+    def resume(self) -> None:
+        os.kill(self._master_pid, signal.SIGCONT)
+
+    def kill(self) -> None:
+        """Ends the master without notice."""
+        os.kill(self._master_pid, signal.SIGKILL)
+        stop(self.process)
+
+
+class RestartableCore:
+    """A roscore that can be killed without notice and started again on its port."""
+
+    def __init__(self, directory: Path) -> None:
+        self._directory = directory
+        self.core = RosCore(directory, free_port())
+
+    def kill(self) -> None:
+        self.core.kill()
+
+    def start(self) -> None:
+        self.core = RosCore(self._directory, self.core.port)
+
+
+@pytest.fixture
+def roscore(tmp_path: Path) -> Iterator[RosCore]:
+    with RosCore(tmp_path / "roslog") as core:
+        yield core
