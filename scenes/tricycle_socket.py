@@ -88,7 +88,7 @@ class Client:
         connection.setblocking(False)
         self.connection = connection
         self.connected = True
-        self.answers = []  # to the lines of this pass: an error each, or None for what was measured
+        self.answers = []  # to the lines of this step: an error each, or None for what was measured
         self.rest = b''  # of a line that has not ended yet
         self.ends_lines = False  # has sent the end of a line
 
@@ -96,7 +96,7 @@ class Client:
         """What has arrived, line by line.
 
         Many clients send no end of line, but wait for an answer. Of one that never sent any, what lay here alone for
-        a whole pass is a line, too.
+        a whole step is a line, too.
         """
         try:
             arrived = self.connection.recv(MOST_IN_A_PASS)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures what trouble in the network costs the passes of a simulation.
+"""Measures what trouble in the network costs the steps of a simulation.
 
     PYTHONPATH=tests python benchmarks/disturbance/disturbance.py BUILD/devel/lib/bubblesim [--rounds N]
 
 With the workspace sourced; it starts masters of its own. Both kinds of a round load the machine alike and take turns:
 
-- master: the 99th percentile of the passes' times (one each 2 ms) while the node's own master is killed and started
+- master: the 99th percentile of the steps' times (one each 2 ms) while the node's own master is killed and started
   again, beside that while another master is
-- stopped subscriber: the median at 50 passes a second that send a megabyte each, with one subscriber that listens and
+- stopped subscriber: the median at 50 steps a second that send a megabyte each, with one subscriber that listens and
   one that is stopped, beside that with the former alone
 
 Printed are medians over the rounds, and of the ratios in each round.
@@ -27,13 +27,13 @@ from ros_support import RestartableCore, RosCore, start, stop
 
 HERE = Path(__file__).parent
 SETTLED = 2.0  # s after which a new master has all registrations, and a new subscriber its connection
-FAST = 2  # ms a pass
+FAST = 2  # ms a step
 AT_50_HZ = 20
 LOADED = 8.0  # s of sending
 
 
 class Simulator:
-    """A simulation whose passes are timed."""
+    """A simulation whose steps are timed."""
 
     def __init__(self, built: Path, core: RosCore, period: int) -> None:
         """Start it; ``period`` is in milliseconds."""
@@ -41,7 +41,7 @@ class Simulator:
         self._process = start(command, core.env, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def times(self) -> tuple[float, float]:
-        """Median and 99th percentile in microseconds of the passes since the last call."""
+        """Median and 99th percentile in microseconds of the steps since the last call."""
         assert self._process.stdin
         assert self._process.stdout
         print(file=self._process.stdin, flush=True)

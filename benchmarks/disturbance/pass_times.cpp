@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the scene `tricycle` with a script as the node does, one pass a period, for disturbance.py:
+// Runs the scene `tricycle` with a script as the node does, one step a period, for disturbance.py:
 //   pass_times SCRIPT PERIOD_IN_MS
-// To each line on standard input it answers with the median and the 99th percentile of the passes' times since the
+// To each line on standard input it answers with the median and the 99th percentile of the steps' times since the
 // last, in microseconds.
 #include <poll.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/ros_bridge.hpp"
-#include "bubblesim/ros_participant.hpp"
+#include "bubblesim/ros_system.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::chrono::milliseconds period(std::atoi(argv[2]));
   Simulation simulation(load_scene("tricycle"));
-  RosParticipant ros(bridge, simulation);
+  RosSystem ros(bridge, simulation);
   simulation.add(ros);
   ScriptOptions script;
   script.replacements = {{"/Tricycle", argv[1]}};

@@ -22,7 +22,7 @@ from bubblesim.testing.simulator import Simulator
 
 CONTROLLER = ["rosrun", "bubblesim", "tricycle_avoid.py"]
 TOPICS = ["/speed", "/steering"]
-FIRST = 0.15  # s of simulation: three passes, of which the last has waited for the controller
+FIRST = 0.15  # s of simulation: three steps, of which the last has waited for the controller
 
 
 def measure(seconds: float) -> tuple[float, float]:

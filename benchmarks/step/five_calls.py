@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# A controller of ordinary size: five calls into the simulator in every pass.
+# A controller of ordinary size: five calls into the simulator in every step.
 
 
 def sysCall_init():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures physics steps of a tricycle, alone and among 200 boxes, beside MuJoCo's and PyBullet's; and of many of them.
+"""Measures physics substeps of tricycles, one alone, one among 200 boxes and many, beside MuJoCo and PyBullet.
 
     python benchmarks/step/peers.py [--rounds N]
 
@@ -26,7 +26,7 @@ import pybullet
 import bubblesim
 
 STEP = 0.005  # s, of all
-PASS = 10  # physics steps in a pass of bubblesim
+PASS = 10  # physics substeps in a step of bubblesim
 STEPS = 400  # of a candidate in a round
 STEERING, SPEED = 0.6, 1.0  # rad, rad/s
 GROUND, OBSTACLE = 1, 2  # bits of what collides with what

@@ -10,7 +10,7 @@ class RawTricycle {
  public:
   RawTricycle();
   ~RawTricycle();
-  /// One pass of 10 substeps of 5 ms.
+  /// One step of 10 substeps of 5 ms.
   void step();
   void drive(double steering, double speed);
   double x() const;

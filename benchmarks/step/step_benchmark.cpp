@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of ODE's own speed is left: a pass of the tricycle in the simulator, alone and with a Python script of five
+// How much of ODE's own speed is left: a step of the tricycle in the simulator, alone and with a Python script of five
 // calls, beside the same scene written by hand on ODE. The candidates take turns, so that a busy machine slows them
 // alike.
 #include <algorithm>
@@ -32,7 +32,7 @@ double median(std::vector<double> values) {
 struct Candidate {
   const char* name;
   std::function<void()> pass;
-  std::vector<double> rounds;  // us a pass
+  std::vector<double> rounds;  // us a step
 
   void run() {
     const auto start = std::chrono::steady_clock::now();
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     for (Candidate& candidate : candidates) candidate.run();
   }
   const double limit = median(candidates.front().rounds);
-  std::printf("%-28s %12s %24s\n", "median of rounds", "us a pass", "speed relative to ODE");
+  std::printf("%-28s %12s %24s\n", "median of rounds", "us a step", "speed relative to ODE");
   for (const Candidate& candidate : candidates) {
     const double time = median(candidate.rounds);
     std::printf("%-28s %12.1f %24.3f\n", candidate.name, time, limit / time);

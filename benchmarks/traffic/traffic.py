@@ -6,9 +6,9 @@
 With the workspace sourced and a roscore running. In each round one node of roscpp sends to all of them in turn, and
 the nodes whose turn it is not are stopped. Printed are medians over the rounds, and of the ratios in each round:
 
-- CPU time of a whole receiving process per message; the simulator runs in real time, with 20 passes a second
+- CPU time of a whole receiving process per message; the simulator runs in real time, with 20 steps a second
 - the round trip of a Twist to the node and back, with a simulator that runs as fast as it can: it delivers messages
-  once a pass, so in real time a message waits for the next pass
+  once a step, so in real time a message waits for the next step
 - one call of a publisher to which nobody listens
 """
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child scripts in an embedded Python, which runs those in Lua too, as participants of a simulation.
+// Child scripts in an embedded Python, which runs those in Lua too, as systems of a simulation.
 #pragma once
 
 #include <atomic>
@@ -29,20 +29,20 @@ struct ScriptOptions {
   bool watch = false;
   /// A bag for the messages that scripts publish and hear; empty: none.
   std::filesystem::path record;
-  /// Topics on which each pass waits for messages that answer the last one.
+  /// Topics on which each step waits for messages that answer the last one.
   std::vector<std::string> lockstep;
 };
 
 /// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and
 /// object path, and does not run again; the others go on.
-class ChildScripts : public Participant {
+class ChildScripts : public System {
  public:
   /// Starts the interpreter, of which there can be one in a process, and loads the scripts; `bridge` may be null,
   /// then simROS is false in scripts. Throws InvalidInput for files and objects that do not exist.
   ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
   ~ChildScripts() override;
 
-  void drain() override;
+  void process_input() override;
   void actuate(World& world, double time) override;
   void sense(const World& world, double time) override;
   void publish(const World& world, double time) override;
@@ -65,7 +65,7 @@ class ChildScripts : public Participant {
   bool output_lost() const { return output_lost_; }
 
  private:
-  friend class Devices;  // which use the same interpreter and bridge
+  friend class GazeboPlugins;  // which use the same interpreter and bridge
   struct Python;
 
   template <class Action>

@@ -14,8 +14,8 @@ namespace bubblesim {
 struct RosBridgeOptions {
   /// Name of the node unless the command line says `__name:=other`.
   std::string node_name = "sim_ros_interface";
-  /// Called from drain() with true when the service ~pause is called, with false for ~unpause (both std_srvs/Empty).
-  /// Without it the services are not offered.
+  /// Called from process_input() with true when the service ~pause is called, with false for ~unpause (both
+  /// std_srvs/Empty). Without it the services are not offered.
   std::function<void(bool paused)> on_pause;
   /// Takes the name from a node that has it on the master, which ends that node; otherwise such a name is refused.
   bool replace = false;
@@ -56,9 +56,9 @@ class RosBridge final : public messages::Bridge {
                                  bool latch) override;
   messages::EndpointId subscribe(const std::string& topic, const messages::MessageType& type, std::uint32_t queue_size,
                                  messages::MessageCallback callback, bool tcp_no_delay) override;
-  void make_urgent(messages::EndpointId subscriber_or_server) override;
+  void set_priority(messages::EndpointId subscriber_or_server) override;
   bool urgent_waits() const override;
-  void give_way(messages::EndpointId endpoint) override;
+  void yield_topic(messages::EndpointId endpoint) override;
   bool wants_messages(messages::EndpointId publisher) const override;
   bool has_publisher(messages::EndpointId subscriber) const override;
   const messages::MessageType& message_type(messages::EndpointId endpoint) const override;
@@ -77,14 +77,14 @@ class RosBridge final : public messages::Bridge {
   void set_parameter(const std::string& name, const messages::ParameterValue& value) override;
   void delete_parameter(const std::string& name) override;
   std::optional<std::string> search_parameter(const std::string& name) override;
-  void drain() override;
+  void process_input() override;
   messages::BridgeTime now() const override;
   bool clock_reaches_others() const override;
 
-  /// Sleeps until something has come that drain() would deliver, or for `timeout` seconds.
+  /// Sleeps until something has come that process_input() would deliver, or for `timeout` seconds.
   void wait_for_arrival(double timeout);
 
-  /// To be called once a pass: publishes the simulation time [s] on /clock and makes it what now() returns under
+  /// To be called once a step: publishes the simulation time [s] on /clock and makes it what now() returns under
   /// /use_sim_time. While a script advertises /clock itself, only the latter.
   void publish_clock(double sim_time);
 

@@ -281,7 +281,7 @@ struct SensorDescription {
   std::string name;
   std::string type;        ///< SDFormat's name, such as gpu_lidar
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
-  double update_rate = 0;  ///< Hz; 0 means every pass
+  double update_rate = 0;  ///< Hz; 0 means every step
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
                AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>
       kind;
@@ -294,7 +294,7 @@ struct SensorDescription {
 
 struct LinkDescription {
   std::string name;
-  bool has_weight = true;       ///< gravity pulls it
+  bool gravity_enabled = true;  ///< gravity pulls it
   Pose pose;                    ///< in the model's frame
   std::optional<Pose> start{};  ///< the same when the simulation begins, where joints are not at their zero then
   double mass = 1;
@@ -388,8 +388,8 @@ struct SceneDescription {
   std::string world_name;  ///< of the <world>; that of the scene when the file has none
   std::filesystem::path file;
   Vector3 gravity{0, 0, -9.81};  ///< m/s^2
-  double time_step = 0.05;       ///< s, of one simulation pass
-  double physics_step = 0.005;   ///< s, of one physics substep; divides time_step
+  double time_step = 0.05;       ///< s, of one simulation step
+  double substep = 0.005;        ///< s, of one physics substep; divides time_step
   OnDivergence on_divergence = OnDivergence::kPause;
   Environment environment;
   std::vector<ModelDescription> models;

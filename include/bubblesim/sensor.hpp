@@ -43,7 +43,7 @@ struct LidarScan {
 using Point = std::array<float, 3>;
 
 /// Where a lidar's rays met something, ring by ring; rays that met nothing are left out.
-std::vector<Point> points_of(const LidarScan& scan);
+std::vector<Point> to_point_cloud(const LidarScan& scan);
 
 /// What a camera saw, row by row, the uppermost first, each from left to right.
 struct CameraImage {
@@ -61,7 +61,7 @@ struct CameraImage {
 struct ImuReading {
   Quaternion orientation;       ///< of the sensor in the world, exact
   Vector3 angular_velocity;     ///< rad/s
-  Vector3 linear_acceleration;  ///< m/s^2, the mean over the last pass, with what holds it against gravity: g at rest
+  Vector3 linear_acceleration;  ///< m/s^2, the mean over the last step, with what holds it against gravity: g at rest
 };
 
 /// Where a receiver of satellite navigation is and how it moves.
@@ -90,8 +90,8 @@ struct ContactReading {
 
 /// What a joint transmits, in the axes and with the sign that the description says; torque about the sensor's origin.
 struct ForceTorqueReading {
-  Vector3 force;   ///< N, the mean over the last pass
-  Vector3 torque;  ///< N m, the mean over the last pass
+  Vector3 force;   ///< N, the mean over the last step
+  Vector3 torque;  ///< N m, the mean over the last step
 };
 
 using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, AltimeterReading,
@@ -107,7 +107,7 @@ struct Reading {
 };
 
 /// What a sensor measures from.
-struct Moment {
+struct MeasurementContext {
   const World& world;
   RayScene& rays;
   double time = 0;         ///< s
@@ -118,7 +118,7 @@ class Sensor {
  public:
   virtual ~Sensor() = default;
 
-  void update(const Moment& moment);
+  void update(const MeasurementContext& moment);
   /// Takes what somebody gives it for what it has measured.
   void replace(double time, Measurement measurement);
   /// The last measurement. It stays as it is: the next one is written elsewhere as long as anybody holds it.
@@ -130,7 +130,7 @@ class Sensor {
 
  private:
   /// Writes into `measurement`, which holds an earlier one of the same kind.
-  virtual void measure(const Moment& moment, Measurement& measurement) = 0;
+  virtual void measure(const MeasurementContext& moment, Measurement& measurement) = 0;
 
   Measurement empty_;
   std::shared_ptr<Reading> reading_;

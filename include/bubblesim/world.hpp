@@ -37,16 +37,16 @@ struct ContactPoint {
   Vector3 position;  ///< m
   Vector3 normal;    ///< in which the other shape pushes
   double depth = 0;  ///< m
-  Vector3 force;     ///< N, in the physics step in which they last touched
+  Vector3 force;     ///< N, in the physics substep in which they last touched
 };
 
-/// A shape of a link that touched another one while the last pass went by.
+/// A shape of a link that touched another one while the last step went by.
 struct Contact {
   std::string collision;
   ObjectId other_link = kNoObject;
   std::string other_collision;
-  Vector3 force;                     ///< N on the link, the mean over the pass
-  std::vector<ContactPoint> points;  ///< of the physics step in which they last touched
+  Vector3 force;                     ///< N on the link, the mean over the step
+  std::vector<ContactPoint> points;  ///< of the physics substep in which they last touched
 };
 
 /// What one body does to another through a joint, world axes.
@@ -102,9 +102,9 @@ class World {
   void write_last_states(std::ostream& out) const;
 
   /// Pose in the world. A model's is the one of its frame, carried by its canonical link; a joint's is attached to the
-  /// joint's parent, `joint_moving_pose` to its child.
+  /// joint's parent, `joint_child_pose` to its child.
   Pose pose(ObjectId object) const;
-  Pose joint_moving_pose(ObjectId joint) const;
+  Pose joint_child_pose(ObjectId joint) const;
   /// Velocity of the object's origin.
   Twist velocity(ObjectId object) const;
   /// Acceleration of the object's origin, world axes: the mean over the last advance(), which may have changed its
@@ -117,7 +117,7 @@ class World {
   void set_velocity(ObjectId object, const Twist& velocity);
   /// Has a model move in the plane as a whole, m/s along the world's x and y and rad/s about its z, pushed by as much
   /// as twenty times its mass, until the world is reset. It may still fall, tilt and be stopped.
-  void drive_in_plane(ObjectId model, double x, double y, double turning);
+  void set_planar_velocity(ObjectId model, double x, double y, double turning);
   /// Both at once, or none.
   void set_state(ObjectId object, const Pose& pose, const Twist& velocity);
 
@@ -127,7 +127,7 @@ class World {
   double joint_velocity(ObjectId joint, int axis = 0) const;
   /// What the motor of an axis did to the child, N along the axis or N m about it, as the mean over the last advance().
   /// It is measured from the first call on, which returns 0; so do those for an axis without a motor.
-  double motor_force(ObjectId joint, int axis = 0);
+  double motor_effort(ObjectId joint, int axis = 0);
   /// The links that a joint connects, the parent first; kNoObject is the world.
   std::pair<ObjectId, ObjectId> joint_links(ObjectId joint) const;
   /// How many there are; none of a fixed or ball joint, nor of one that belongs to a static model.
@@ -159,7 +159,7 @@ class World {
                                  ObjectId ignored_model = kNoObject) const;
   std::vector<PlacedShape> shapes() const;
   /// The lights of links, where they are now.
-  std::vector<Light> carried_lights() const;
+  std::vector<Light> link_lights() const;
 
   /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the seed: equal for equal
   /// histories.

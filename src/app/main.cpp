@@ -14,10 +14,10 @@
 #include <thread>
 
 #include "bubblesim/child_scripts.hpp"
-#include "bubblesim/devices.hpp"
 #include "bubblesim/error.hpp"
+#include "bubblesim/gazebo_plugins.hpp"
 #include "bubblesim/ros_bridge.hpp"
-#include "bubblesim/ros_participant.hpp"
+#include "bubblesim/ros_system.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "options.hpp"
@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kIdlePeriod = 0.02;  // s, after which the loop looks around when nothing comes
 
-/// Images and point clouds come and go in every pass: their memory stays with the process, for getting it from the
+/// Images and point clouds come and go in every step: their memory stays with the process, for getting it from the
 /// kernel page by page costs more than copying the message.
 void keep_freed_memory() {
   constexpr int kMegabyte = 1 << 20;
@@ -40,7 +40,7 @@ void keep_freed_memory() {
 }
 
 bool time_is_up(const Options& options, const Simulation& simulation) {
-  // With a little tolerance, so that rounding does not add a pass.
+  // With a little tolerance, so that rounding does not add a step.
   return options.until && simulation.time() > *options.until - 1e-6 * simulation.time_step();
 }
 
@@ -62,19 +62,19 @@ void run(const Options& options, Simulation& simulation, RosBridge* bridge, cons
     meter.note(simulation, scripts);
     if (simulation.ending()) break;
     if (simulation.state() != RunState::kRunning) pacer.restart();
-    if (!simulation.pass_is_due()) {
-      simulation.drain();
-      if (!simulation.pass_is_due() && !simulation.has_requests()) wait(bridge);
+    if (!simulation.step_is_due()) {
+      simulation.process_input();
+      if (!simulation.step_is_due() && !simulation.has_requests()) wait(bridge);
     } else if (pacer.wait_for(simulation.time())) {
       try {
-        meter.run_pass(simulation);
+        meter.run_step(simulation);
       } catch (const Diverged& error) {
         if (simulation.ends_at_a_stop()) throw;  // there is nobody to reset it
         std::fprintf(stderr, "error: %s; paused until it is reset or stopped\n", error.what());
         meter.fail(error.what());
       }
     } else {
-      simulation.drain();  // a slow simulation hears what it is asked
+      simulation.process_input();  // a slow simulation hears what it is asked
     }
     if (options.strict && scripts.failures() > 0) return;
   }
@@ -98,7 +98,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
 
   const auto meter = std::make_shared<RunMeter>(simulation, options.speed);
   std::unique_ptr<RosBridge> bridge;
-  std::unique_ptr<RosParticipant> ros;
+  std::unique_ptr<RosSystem> ros;
   if (options.ros) {
     RosBridgeOptions ros_options;
     ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.start(); };
@@ -110,7 +110,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
     };
     ros_options.take_report = [meter] { return meter->take(); };
     bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
-    ros = std::make_unique<RosParticipant>(*bridge, simulation);
+    ros = std::make_unique<RosSystem>(*bridge, simulation);
     simulation.add(*ros);
   }
   if (stop_requested()) return kFine;
@@ -120,9 +120,9 @@ int run_scene(const Options& options, int& argc, char** argv) {
   ChildScripts scripts(simulation, bridge.get(),
                        {options.child_scripts, options.script_paths, options.lua_unsafe, options.allowed_programs,
                         options.gazebo_compat, options.watch, options.record, options.lockstep});
-  std::unique_ptr<Devices> devices;
+  std::unique_ptr<GazeboPlugins> devices;
   if (bridge || has_plugins(simulation.scene())) {  // without ROS, those that are left out are reported
-    devices = std::make_unique<Devices>(simulation, scripts);
+    devices = std::make_unique<GazeboPlugins>(simulation, scripts);
     simulation.add(*devices);
   }
   simulation.add(scripts);

@@ -130,7 +130,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_flag("--watch", options.watch, "load a script again as soon as its file changes");
   app.add_option("--record", options.record, "FILE: write what scripts publish and hear into a bag");
   app.add_option("--lockstep", options.lockstep,
-                 "TOPIC: let each pass wait for a message on it that answers the last one (repeatable)")
+                 "TOPIC: let each step wait for a message on it that answers the last one (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--replace", options.replace, "end the node of the same name that is on the ROS master");
   app.add_flag("--strict", options.strict, "end as soon as a script has failed, with exit code 3");

@@ -32,12 +32,12 @@ RunMeter::RunMeter(const Simulation& simulation, double wanted_speed) {
   report_.state = name(simulation.state());
 }
 
-void RunMeter::run_pass(Simulation& simulation) {
+void RunMeter::run_step(Simulation& simulation) {
   const Clock::time_point begin = Clock::now();
-  simulation.run_pass();
+  simulation.run_step();
   const Clock::time_point end = Clock::now();
   const std::lock_guard lock(mutex_);
-  ++report_.passes;
+  ++report_.steps;
   report_.simulated_time += simulation.time_step();
   report_.wall_time += seconds(end - last_end_.value_or(begin));
   report_.step_time += seconds(end - begin);
@@ -51,7 +51,7 @@ void RunMeter::run_pass(Simulation& simulation) {
 void RunMeter::note(const Simulation& simulation, const ChildScripts& scripts) {
   const std::lock_guard lock(mutex_);
   report_.state = name(simulation.state());
-  report_.running = simulation.state() == RunState::kRunning && simulation.pass_is_due();
+  report_.running = simulation.state() == RunState::kRunning && simulation.step_is_due();
   report_.simulation_time = simulation.time();
   report_.disabled_scripts = scripts.disabled();
   report_.script_errors = scripts.failures();
@@ -76,8 +76,8 @@ void RunMeter::fail(const std::string& why) {
 RunReport RunMeter::take() {
   const std::lock_guard lock(mutex_);
   RunReport report = report_;
-  report.since_last_pass = report_.running && last_end_ ? seconds(Clock::now() - *last_end_) : 0;
-  report_.passes = 0;
+  report.since_last_step = report_.running && last_end_ ? seconds(Clock::now() - *last_end_) : 0;
+  report_.steps = 0;
   report_.simulated_time = report_.wall_time = report_.step_time = report_.longest_step = 0;
   return report;
 }

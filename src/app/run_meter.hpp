@@ -13,14 +13,14 @@
 
 namespace bubblesim::app {
 
-/// Measures how the passes of a simulation go; another thread may take the reports.
+/// Measures how the steps of a simulation go; another thread may take the reports.
 class RunMeter {
  public:
   RunMeter(const Simulation& simulation, double wanted_speed);
 
-  /// One pass.
-  void run_pass(Simulation& simulation);
-  /// To be called in each round of the loop that runs the passes, whether it runs one or not.
+  /// One step.
+  void run_step(Simulation& simulation);
+  /// To be called in each round of the loop that runs the steps, whether it runs one or not.
   void note(const Simulation& simulation, const ChildScripts& scripts);
   /// The simulation has ended for good.
   void fail(const std::string& why);
@@ -38,7 +38,7 @@ class RunMeter {
   double simulated_time_ = 0;  // s, of all steps
   double wall_time_ = 0;       // s, that they took
   std::uint64_t steps_ = 0;
-  std::optional<Clock::time_point> last_end_;  // of a pass; none: the time until the next one does not count
+  std::optional<Clock::time_point> last_end_;  // of a step; none: the time until the next one does not count
 };
 
 }  // namespace bubblesim::app

@@ -157,9 +157,9 @@ void bind_bridge(py::module_& core) {
            "Converts a dict without sending it; returns what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
            "Whether publish() would send anything: somebody listens, or the topic is latched.")
-      .def("give_way", &Bridge::give_way, py::arg("endpoint"), without_gil,
+      .def("yield_topic", &Bridge::yield_topic, py::arg("endpoint"), without_gil,
            "Leaves the topic of a publisher or subscriber to others of this bridge, while there are any.")
-      .def("make_urgent", &Bridge::make_urgent, py::arg("endpoint"),
+      .def("set_priority", &Bridge::set_priority, py::arg("endpoint"),
            "Has urgent_waits() look at a subscriber or service.")
       .def("urgent_waits", &Bridge::urgent_waits,
            "Whether something has come to an urgent endpoint and not been delivered yet. From any thread.")
@@ -170,7 +170,8 @@ void bind_bridge(py::module_& core) {
       .def("advertise_service", &advertise_service, py::arg("name"), py::arg("service_type"), py::arg("callback"),
            py::arg("time"),
            "`callback` gets each request as a dict and returns the response as one; None stands for a response of "
-           "defaults. When it raises, the caller gets the text, and drain() the exception unless it is a ServiceError.")
+           "defaults. When it raises, the caller gets the text, and process_input() the exception unless it is a "
+           "ServiceError.")
       .def("service_client", &service_client, py::arg("name"), py::arg("service_type"))
       .def("call", &call, py::arg("client"), py::arg("request"), py::arg("timeout"), py::arg("time"),
            "The response to a dict as a dict, within `timeout` seconds; meanwhile services offered here are answered. "
@@ -185,7 +186,8 @@ void bind_bridge(py::module_& core) {
       .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)
       .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,
            "The parameter's full name in the nearest namespace that has it, or None.")
-      .def("drain", &Bridge::drain, without_gil, "Delivers what has arrived; from within a service's callback only.")
+      .def("process_input", &Bridge::process_input, without_gil,
+           "Delivers what has arrived; from within a service's callback only.")
       .def("clock_reaches_others", &Bridge::clock_reaches_others,
            "Whether another node is connected to /clock; true when nodes take the wall clock's time.")
       .def(

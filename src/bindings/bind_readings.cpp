@@ -66,7 +66,7 @@ void bind_scan(py::module_& module) {
       .def_property_readonly(
           "points",
           [](const HeldScan& s) {
-            const std::vector<Point> points = points_of(*s);
+            const std::vector<Point> points = to_point_cloud(*s);
             py::array_t<float> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
             std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
             return array;
@@ -131,7 +131,7 @@ void bind_imu(py::module_& module) {
           "angular_velocity", [](const HeldImu& i) { return to_numpy(i->angular_velocity); }, "rad/s.")
       .def_property_readonly(
           "linear_acceleration", [](const HeldImu& i) { return to_numpy(i->linear_acceleration); },
-          "m/s^2, the mean over the last pass; at rest what holds it against gravity, upwards.");
+          "m/s^2, the mean over the last step; at rest what holds it against gravity, upwards.");
 }
 
 void bind_navsat(py::module_& module) {
@@ -176,17 +176,17 @@ void bind_contacts(py::module_& module) {
           "normal", [](const ContactPoint& p) { return to_numpy(p.normal); }, "In which the other shape pushes.")
       .def_property_readonly(
           "force", [](const ContactPoint& p) { return to_numpy(p.force); },
-          "N, in the physics step in which they last touched.")
+          "N, in the physics substep in which they last touched.")
       .def_readonly("depth", &ContactPoint::depth, "Metres.");
   py::class_<Contact>(module, "Contact",
-                      "A shape of the sensor's link that touched another one while the last pass went by.")
+                      "A shape of the sensor's link that touched another one while the last step went by.")
       .def_readonly("collision", &Contact::collision, "Name of the link's shape.")
       .def_readonly("other", &Contact::other_link, "Handle of the link that was touched.")
       .def_readonly("other_collision", &Contact::other_collision, "Name of that link's shape.")
       .def_property_readonly(
           "force", [](const Contact& c) { return to_numpy(c.force); },
-          "N on the sensor's link in world axes, the mean over the pass.")
-      .def_readonly("points", &Contact::points, "Of the physics step in which they last touched.");
+          "N on the sensor's link in world axes, the mean over the step.")
+      .def_readonly("points", &Contact::points, "Of the physics substep in which they last touched.");
   py::class_<HeldContacts>(module, "ContactReading", "What a link touched.")
       .def_property_readonly(
           "time", [](const HeldContacts& c) { return c.reading->time; }, "Simulated seconds.")
@@ -194,7 +194,7 @@ void bind_contacts(py::module_& module) {
 }
 
 void bind_force_torque(py::module_& module) {
-  py::class_<HeldForceTorque>(module, "ForceTorqueReading", "What a joint transmits, the mean over the last pass.")
+  py::class_<HeldForceTorque>(module, "ForceTorqueReading", "What a joint transmits, the mean over the last step.")
       .def_property_readonly(
           "time", [](const HeldForceTorque& f) { return f.reading->time; }, "Simulated seconds.")
       .def_property_readonly(

@@ -115,10 +115,10 @@ void bind_sensors(py::module_& core) {
       },
       "What the sensor's joint last transmitted.");
   module.def(
-      "show_picture",
+      "override_image",
       [](Simulation& s, ObjectId camera, const py::bytes& rgb) {
         const std::string_view bytes = rgb;
-        s.show_picture(camera, {bytes.begin(), bytes.end()});
+        s.override_image(camera, {bytes.begin(), bytes.end()});
       },
       "Makes a camera show a picture, three bytes a pixel from the top row down, in place of what it sees.");
   module.def(

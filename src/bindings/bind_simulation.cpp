@@ -73,11 +73,11 @@ py::array_t<float> vertices(const CollisionShape& shape) {
 }
 
 /// Steps without the GIL, but looks at Python's signals now and then so that Ctrl-C ends a long call.
-void step(Simulation& simulation, std::uint64_t passes) {
+void step(Simulation& simulation, std::uint64_t steps) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kBetweenSignals{50};
   Clock::time_point look = Clock::now() + kBetweenSignals;
-  for (std::uint64_t done = 0; done < passes; ++done) {
+  for (std::uint64_t done = 0; done < steps; ++done) {
     simulation.step();
     if (Clock::now() < look) continue;
     const py::gil_scoped_acquire gil;
@@ -172,11 +172,11 @@ void bind_simulation(py::module_& module) {
           "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
       .def_readonly("is_static", &CollisionShape::is_static);
 
-  py::enum_<RunState>(module, "RunState", "What whoever runs the passes of a simulation does.")
+  py::enum_<RunState>(module, "RunState", "What whoever runs the steps of a simulation does.")
       .value("STOPPED", RunState::kStopped)
       .value("PAUSED", RunState::kPaused)
       .value("RUNNING", RunState::kRunning)
-      .value("STOPPING", RunState::kStopping, "The last pass.");
+      .value("STOPPING", RunState::kStopping, "The last step.");
 
   py::class_<Simulation> simulation(module, "Simulation", R"(A scene that runs.
 
@@ -195,14 +195,14 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            }),
            py::arg("scene"), py::kw_only(), py::arg("seed") = 0,
            py::arg("arguments") = std::map<std::string, std::string>())
-      .def("step", &step, py::arg("passes") = 1, py::call_guard<py::gil_scoped_release>(),
-           "Simulates `passes` passes of `time_step` seconds, without holding the GIL.\n\n"
+      .def("step", &step, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
+           "Simulates `steps` steps of `time_step` seconds, without holding the GIL.\n\n"
            ":raises Diverged: when a body leaves the finite world; reset it or load the scene again then.")
       .def("reset_world", &Simulation::reset_world, py::call_guard<py::gil_scoped_release>(),
            "Puts the models that are there now back to where they came into the world; time goes on, handles stay.\n\n"
-           "Call it between passes, or in a callback that brings messages or service calls: there it takes effect at\n"
+           "Call it between steps, or in a callback that brings messages or service calls: there it takes effect at\n"
            "once. A diverged simulation is of use again.\n\n"
-           ":raises RuntimeError: in sysCall_actuation and sysCall_sensing. It waits for a pass that another thread "
+           ":raises RuntimeError: in sysCall_actuation and sysCall_sensing. It waits for a step that another thread "
            "runs.")
       .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
            "As `reset_world`, and time starts at 0 again: what follows equals a new simulation of these models, bit\n"
@@ -228,13 +228,13 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
           "is_model_file", [](const Simulation& s) { return s.scene().is_model_file; },
           "Whether the scene is a single model, put on a ground plane.")
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
-      .def("start", &Simulation::start, "Asks whoever runs the passes to start, or to go on after a pause.")
-      .def("pause", &Simulation::pause, "Asks whoever runs the passes to pause.")
-      .def("stop", &Simulation::stop, "Asks whoever runs the passes to stop: back to the start of the scene.")
-      .def("end", &Simulation::end, "Asks whoever runs the passes to end.")
+      .def("start", &Simulation::start, "Asks whoever runs the steps to start, or to go on after a pause.")
+      .def("pause", &Simulation::pause, "Asks whoever runs the steps to pause.")
+      .def("stop", &Simulation::stop, "Asks whoever runs the steps to stop: back to the start of the scene.")
+      .def("end", &Simulation::end, "Asks whoever runs the steps to end.")
       .def("set_synchronous", &Simulation::set_synchronous, py::arg("synchronous"),
-           "Asks whoever runs the passes to run one for each trigger_pass(), none else.")
-      .def("trigger_pass", &Simulation::trigger_pass)
+           "Asks whoever runs the steps to run one for each trigger_step(), none else.")
+      .def("trigger_step", &Simulation::trigger_step)
       .def_property_readonly("state", &Simulation::state)
       .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
       .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "A stop was asked for and is not done yet.")
@@ -242,9 +242,9 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
                              "The same objects by handle, as child scripts use them.");
   Guarded(simulation)
       .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
-      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one pass takes.")
+      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one step takes.")
       .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
-           "Lets passes take so long from now on, 1e-4 to 10 s, until `reset`.")
+           "Lets steps take so long from now on, 1e-4 to 10 s, until `reset`.")
       .def_property_readonly(
           "plugins", [](const Simulation& s) { return s.scene().plugins; },
           "The PluginDescriptions that stand directly in the world.")

@@ -46,7 +46,7 @@ std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
 
 /// The frame that positions relative to an object refer to: a joint's is the one that moves.
 Pose frame_of(const World& world, ObjectId object) {
-  return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_moving_pose(object) : world.pose(object);
+  return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_child_pose(object) : world.pose(object);
 }
 
 }  // namespace
@@ -127,7 +127,8 @@ void bind_world(py::module_& module) {
           },
           "Pose, linear and angular velocity at once.")
       .def(
-          "drive_in_plane", &World::drive_in_plane, py::arg("model"), py::arg("x"), py::arg("y"), py::arg("turning"),
+          "set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
+          py::arg("turning"),
           "Has a model move as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
       .def("velocity",
            [](const World& w, ObjectId id) {
@@ -136,12 +137,12 @@ void bind_world(py::module_& module) {
            })
       .def(
           "acceleration", [](const World& w, ObjectId id) { return to_list(w.acceleration(id)); },
-          "Of the object's origin, world axes: the mean over the last pass.")
+          "Of the object's origin, world axes: the mean over the last step.")
       .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
-      .def("motor_force", &World::motor_force, py::arg("joint"), py::arg("axis") = 0,
-           "What its motor did to the child, the mean over the last pass; measured from the first call on, which "
+      .def("motor_effort", &World::motor_effort, py::arg("joint"), py::arg("axis") = 0,
+           "What its motor did to the child, the mean over the last step; measured from the first call on, which "
            "returns 0.")
       .def("joint_links", &World::joint_links, py::arg("joint"),
            "Handles of the links that it connects, the parent first; -1 is the world.")

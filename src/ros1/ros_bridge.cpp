@@ -58,9 +58,9 @@ struct RosBridge::Impl {
 
   const RosBridgeOptions options;
   const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>();
-  NotingQueue queue{arrivals};
+  NotifyingQueue queue{arrivals};
   CallbackGuard guard;
-  bool draining = false;
+  bool processing_input = false;
 
   EndpointId next_id = 1;
 
@@ -162,7 +162,7 @@ EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& typ
   return impl_->next_id++;
 }
 
-void RosBridge::make_urgent(EndpointId endpoint) {
+void RosBridge::set_priority(EndpointId endpoint) {
   WaitingCount waiting =
       impl_->topics.has_subscriber(endpoint) ? impl_->topics.waiting(endpoint) : impl_->services.waiting(endpoint);
   const std::lock_guard lock(impl_->urgent_mutex);
@@ -174,7 +174,7 @@ bool RosBridge::urgent_waits() const {
   return std::any_of(impl_->urgent.begin(), impl_->urgent.end(), [](const auto& waiting) { return *waiting > 0; });
 }
 
-void RosBridge::give_way(EndpointId endpoint) { impl_->topics.give_way(endpoint); }
+void RosBridge::yield_topic(EndpointId endpoint) { impl_->topics.yield_topic(endpoint); }
 
 bool RosBridge::wants_messages(EndpointId publisher) const { return impl_->topics.wants_messages(publisher); }
 
@@ -232,11 +232,11 @@ std::optional<std::string> RosBridge::search_parameter(const std::string& name) 
   return impl_->parameters.search(name);
 }
 
-void RosBridge::drain() {
-  if (impl_->draining) return;  // called by a message's callback: the outer call goes on with the rest
-  impl_->draining = true;
+void RosBridge::process_input() {
+  if (impl_->processing_input) return;  // called by a message's callback: the outer call goes on with the rest
+  impl_->processing_input = true;
   impl_->queue.callAvailable(ros::WallDuration(0));
-  impl_->draining = false;
+  impl_->processing_input = false;
   impl_->services.serve();
   impl_->guard.rethrow();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries the phases of a pass over to the Python object that keeps the scripts
+// Carries the phases of a step over to the Python object that keeps the scripts
 // (bubblesim.scripting.host.host.ScriptHost).
 #include "bubblesim/child_scripts.hpp"
 
@@ -88,13 +88,13 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
     if (bridge != nullptr) {
       const py::object control = py::module_::import("bubblesim.services.offered")
                                      .attr("Control")(python_->host, py::arg("gazebo_compat") = options.gazebo_compat);
-      python_->host.attr("after_drain") = control.attr("drain");
+      python_->host.attr("after_input") = control.attr("process_input");
       python_->publish = control.attr("publish");
       python_->close = control.attr("close");
     }
     python_->host.attr("start")();
-    // Looked up once, called in every pass.
-    python_->drain = python_->host.attr("drain");
+    // Looked up once, called in every step.
+    python_->process_input = python_->host.attr("process_input");
     python_->actuate = python_->host.attr("actuate");
     python_->sense = python_->host.attr("sense");
     python_->finish = python_->host.attr("finish");
@@ -109,13 +109,13 @@ ChildScripts::~ChildScripts() {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
   const py::gil_scoped_acquire gil;
-  python_->actuate = python_->sense = python_->finish = python_->drain = python_->publish = python_->close =
+  python_->actuate = python_->sense = python_->finish = python_->process_input = python_->publish = python_->close =
       python_->host = py::object();
 }
 
-/// Also where there is nothing to drain: what was delivered before may have failed in a script.
-void ChildScripts::drain() {
-  with_host([&] { python_->drain(); });
+/// Also where there is no input: what was delivered before may have failed in a script.
+void ChildScripts::process_input() {
+  with_host([&] { python_->process_input(); });
 }
 
 void ChildScripts::publish(const World&, double) {

@@ -12,7 +12,7 @@ namespace bubblesim {
 struct ChildScripts::Python {
   scripting::Interpreter interpreter;
   pybind11::object host;
-  pybind11::object drain;
+  pybind11::object process_input;
   pybind11::object publish;  // none without a bridge
   pybind11::object close;
   pybind11::object actuate;

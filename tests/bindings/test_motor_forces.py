@@ -39,13 +39,13 @@ def axis(direction: str, motor: str, limits: str = "", *, number: str = "") -> s
     return f"<axis{number}><xyz>{direction}</xyz><limit>{limits}</limit>{driven}</axis{number}>"
 
 
-def motor_force(file: Path, *, passes: int = 40, axis: int = 0, target_velocity: float = 0.0) -> float:
+def motor_effort(file: Path, *, passes: int = 40, axis: int = 0, target_velocity: float = 0.0) -> float:
     simulation = bubblesim.Simulation(str(file))
     joint = simulation.object("/joint").handle
     simulation.world.set_target_velocity(joint, target_velocity, axis)
-    assert simulation.world.motor_force(joint, axis) == 0
+    assert simulation.world.motor_effort(joint, axis) == 0
     simulation.step(passes)
-    return float(simulation.world.motor_force(joint, axis))
+    return float(simulation.world.motor_effort(joint, axis))
 
 
 @pytest.mark.parametrize("motor", ["velocity", "position"])
@@ -53,39 +53,39 @@ def motor_force(file: Path, *, passes: int = 40, axis: int = 0, target_velocity:
 def test_a_pendulum_is_held_by_its_weight_times_its_lever(tmp_path: Path, motor: str, limits: str) -> None:
     # Gravity turns the mass at +x about +y.
     file = arm(tmp_path, "revolute", axis("0 1 0", motor, limits))
-    assert motor_force(file) == pytest.approx(-MASS * G * LENGTH, rel=1e-3)
+    assert motor_effort(file) == pytest.approx(-MASS * G * LENGTH, rel=1e-3)
 
 
 def test_a_lift_is_held_by_its_weight(tmp_path: Path) -> None:
-    assert motor_force(arm(tmp_path, "prismatic", axis("0 0 1", "velocity"))) == pytest.approx(MASS * G, rel=1e-3)
+    assert motor_effort(arm(tmp_path, "prismatic", axis("0 0 1", "velocity"))) == pytest.approx(MASS * G, rel=1e-3)
 
 
 def test_a_motor_at_its_limit_does_what_it_may(tmp_path: Path) -> None:
     axis_ = axis("0 0 1", "velocity", "<effort>0.3</effort>")
     file = arm(tmp_path, "revolute", axis_)
-    assert motor_force(file, passes=5, target_velocity=100) == pytest.approx(0.3, rel=1e-5)
+    assert motor_effort(file, passes=5, target_velocity=100) == pytest.approx(0.3, rel=1e-5)
 
 
 def test_what_accelerates_takes_its_inertia(tmp_path: Path) -> None:
     file = arm(tmp_path, "revolute", axis("0 0 1", "velocity"))
     speed = 2.0
-    mean = (INERTIA + MASS * LENGTH**2) * speed / 0.05  # in the first pass it reaches its speed
-    assert motor_force(file, passes=1, target_velocity=speed) == pytest.approx(mean, rel=1e-3)
+    mean = (INERTIA + MASS * LENGTH**2) * speed / 0.05  # in the first step it reaches its speed
+    assert motor_effort(file, steps=1, target_velocity=speed) == pytest.approx(mean, rel=1e-3)
 
 
 def test_a_stop_is_no_motor(tmp_path: Path) -> None:
     file = arm(tmp_path, "revolute", axis("0 1 0", "velocity", "<lower>-1</lower><upper>0</upper><effort>0.2</effort>"))
-    assert abs(motor_force(file)) < 0.2001  # the stop bears the rest of 14.7 N m
+    assert abs(motor_effort(file)) < 0.2001  # the stop bears the rest of 14.7 N m
 
 
 def test_an_axis_without_a_motor_does_nothing(tmp_path: Path) -> None:
-    assert motor_force(arm(tmp_path, "revolute", axis("0 1 0", ""))) == pytest.approx(0, abs=1e-3)
+    assert motor_effort(arm(tmp_path, "revolute", axis("0 1 0", ""))) == pytest.approx(0, abs=1e-3)
 
 
 @pytest.mark.parametrize(("first", "second"), [("0 1 0", "0 0 1"), ("0 0 1", "0 1 0")])
 def test_each_of_two_axes_has_its_own(tmp_path: Path, first: str, second: str) -> None:
     file = arm(tmp_path, "universal", axis(first, "velocity") + axis(second, "velocity", number="2"))
-    forces = [motor_force(file, axis=index) for index in (0, 1)]
+    forces = [motor_effort(file, axis=index) for index in (0, 1)]
     wanted = [-MASS * G * LENGTH if direction == "0 1 0" else 0 for direction in (first, second)]
     assert forces == pytest.approx(wanted, rel=1e-3, abs=1e-3)
 
@@ -94,16 +94,16 @@ def test_it_agrees_with_a_sensor_of_the_joint(tmp_path: Path) -> None:
     sensed = axis("0 1 0", "velocity") + '<sensor name="Force" type="force_torque"/>'
     simulation = bubblesim.Simulation(str(arm(tmp_path, "revolute", sensed)))
     joint = simulation.object("/joint")
-    simulation.world.motor_force(joint.handle)
+    simulation.world.motor_effort(joint.handle)
     simulation.step(3)
-    assert simulation.object("/Force").reading.torque[1] == pytest.approx(-simulation.world.motor_force(joint.handle))
+    assert simulation.object("/Force").reading.torque[1] == pytest.approx(-simulation.world.motor_effort(joint.handle))
 
 
 def test_to_measure_changes_nothing(tmp_path: Path) -> None:
     file = arm(tmp_path, "revolute", axis("0 1 0", "velocity", "<effort>5</effort>"))
     measured, plain = (bubblesim.Simulation(str(file)) for _ in range(2))
     for _ in range(10):
-        measured.world.motor_force(measured.object("/joint").handle)
+        measured.world.motor_effort(measured.object("/joint").handle)
         measured.step()
         plain.step()
     assert measured.state_hash() == plain.state_hash()

@@ -37,14 +37,14 @@ def speed():
     ROBOT.linear_velocity = [random.uniform(-1, 1), 0, 0]
     ROBOT.angular_velocity = [0, 0, random.uniform(-1, 1)]
     world.set_state(ROBOT.handle, [0, 0, 0.05, 0, 0, 0, 1], [0, 0, 0], [0, 0, 0])
-    world.drive_in_plane(ROBOT.handle, 0.1, 0, 0.1)
+    world.set_planar_velocity(ROBOT.handle, 0.1, 0, 0.1)
 
 def joints():
     WHEEL.target_velocity = random.uniform(-5, 5)
     WHEEL.target_position = random.uniform(-0.1, 0.1)
     WHEEL.max_force = 10.0
     world.set_motor_mode(WHEEL.handle, bubblesim._core.MotorMode.VELOCITY)
-    WHEEL.joint_position, WHEEL.joint_velocity, world.motor_force(WHEEL.handle)
+    WHEEL.joint_position, WHEEL.joint_velocity, world.motor_effort(WHEEL.handle)
 
 def read():
     ROBOT.position, ROBOT.linear_velocity, ROBOT.urdf, ROBOT.path, repr(ROBOT), ROBOT.parent

@@ -346,7 +346,7 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
 def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
     peer.say("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
     twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]
-    # At the end of a pass it has turned by half a pass's angle more than it was pushed for.
+    # At the end of a step it has turned by half a step's angle more than it was pushed for.
     assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.3, 0.2), abs=0.01)
     assert twist["angular"]["z"] == pytest.approx(0.5, abs=0.01)
 

@@ -103,7 +103,7 @@ def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: 
     peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
     odometry(peer, lambda _, twist: abs(twist["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
     stopped = odometry(peer, lambda _, twist: abs(twist["linear"]["x"]) < 0.001, "it to stop by itself")
-    # 0.6 s and at most a pass or two of 50 ms at 0.2 m/s, less what it takes to get there.
+    # 0.6 s and at most a step or two of 50 ms at 0.2 m/s, less what it takes to get there.
     assert stopped["pose"]["pose"]["position"]["x"] == pytest.approx(0.12, abs=0.03)
     states = peer.next("/joint_states", "sensor_msgs/JointState")
     assert states["name"] == ["wheel_left_joint", "wheel_right_joint"]

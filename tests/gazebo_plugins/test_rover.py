@@ -58,7 +58,7 @@ def truth(peer: Peer) -> Message:
 
 
 def at_time(messages: list[Message], message: Message) -> Message:
-    """The one of the same pass as another."""
+    """The one of the same step as another."""
     return next(each for each in messages if each["header"]["stamp"] == message["header"]["stamp"])
 
 
@@ -70,7 +70,7 @@ def test_it_drives_at_the_speed_that_a_twist_says(peer: Peer) -> None:
     odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 1.0, "1 m of driving")
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("odom", "base_link")
     assert odom["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.01)
-    wait_until(lambda: peer.heard("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that pass")
+    wait_until(lambda: peer.heard("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that step")
     really = at_time(truths, odom)
     driven = position(really)[0] - position(at_time(truths, rolling))[0]  # the wheels slip when it starts
     assert driven == pytest.approx(position(odom)[0] - position(rolling)[0], rel=0.01)
@@ -91,7 +91,7 @@ def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
     def of_that_pass(message: Message) -> bool:
         return bool(message["transforms"][0]["header"]["stamp"] == odom["header"]["stamp"])
 
-    wait_until(lambda: any(map(of_that_pass, peer.heard("/tf"))), "the transforms of that pass")
+    wait_until(lambda: any(map(of_that_pass, peer.heard("/tf"))), "the transforms of that step")
     (message,) = filter(of_that_pass, peer.heard("/tf"))
     frames = {each["child_frame_id"]: each for each in message["transforms"]}
     base = frames["base_link"]

@@ -62,7 +62,7 @@ def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
     wait_until(lambda: measurements(peer)[1] > unheard, "the lidar's measurements")
     time, before = measurements(peer)
     later, after = measurements(peer)
-    # 20 passes a second, of the lidar alone: two cameras at its side would make it three times as many.
+    # 20 steps a second, of the lidar alone: two cameras at its side would make it three times as many.
     assert 0 < after - before < 2 * 20 * (later - time)
 
 
@@ -70,7 +70,7 @@ def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
     ("scene", "infos", "image", "others"),
     [
         ("robot", ["/camera_info", "/plugged/camera_info"], "/own", 0),
-        ("tricycle", ["/camera_info"], "/image", 20),  # its script reads the sonar in each pass
+        ("tricycle", ["/camera_info"], "/image", 20),  # its script reads the sonar in each step
     ],
 )
 def test_the_optics_of_a_camera_alone_do_not_have_it_measure(

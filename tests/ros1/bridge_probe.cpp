@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Holds a RosBridge and obeys lines on stdin: `command arguments...`. Each is answered by one line, `= result` or
 // `! error`; what subscribers get is printed as `message ID VALUE`, what servers are asked as `request ID VALUE`, what
-// drain() throws as `drain threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py is its other half.
+// process_input() throws as `process_input threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py is its
+// other half.
 #include <poll.h>
 #include <ros/console.h>
 #include <signal.h>
@@ -244,7 +245,7 @@ class Probe {
     return bridge_.wait_for_service(name, read<double>(words)) ? "yes" : "no";
   }
 
-  /// longest TOPIC: longest time [ms] of any call that a simulation makes in its passes.
+  /// longest TOPIC: longest time [ms] of any call that a simulation makes in its steps.
   std::string longest(Words& words) {
     const auto topic = read<std::string>(words);
     const auto& type = types().at("float");
@@ -259,7 +260,7 @@ class Probe {
         },
         [&] { server = bridge_.advertise_service(topic, services().at("setbool"), nullptr); },
         [&] { bridge_.publish(publisher, encode(type, "1")); }, [&] { bridge_.publish_clock(1.0); },
-        [&] { bridge_.drain(); }, [&] { bridge_.now(); }, [&] { bridge_.shutdown_publisher(publisher); },
+        [&] { bridge_.process_input(); }, [&] { bridge_.now(); }, [&] { bridge_.shutdown_publisher(publisher); },
         [&] { bridge_.shutdown_subscriber(subscriber); }, [&] { bridge_.shutdown_service_server(server); }));
   }
 
@@ -272,7 +273,7 @@ class Probe {
     for (int i = 0; i < count; ++i) {
       std::this_thread::sleep_until(next += std::chrono::milliseconds(20));
       bridge_.publish(id, encode(bridge_.message_type(id), text));
-      bridge_.drain();
+      bridge_.process_input();
     }
     return "";
   }
@@ -337,9 +338,9 @@ void run(RosBridge& bridge) {
       std::cout << probe.obey(line) << std::endl;
     }
     try {
-      bridge.drain();
+      bridge.process_input();
     } catch (const std::exception& error) {
-      std::cout << "drain threw " << error.what() << std::endl;
+      std::cout << "process_input threw " << error.what() << std::endl;
     }
   }
 }

@@ -94,7 +94,7 @@ def test_caller_gets_the_text_of_a_callback_that_refuses(roscore: RosCore) -> No
         wait_for_service(roscore, "/paint")
         client = probe.ask("client", "/paint", "setbool")
         assert probe.ask("call", client, 5, 1) == "! service '/paint' failed: out of paint"
-        assert not [event for event in other.events if event.startswith("drain threw")]
+        assert not [event for event in other.events if event.startswith("process_input threw")]
 
 
 def test_caller_and_drain_get_what_a_callback_throws(roscore: RosCore) -> None:
@@ -103,7 +103,7 @@ def test_caller_and_drain_get_what_a_callback_throws(roscore: RosCore) -> None:
         wait_for_service(roscore, "/paint")
         client = probe.ask("client", "/paint", "setbool")
         assert probe.ask("call", client, 5, 1) == f"! service '/paint' failed: server {server}"
-        other.wait_for(lambda: f"drain threw server {server}" in other.events, "the error")
+        other.wait_for(lambda: f"process_input threw server {server}" in other.events, "the error")
 
 
 def test_call_of_an_own_service(roscore: RosCore) -> None:

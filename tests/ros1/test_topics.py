@@ -158,7 +158,7 @@ def test_drain_serves_the_others_before_it_throws(roscore: RosCore) -> None:
         publisher = probe.ask("advertise", "/loop", "string")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the connection to itself")
         probe.ask("publish", publisher, "hello")
-        probe.wait_for(lambda: f"drain threw subscriber {thrower}" in probe.events, "the error")
+        probe.wait_for(lambda: f"process_input threw subscriber {thrower}" in probe.events, "the error")
         assert probe.messages(other) == ["hello"]
 
 

@@ -32,7 +32,7 @@ class Pioneer:
         self.left.target_velocity, self.right.target_velocity = wheels.left, wheels.right
 
     def places(self, passes: int) -> Any:
-        """x, y after each pass."""
+        """x, y after each step."""
         found = []
         for _ in range(passes):
             self.simulation.step()

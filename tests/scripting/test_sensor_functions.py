@@ -38,7 +38,7 @@ def test_a_reading_has_the_time_of_its_measurement(tmp_path: Path) -> None:
             self.times = []
 
         def sysCall_sensing():
-            self.times.append(round(sim.getReadingTime(sim.getObject('/Lidar')), 6))  # 10 Hz in passes of 50 ms
+            self.times.append(round(sim.getReadingTime(sim.getObject('/Lidar')), 6))  # 10 Hz in steps of 50 ms
 
         def sysCall_cleanup():
             print(self.times)

@@ -215,7 +215,7 @@ def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
     )
 
     def told() -> bool:
-        gazebo.own(f"{NAME}/step", passes=1)
+        gazebo.own(f"{NAME}/step", steps=1)
         return all(listener.poll() is not None for listener in listeners.values())
 
     wait_until(told, "both topics")

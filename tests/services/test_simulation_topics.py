@@ -18,7 +18,7 @@ def passes(node: Node) -> int:
 
 
 def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
-    """Returns how many passes there have been when no more come, and all are heard of, while a service is called."""
+    """Returns how many steps there have been when no more come, and all are heard of, while a service is called."""
     remote.send("/enableSyncMode", value=True)
 
     def nothing_goes_on() -> bool:
@@ -26,7 +26,7 @@ def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
         core.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")
         return (passes(node), len(remote.heard(TIME)), len(remote.heard(DONE))) == before
 
-    wait_until(nothing_goes_on, "the passes to wait for triggers")
+    wait_until(nothing_goes_on, "the steps to wait for triggers")
     return passes(node)
 
 
@@ -39,14 +39,14 @@ def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run
     for _ in range(3):  # one by one, as a controller does
         done = len(remote.heard(DONE))
         remote.send("/triggerNextStep", value=True)
-        wait_until(lambda goal=done + 1: len(remote.heard(DONE)) == goal, "the pass to be done")
+        wait_until(lambda goal=done + 1: len(remote.heard(DONE)) == goal, "the step to be done")
     assert passes(node) == free + 103
     assert set(remote.heard(DONE)) == {"True"}
     told = [f"{float(time):.2f}" for time in remote.heard(TIME)[-103:]]
     assert told == [f"{0.05 * number:.2f}" for number in range(free, free + 103)]
 
     remote.send("/enableSyncMode", value=False)
-    wait_until(lambda: passes(node) > free + 200, "the passes to wait no more")
+    wait_until(lambda: passes(node) > free + 200, "the steps to wait no more")
 
 
 def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
@@ -56,7 +56,7 @@ def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
     wait_until(lambda: remote.heard(STATE)[-1:] == ["2"], "the pause")
     remote.send("/triggerNextStep", value=True, count=5)
     remote.press("start")
-    wait_until(lambda: passes(node) == free + 5, "the passes")
+    wait_until(lambda: passes(node) == free + 5, "the steps")
 
 
 def test_the_state_is_told_in_all_states(run: Run) -> None:

@@ -152,7 +152,7 @@ STOPPING = """
 def test_a_stop_by_a_script_leaves_the_node_where_others_can_start_it_again(run: Run, roscore: RosCore) -> None:
     node, remote = run(STOPPING)
     node.wait_for_output("cleanup")
-    answer = roscore.run("rosservice", "call", f"{NAME}/step", "passes: 1")
+    answer = roscore.run("rosservice", "call", f"{NAME}/step", "steps: 1")
     assert "the simulation is stopped" in answer
     roscore.run("rosservice", "call", f"{NAME}/reset_simulation")
     assert count(node, "init") == 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The service that lets a paused simulation run for some passes."""
+"""The service that lets a paused simulation run for some steps."""
 
 import signal
 import subprocess
@@ -36,7 +36,7 @@ def paused(roscore: RosCore, tmp_path: Path) -> Iterator[Paused]:
 
 
 def step(core: RosCore, passes: int) -> Any:
-    return yaml.safe_load(core.run("rosservice", "call", f"{NAME}/step", f"passes: {passes}"))
+    return yaml.safe_load(core.run("rosservice", "call", f"{NAME}/step", f"steps: {passes}"))
 
 
 def test_so_many_passes_are_done_when_it_answers(paused: Paused, roscore: RosCore) -> None:
@@ -87,8 +87,8 @@ def test_a_running_simulation_is_to_be_paused_first(paused: Paused, roscore: Ros
 
 def test_a_second_request_meanwhile_is_refused_and_a_signal_ends_the_first(paused: Paused, roscore: RosCore) -> None:
     node = paused(IDLE + "def sysCall_sensing(): print(sim.getSimulationTime())\n")
-    first = start(["rosservice", "call", f"{NAME}/step", "passes: 4000000000"], roscore.env, stdout=subprocess.DEVNULL)
-    wait_until(lambda: "0.05" in node.output, "the first passes")
+    first = start(["rosservice", "call", f"{NAME}/step", "steps: 4000000000"], roscore.env, stdout=subprocess.DEVNULL)
+    wait_until(lambda: "0.05" in node.output, "the first steps")
     answer = step(roscore, 1)
     assert answer["success"] is False
     assert "being stepped already" in answer["status_message"]

@@ -22,7 +22,7 @@ class Probe:
             stderr=subprocess.PIPE,
         )
         self.events: list[str] = []
-        """Lines that are no answers, oldest first: `message ID VALUE`, `paused`, `drain threw ...`."""
+        """Lines that are no answers, oldest first: `message ID VALUE`, `paused`, `process_input threw ...`."""
         self.errors: list[str] = []
         """Lines on stderr."""
         self._answers: queue.Queue[str] = queue.Queue()

@@ -115,7 +115,7 @@ def test_the_controller_drives_and_its_messages_are_known(controller: StartContr
     with pytest.raises(LookupError, match="did you mean /Tricycle"):
         tricycle.position("/Tricycl")
     speeds = tricycle.messages("/speed")
-    assert len(speeds) == 98  # 100 passes; the first goes before anybody is connected, the last is not answered yet
+    assert len(speeds) == 98  # 100 steps; the first goes before anybody is connected, the last is not answered yet
     assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, and 5 % more with each answer
     assert speeds[1][0] - speeds[0][0] == pytest.approx(0.05)
 
@@ -151,7 +151,7 @@ def test_a_controller_that_ends_is_told_with_its_last_words(
 
 def test_a_topic_that_no_script_hears_is_told(sim: StartSimulator) -> None:
     tricycle = sim("tricycle", lockstep=["/spede"])
-    with pytest.raises(RunError, match=r"no pass comes, for no script subscribes to /spede, which --lockstep names"):
+    with pytest.raises(RunError, match=r"no step comes, for no script subscribes to /spede, which --lockstep names"):
         tricycle.run(1.0)
 
 

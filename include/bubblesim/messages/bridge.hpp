@@ -18,11 +18,11 @@ namespace bubblesim::messages {
 /// Names a publisher, subscriber, service server or client. Never used again after shutdown, so a stale one is noticed.
 using EndpointId = std::int32_t;
 
-/// Called on the simulation's thread while Bridge::drain() runs; the bytes are valid during the call.
+/// Called on the simulation's thread while Bridge::process_input() runs; the bytes are valid during the call.
 using MessageCallback = std::function<void(WireView message)>;
 
 /// Takes the bytes of a request (valid during the call) and returns those of the response. Called on the simulation's
-/// thread, while Bridge::drain(), call() or wait_for_service() runs. When it throws, the caller gets the text.
+/// thread, while Bridge::process_input(), call() or wait_for_service() runs. When it throws, the caller gets the text.
 using ServiceCallback = std::function<WireBuffer(WireView request)>;
 
 /// A service call that brought no response, and why; thrown by a ServiceCallback, that the request cannot be met.
@@ -61,9 +61,9 @@ class Bridge {
                                MessageCallback callback, bool tcp_no_delay) = 0;
   /// For endpoints of the simulator itself: from now on this publisher (subscriber) publishes (delivers) nothing while
   /// there is another on its topic, nor while its topic is used under another type, which it does not keep from being.
-  virtual void give_way(EndpointId publisher_or_subscriber) = 0;
+  virtual void yield_topic(EndpointId publisher_or_subscriber) = 0;
   /// For endpoints of the simulator itself: has urgent_waits() look at this subscriber or service server.
-  virtual void make_urgent(EndpointId subscriber_or_server) = 0;
+  virtual void set_priority(EndpointId subscriber_or_server) = 0;
   /// Whether a message or request has come to such an endpoint and not been delivered yet. From any thread.
   virtual bool urgent_waits() const = 0;
   /// Whether publish() would have any effect now: somebody listens, or the publisher latches.
@@ -102,7 +102,7 @@ class Bridge {
   /// call the bridge, shut its own endpoint down included; what it throws (but ServiceError) is passed on after the
   /// others have been served. A call from within a message's callback does nothing; a service's callback may call it,
   /// as one does that lets the simulation run on while it works.
-  virtual void drain() = 0;
+  virtual void process_input() = 0;
 
   /// Time that messages should be stamped with: the simulation's when /use_sim_time is set, else the wall clock's.
   virtual BridgeTime now() const = 0;

@@ -19,27 +19,27 @@ Message = dict[str, Any]
 FASTEST = 1e6  # rad/s or m/s: what the physics takes
 
 
-class PassTime:
-    """The time that all messages of a pass carry, also where ROS's goes on meanwhile."""
+class StepTime:
+    """The time that all messages of a step carry, also where ROS's goes on meanwhile."""
 
     def __init__(self, bridge: Any) -> None:
         """Take it from this bridge."""
         self._bridge = bridge
         self.stamp: Message = {}
 
-    def begin_pass(self) -> None:
+    def begin_step(self) -> None:
         """Take it anew."""
         secs, nsecs = self._bridge.now()
         self.stamp = {"secs": secs, "nsecs": nsecs}
 
 
 @dataclass(frozen=True)
-class Place:
+class PluginContext:
     """Where a device is, and what it is made of."""
 
     simulation: Any
     bridge: Any
-    pass_time: PassTime
+    step_time: StepTime
     transforms: Transforms
     owner: int  # handle of the model or sensor that has the plugin
     model: int  # handle
@@ -54,15 +54,15 @@ class Place:
 
 
 class Device:
-    """Made for one plugin of a model. Its phases are called once a pass, and ``close`` when its model goes."""
+    """Made for one plugin of a model. Its phases are called once a step, and ``close`` when its model goes."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters; ParameterError for those with which the device cannot work."""
-        self.place = place
-        self.parameters = place.parameters
-        self.simulation = place.simulation
-        self.world = place.simulation.world
-        self.bridge = place.bridge
+        self.context = context
+        self.parameters = context.parameters
+        self.simulation = context.simulation
+        self.world = context.simulation.world
+        self.bridge = context.bridge
         self.namespace = ""
         self._told = False
 
@@ -77,18 +77,18 @@ class Device:
 
     def close(self) -> None:
         """Let go of everything outside."""
-        self.place.close()
+        self.context.close()
 
     def enter_namespace(self, *, of_model: bool = False) -> None:
         """Choose where topics and frames are.
 
         That is <robotNamespace>; without one where the model was spawned; else the name of the model, or the root.
         """
-        default = self.world.name(self.place.model) if of_model else ""
+        default = self.world.name(self.context.model) if of_model else ""
         given = self.parameters.given("robotNamespace")
         given = self.parameters.child("ros", "namespace") if given is None else given
         if given is None:
-            namespace = default if self.place.namespace is None else self.place.namespace
+            namespace = default if self.context.namespace is None else self.context.namespace
         else:
             namespace = given or default
         self.namespace = namespace.strip("/")
@@ -107,11 +107,11 @@ class Device:
     def advertise(self, topic: str, message_type: str, queue_size: int) -> int:
         """Advertise a topic until the device is closed."""
         publisher: int = self.bridge.advertise(self.topic(topic), message_type, queue_size, False)
-        self.place.endpoints.append(lambda: self.bridge.shutdown_publisher(publisher))
+        self.context.endpoints.append(lambda: self.bridge.shutdown_publisher(publisher))
         return publisher
 
     def subscribe(self, topic: str, message_type: str, callback: Callable[[Message], None]) -> None:
-        """Have the newest message of each pass handed over until the device is closed."""
+        """Have the newest message of each step handed over until the device is closed."""
         name = self.topic(topic)
 
         def deliver(message: Message) -> None:
@@ -121,20 +121,20 @@ class Device:
                 write_line(sys.stderr, f"error: {self.parameters.title} cannot take a message on {name}: {error}")
 
         subscriber = self.bridge.subscribe(name, message_type, deliver, 1, _core.messages.TimeForm.FLOAT)
-        self.place.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
+        self.context.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
 
-    def offer(self, service: str, service_type: str, answer: Callable[[Message], Message | None]) -> None:
+    def advertise_service(self, service: str, service_type: str, answer: Callable[[Message], Message | None]) -> None:
         """Offer a service of a full name until the device is closed."""
         server = self.bridge.advertise_service(service, service_type, answer, _core.messages.TimeForm.FLOAT)
-        self.place.endpoints.append(lambda: self.bridge.shutdown_service_server(server))
+        self.context.endpoints.append(lambda: self.bridge.shutdown_service_server(server))
 
     def wanted(self, publisher: int) -> bool:
         """Whether somebody listens, or a bag keeps all."""
         return wanted(self.bridge, publisher)
 
     def header(self, frame: str) -> Message:
-        """A std_msgs/Header of this pass."""
-        return {"stamp": self.place.pass_time.stamp, "frame_id": frame}
+        """A std_msgs/Header of this step."""
+        return {"stamp": self.context.step_time.stamp, "frame_id": frame}
 
     def joint(self, parameter: str, default: str) -> int:
         """The handle of the joint that a parameter names."""
@@ -153,7 +153,7 @@ class Device:
         parts = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == kind}
         if name in parts:
             return int(parts[name])
-        model = self.world.path(self.place.model)
+        model = self.world.path(self.context.model)
         hint = did_you_mean(nearest_names(name, sorted(parts)))
         raise self.parameters.fail(parameter, f"names no {kind} of {model}: it has no '{name}'{hint}")
 
@@ -167,7 +167,7 @@ class Device:
         def below(handle: int) -> list[int]:
             return [each for child in self.world.children(handle) for each in (child, *below(child))]
 
-        return below(self.place.model)
+        return below(self.context.model)
 
     def usable(self, what: str, numbers: Sequence[float]) -> bool:
         """Whether numbers from a message are usable; when they are not for the first time, a line says so."""

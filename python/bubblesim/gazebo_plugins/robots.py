@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The devices of all models, in the phases of a pass."""
+"""The devices of all models, in the phases of a step."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from typing import Any
 
-from bubblesim.gazebo_plugins.device import Device, PassTime, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext, StepTime
 from bubblesim.gazebo_plugins.parameters import ParameterError, Parameters
 from bubblesim.gazebo_plugins.registry import DEVICES, library
 from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
@@ -18,13 +18,13 @@ from bubblesim.output import write_line
 
 
 class Devices:
-    """Made by the simulator's node, which calls ``actuate`` and ``publish`` in every pass and tells of models."""
+    """Made by the simulator's node, which calls ``actuate`` and ``publish`` in every step and tells of models."""
 
     def __init__(self, simulation: Any, bridge: Any) -> None:
         """Make the devices of the models that are there."""
         self._simulation = simulation
         self._bridge = bridge
-        self._pass_time = PassTime(bridge)
+        self._pass_time = StepTime(bridge)
         self._transforms = Transforms(bridge)
         self._devices: list[Device] = []
         self._unknown = UnknownPlugins()
@@ -59,8 +59,8 @@ class Devices:
 
     def remove_model(self, model: int) -> None:
         """Close the devices of a model that is about to leave the world."""
-        leaving = [device for device in self._devices if device.place.model == model]
-        self._devices = [device for device in self._devices if device.place.model != model]
+        leaving = [device for device in self._devices if device.context.model == model]
+        self._devices = [device for device in self._devices if device.context.model != model]
         for device in leaving:
             device.close()
 
@@ -76,7 +76,7 @@ class Devices:
         """Have all devices tell what they measure."""
         if not self._devices:
             return
-        self._pass_time.begin_pass()
+        self._pass_time.begin_step()
         self._each("publish")
         self._transforms.publish()
 
@@ -89,12 +89,12 @@ class Devices:
     def _make(self, kind: type[Device], plugin: Any, owner: int, model: int, namespace: str | None) -> None:
         parameters = Parameters(plugin)
         outside = self._bridge, self._pass_time, self._transforms
-        place = Place(self._simulation, *outside, owner, model, parameters, namespace)
+        context = PluginContext(self._simulation, *outside, owner, model, parameters, namespace)
         try:
-            device = kind(place)
+            device = kind(context)
             device.reset()
         except Exception as error:
-            place.close()
+            context.close()
             text = f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}"
             write_line(sys.stderr, "\n".join(f"error: {line}" for line in text.splitlines()))
             return

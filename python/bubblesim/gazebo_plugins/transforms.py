@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What devices tell on /tf, in one message a pass."""
+"""What devices tell on /tf, in one message a step."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Transforms:
         self._waiting.append(transform(header["stamp"], header["frame_id"], child, pose))
 
     def publish(self) -> None:
-        """Send those of this pass."""
+        """Send those of this step."""
         if self._waiting:
             self._bridge.publish(self._publisher, {"transforms": self._waiting})
             self._waiting = []

@@ -30,7 +30,7 @@ class _Definition:
 class BagRecorder:
     """An observer of a bridge.
 
-    All messages of a pass bear its time, those that came first, by topic: so that equal runs give equal bags, although
+    All messages of a step bear its time, those that came first, by topic: so that equal runs give equal bags, although
     connections are differently quick.
     """
 
@@ -53,21 +53,21 @@ class BagRecorder:
         """Nothing to write."""
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
-        """Keep it until the pass is over."""
+        """Keep it until the step is over."""
         if self._bag is None:
             return
         self._published.append((topic, message_type, _core.messages.encode(message_type, message), self._now()))
 
     def heard(self, topic: str, message_type: str, message: Any) -> None:
-        """Keep it until the pass is over."""
+        """Keep it until the step is over."""
         if self._bag is not None:
             self._heard.append((topic, message_type, _core.messages.encode(message_type, message)))
 
-    def drained(self) -> None:
+    def input_processed(self) -> None:
         """Nothing to write."""
 
     def pass_done(self) -> None:
-        """Write all of the pass, and the time that it had."""
+        """Write all of the step, and the time that it had."""
         if self._bag is not None:
             with self._ending_at_an_error():
                 self._write_pass(self._bag)

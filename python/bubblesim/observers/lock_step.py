@@ -11,7 +11,7 @@ from bubblesim._core import RunState
 from bubblesim.output import write_line
 
 _LATE = 5.0  # s
-# For so long nothing may have changed among the connections before the first pass: who makes its publishers first may
+# For so long nothing may have changed among the connections before the first step: who makes its publishers first may
 # still be about to subscribe.
 _SETTLED = 0.4
 # A node on simulated time listens to /clock, too, and may take it for silence when the first that it hears is late. One
@@ -21,9 +21,9 @@ _POLL = 0.0002  # s
 
 
 class LockStep:
-    """An observer of a bridge. A pass is answered when each of the topics has brought a message since it ended.
+    """An observer of a bridge. A step is answered when each of the topics has brought a message since it ended.
 
-    In the very first pass scripts make their topics. Before the next one a publisher of each topic must be connected,
+    In the very first step scripts make their topics. Before the next one a publisher of each topic must be connected,
     a subscriber of something that scripts publish, and one of /clock.
     """
 
@@ -60,13 +60,13 @@ class LockStep:
         """Perhaps an answer."""
         self._awaited.discard(topic)
 
-    def drained(self) -> None:
-        """Let the next pass come when it may, and complain when it waits for long."""
+    def input_processed(self) -> None:
+        """Let the next step come when it may, and complain when it waits for long."""
         if self._simulation.state != RunState.RUNNING or self._triggered:
             return
         if self.answered():
             self._triggered = True
-            self._simulation.trigger_pass()
+            self._simulation.trigger_step()
         elif not self._warned and time.monotonic() - self._since > _LATE:
             self._warned = True
             write_line(sys.stderr, f"warning: {self.lateness()}")
@@ -79,7 +79,7 @@ class LockStep:
         """Nothing is left behind."""
 
     def answered(self) -> bool:
-        """Whether the next pass may come."""
+        """Whether the next step may come."""
         if self._simulation.time == 0.0:
             return True  # in which scripts make their topics
         if not self._began:
@@ -93,23 +93,23 @@ class LockStep:
             if time.monotonic() > end:
                 return self.lateness()
             time.sleep(_POLL)
-            self._bridge.drain()
+            self._bridge.process_input()
         return ""
 
     def lateness(self) -> str:
         """What is missing, and why that may be."""
         unheard = self._topics - self._subscribers.keys()
         if unheard:
-            return f"no pass comes, for no script subscribes to {_listed(unheard)}, which --lockstep names"
+            return f"no step comes, for no script subscribes to {_listed(unheard)}, which --lockstep names"
         if not self._began:
             return (
-                f"the second pass waits for a controller that publishes {_listed(self._topics)} and subscribes to what "
+                f"the second step waits for a controller that publishes {_listed(self._topics)} and subscribes to what "
                 "scripts publish: does it run, on this master?"
             )
         missing = {topic for topic in self._awaited if not self._bridge.has_publisher(self._subscribers[topic])}
-        why = "nobody publishes it any more" if missing else "its publisher is there, but does not answer each pass"
+        why = "nobody publishes it any more" if missing else "its publisher is there, but does not answer each step"
         return (
-            f"the pass before {self._simulation.time:.3f} s has had no answer on {_listed(missing or self._awaited)} "
+            f"the step before {self._simulation.time:.3f} s has had no answer on {_listed(missing or self._awaited)} "
             f"for {_LATE:g} s: {why}"
         )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bridge that tells others which messages go through it: for bags, and for passes in step with a controller."""
+"""A bridge that tells others which messages go through it: for bags, and for lockstep with a controller."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Observer(Protocol):
     def heard(self, topic: str, message_type: str, message: Any) -> None:
         """A message has come, which the script has not seen yet."""
 
-    def drained(self) -> None:
+    def input_processed(self) -> None:
         """All that has come was delivered; often, also while nothing runs."""
 
     def pass_done(self) -> None:
-        """A pass is over."""
+        """A step is over."""
 
     def close(self) -> None:
         """There will be nothing more."""
@@ -85,7 +85,7 @@ def observed(bridge: Any, simulation: Any, record: str, lockstep: list[str]) -> 
     """The bridge with the observers that the node's options ask for.
 
     :param record: file of the bag to write; empty: none.
-    :param lockstep: topics that each pass waits for; see LockStep.
+    :param lockstep: topics that each step waits for; see LockStep.
     """
     from bubblesim.observers.bag_recorder import BagRecorder
     from bubblesim.observers.lock_step import LockStep

@@ -35,7 +35,7 @@ class Caller(Protocol):
     shared: SharedData
     at_end: dict[Hashable, Hook]
     """Undoes what the caller made, by what it was; run when the caller ends."""
-    in_each_pass: dict[Hashable, Hook]
+    in_each_step: dict[Hashable, Hook]
     """Run in each simulation step; must not raise."""
     programs: list[Any]
     """Programs that the caller started; they end with it."""

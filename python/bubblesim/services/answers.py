@@ -11,7 +11,7 @@ from bubblesim import _core
 Message = dict[str, Any]
 
 
-def telling_errors(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
+def report_errors(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
     """Report errors in the response's success and status_message, where callers look for them."""
 
     def guarded(request: Message) -> Message:
@@ -41,7 +41,7 @@ def answering_empty(action: Callable[[], None]) -> Callable[[object], None]:
     def answer(request: object) -> None:
         try:
             action()
-        except RuntimeError as error:  # a script asks for it in the middle of a pass
+        except RuntimeError as error:  # a script asks for it in the middle of a step
             raise _core.ServiceError(str(error)) from None
 
     return answer

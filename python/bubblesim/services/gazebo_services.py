@@ -14,7 +14,7 @@ from bubblesim import _core
 from bubblesim.geometry.frames import state_from, state_in
 from bubblesim.ros_messages import pose_message, pose_values, twist_message, vector_values
 from bubblesim.scripting.host.host import ScriptHost
-from bubblesim.services.answers import Message, answering_empty, telling_errors
+from bubblesim.services.answers import Message, answering_empty, report_errors
 from bubblesim.services.gazebo_names import find_entity, find_frame
 
 
@@ -31,7 +31,7 @@ class GazeboServices:
         self._offer("pause_physics", "std_srvs/Empty", answering_empty(self._simulation.pause))
         self._offer("unpause_physics", "std_srvs/Empty", answering_empty(self._simulation.start))
         for name, action in (("reset_world", self._simulation.reset_world), ("reset_simulation", host.restart)):
-            self._bridge.make_urgent(self._offer(name, "std_srvs/Empty", answering_empty(action)))
+            self._bridge.set_priority(self._offer(name, "std_srvs/Empty", answering_empty(action)))
         for name, kind, answer in (
             ("spawn_sdf_model", "SpawnModel", self._spawn),
             ("spawn_urdf_model", "SpawnModel", self._spawn),
@@ -42,7 +42,7 @@ class GazeboServices:
             ("set_link_state", "SetLinkState", self._set_link_state),
             ("get_world_properties", "GetWorldProperties", self._get_world_properties),
         ):
-            self._offer(name, f"gazebo_msgs/{kind}", telling_errors(answer))
+            self._offer(name, f"gazebo_msgs/{kind}", report_errors(answer))
 
     def _offer(self, name: str, service_type: str, answer: object) -> int:
         server: int = self._bridge.advertise_service(

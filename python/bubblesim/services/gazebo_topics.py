@@ -21,7 +21,7 @@ class GazeboTopics:
         self._links = bridge.advertise("/gazebo/link_states", "gazebo_msgs/LinkStates", 1, False)
 
     def publish(self) -> None:
-        """Tell where everything is, at the end of a pass, to whoever listens."""
+        """Tell where everything is, at the end of a step, to whoever listens."""
         name = self._world.name
         if self._bridge.wants_messages(self._models):
             models = self._world.models

@@ -6,7 +6,7 @@ from __future__ import annotations
 from bubblesim import _core
 from bubblesim.ros_messages import pose_values
 from bubblesim.scripting.host.host import ScriptHost
-from bubblesim.services.answers import Message, telling_errors
+from bubblesim.services.answers import Message, report_errors
 from bubblesim.services.names import find_object
 
 
@@ -22,7 +22,7 @@ class ModelServices:
             ("~spawn_sdf", "bubblesim_msgs/SpawnSdf", self._spawn),
             ("~delete_object", "bubblesim_msgs/DeleteObject", self._delete),
         ):
-            host.bridge.advertise_service(name, service_type, telling_errors(answer), _core.messages.TimeForm.FLOAT)
+            host.bridge.advertise_service(name, service_type, report_errors(answer), _core.messages.TimeForm.FLOAT)
 
     def _spawn(self, request: Message) -> Message:
         pose = pose_values(request["pose"])

@@ -8,7 +8,7 @@ from typing import Any
 from bubblesim import _core
 from bubblesim.geometry.frames import state_in
 from bubblesim.ros_messages import pose_message, pose_values, twist_message
-from bubblesim.services.answers import Message, failing, telling_errors
+from bubblesim.services.answers import Message, failing, report_errors
 from bubblesim.services.names import find_object
 
 
@@ -20,7 +20,7 @@ class ObjectServices:
         self._simulation = simulation
         self._world = simulation.world
         for name, service_type, answer in (
-            ("~set_object_pose", "bubblesim_msgs/SetObjectPose", telling_errors(self._set_pose)),
+            ("~set_object_pose", "bubblesim_msgs/SetObjectPose", report_errors(self._set_pose)),
             ("~get_object_state", "bubblesim_msgs/GetObjectState", failing(self._get_state)),
         ):
             bridge.advertise_service(name, service_type, answer, _core.messages.TimeForm.FLOAT)

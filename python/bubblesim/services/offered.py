@@ -16,7 +16,7 @@ from bubblesim.services.step_service import offer_step_service
 
 
 class Control:
-    """Made by the simulator's node, which calls ``drain`` and ``publish`` in these phases of a pass."""
+    """Made by the simulator's node, which calls ``process_input`` and ``publish`` in these phases of a step."""
 
     def __init__(self, host: ScriptHost, *, gazebo_compat: bool) -> None:
         """Offer all of them, through the host's bridge; Gazebo's only on demand."""
@@ -32,14 +32,14 @@ class Control:
             GazeboServices(host)
             self._gazebo = GazeboTopics(host.bridge, host.simulation.world)
 
-    def drain(self) -> None:
+    def process_input(self) -> None:
         """When messages have been delivered."""
         self._topics.tell_state()
         for observer in self._observers:
-            observer.drained()
+            observer.input_processed()
 
     def publish(self) -> None:
-        """At the end of a pass, when all else of it has been published."""
+        """At the end of a step, when all else of it has been published."""
         if self._gazebo is not None:
             self._gazebo.publish()
         self._topics.tell_pass()

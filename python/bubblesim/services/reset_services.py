@@ -14,4 +14,4 @@ def offer_reset_services(bridge: Any, host: ScriptHost) -> None:
     """Offer both, as std_srvs/Empty, under the node's name; they are done when they answer."""
     for name, action in (("~reset", host.simulation.reset_world), ("~reset_simulation", host.restart)):
         answer = answering_empty(action)
-        bridge.make_urgent(bridge.advertise_service(name, "std_srvs/Empty", answer, _core.messages.TimeForm.FLOAT))
+        bridge.set_priority(bridge.advertise_service(name, "std_srvs/Empty", answer, _core.messages.TimeForm.FLOAT))

@@ -13,7 +13,7 @@ from bubblesim import _core
 from bubblesim._core import RunState
 
 _QUEUE = 10
-_QUEUE_OF_PASSES = 1000  # of those who count passes, none should be lost
+_QUEUE_OF_STEPS = 1000  # of those who count steps, none should be lost
 _UNLIMITED = 0
 _STATES = {RunState.STOPPED: 0, RunState.RUNNING: 1, RunState.STOPPING: 1, RunState.PAUSED: 2}
 
@@ -27,32 +27,32 @@ class SimulationTopics:
         self._simulation = simulation
         self._subscribe("/startSimulation", lambda _: simulation.start())
         self._subscribe("/pauseSimulation", lambda _: simulation.pause())
-        self._bridge.make_urgent(self._subscribe("/stopSimulation", lambda _: simulation.stop()))
+        self._bridge.set_priority(self._subscribe("/stopSimulation", lambda _: simulation.stop()))
         self._subscribe("/enableSyncMode", simulation.set_synchronous)
-        self._subscribe("/triggerNextStep", lambda _: simulation.trigger_pass(), _UNLIMITED)
+        self._subscribe("/triggerNextStep", lambda _: simulation.trigger_step(), _UNLIMITED)
         self._state = self._advertise("/simulationState", "std_msgs/Int32", _QUEUE)
-        self._time = self._advertise("/simulationTime", "std_msgs/Float32", _QUEUE_OF_PASSES)
-        self._step_done = self._advertise("/simulationStepDone", "std_msgs/Bool", _QUEUE_OF_PASSES)
+        self._time = self._advertise("/simulationTime", "std_msgs/Float32", _QUEUE_OF_STEPS)
+        self._step_done = self._advertise("/simulationStepDone", "std_msgs/Bool", _QUEUE_OF_STEPS)
 
     def _subscribe(self, topic: str, action: Callable[[bool], None], queue_size: int = _QUEUE) -> int:
         subscriber: int = self._bridge.subscribe(
             topic, "std_msgs/Bool", lambda message: action(message["data"]), queue_size, _core.messages.TimeForm.FLOAT
         )
-        self._bridge.give_way(subscriber)
+        self._bridge.yield_topic(subscriber)
         return subscriber
 
     def _advertise(self, topic: str, message_type: str, queue_size: int) -> int:
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, False))
-        self._bridge.give_way(publisher)
+        self._bridge.yield_topic(publisher)
         return publisher
 
     def tell_state(self) -> None:
-        """Once before each pass, and now and then while there are none."""
+        """Once before each step, and now and then while there are none."""
         if self._bridge.wants_messages(self._state):
             self._bridge.publish(self._state, {"data": _STATES[self._simulation.state]})
 
     def tell_pass(self) -> None:
-        """At the end of a pass, when all else of it has been published."""
+        """At the end of a step, when all else of it has been published."""
         if self._bridge.wants_messages(self._time):
             self._bridge.publish(self._time, {"data": self._simulation.time})
         if self._bridge.wants_messages(self._step_done):

@@ -11,20 +11,20 @@ from bubblesim.scripting.host import interruption
 
 
 def offer_step_service(bridge: Any, simulation: Any, lock_step: LockStep | None) -> None:
-    """Offer it under the node's name; it answers when the passes are done. In each, messages come and go as ever.
+    """Offer it under the node's name; it answers when the steps are done. In each, messages come and go as ever.
 
-    :param lock_step: what the passes wait for, if anything.
+    :param lock_step: what the steps wait for, if anything.
     """
 
     def answer(request: dict[str, Any]) -> dict[str, Any]:
-        problem = _step(simulation, request["passes"], lock_step)
+        problem = _step(simulation, request["steps"], lock_step)
         return {"success": not problem, "status_message": problem, "time": simulation.time}
 
     bridge.advertise_service("~step", "bubblesim_msgs/Step", answer, _core.messages.TimeForm.FLOAT)
 
 
-def _step(simulation: Any, passes: int, lock_step: LockStep | None) -> str:
-    """Run the passes; what kept them from being run, or nothing."""
+def _step(simulation: Any, steps: int, lock_step: LockStep | None) -> str:
+    """Run the steps; what kept them from being run, or nothing."""
     if simulation.state == _core.RunState.STOPPED:
         return "the simulation is stopped: start it first, with ~unpause"
     if simulation.state != _core.RunState.PAUSED:
@@ -32,10 +32,10 @@ def _step(simulation: Any, passes: int, lock_step: LockStep | None) -> str:
     if interruption.allowed:
         return "the simulation is being stepped already, by another request or around the script that asks"
     try:
-        interruption.allowed = True  # so that a request for many passes does not keep the simulator from ending
-        for done in range(passes):
+        interruption.allowed = True  # so that a request for many steps does not keep the simulator from ending
+        for done in range(steps):
             if done and simulation.has_requests:
-                return f"broken off after {done} passes by a request to start, pause or stop"
+                return f"broken off after {done} steps by a request to start, pause or stop"
             if lock_step and (problem := lock_step.wait()):
                 return problem
             simulation.step()

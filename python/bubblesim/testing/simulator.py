@@ -41,14 +41,14 @@ class Simulator:
 
         :param bag: what it writes.
         :param scene: name of a scene, or path of an .sdf file.
-        :param lockstep: the topics that a controller publishes once for each pass.
+        :param lockstep: the topics that a controller publishes once for each step.
         :param options: more options of the node.
         :raises RunError: with what it says, when it does not start.
         """
         self.time = 0.0
         self.bag = bag
         self._programs = programs
-        self._time_step = 0.0  # s; unknown before the first pass
+        self._time_step = 0.0  # s; unknown before the first step
         steps = [argument for topic in lockstep for argument in ("--lockstep", topic)]
         self._node = programs.start(
             "simulator",
@@ -60,19 +60,19 @@ class Simulator:
         self._state = self._client("get_object_state", "bubblesim_msgs/GetObjectState")
 
     def run(self, seconds: float) -> None:
-        """Let so much simulated time pass; with `lockstep`, each pass waits for the controller's answer.
+        """Let so much simulated time pass; with `lockstep`, each step waits for the controller's answer.
 
         :raises RunError: when the controller does not answer any more, or a program has ended; with what it said last.
         """
         end = self.time + seconds
         while self.time < end - _TOLERANCE:
             left = round((end - self.time) / self._time_step) if self._time_step else 1
-            self._run_passes(min(max(left, 1), _PASSES_IN_A_CALL))
+            self._run_steps(min(max(left, 1), _PASSES_IN_A_CALL))
 
-    def _run_passes(self, passes: int) -> None:
+    def _run_steps(self, steps: int) -> None:
         before = self.time
         try:
-            answer = self._step.call(passes=passes)
+            answer = self._step.call(steps=steps)
         except ConnectionError:
             self._programs.check()
             raise
@@ -80,7 +80,7 @@ class Simulator:
         if not answer["success"]:
             self._programs.check()  # one that has ended is the better reason
             raise RunError(answer["status_message"])
-        self._time_step = self._time_step or (self.time - before) / passes
+        self._time_step = self._time_step or (self.time - before) / steps
 
     def position(self, path: str) -> tuple[float, float, float]:
         """Where an object is, metres in the world's frame.

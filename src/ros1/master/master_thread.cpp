@@ -57,7 +57,7 @@ struct MasterThread::Shared {
   std::deque<Job> jobs;
   std::atomic<State> state{State::kTrying};   // written under the mutex, so that waiting for it works
   std::uint64_t answers = 0;                  // of the master, as far as check() knows
-  std::optional<std::uint64_t> silent_after;  // that many, run() lost its patience
+  std::optional<std::uint64_t> silent_after;  // that many, run() lost its deadline
   bool said_absent = false;
   bool first_answer_taken = false;  // wait_for_first_answer() has returned
   std::string refusal;
@@ -148,7 +148,7 @@ void MasterThread::Shared::work() {
         jobs.pop_front();
       }
     }
-    run_safely([this, &job] { return (job ? job : hooks.in_passing)(), true; });
+    run_safely([this, &job] { return (job ? job : hooks.on_idle)(), true; });
   }
 }
 
@@ -217,7 +217,7 @@ void MasterThread::post(Job job) {
   shared_->changed.notify_all();
 }
 
-bool MasterThread::run(Job job, std::chrono::milliseconds patience) {
+bool MasterThread::run(Job job, std::chrono::milliseconds deadline) {
   const auto done = std::make_shared<bool>(false);
   std::unique_lock lock(shared_->mutex);
   const auto is_absent = [this] { return shared_->state == State::kTrying || shared_->state == State::kAbsent; };
@@ -234,7 +234,7 @@ bool MasterThread::run(Job job, std::chrono::milliseconds patience) {
   for (;;) {
     const std::uint64_t before = shared_->answers;  // a slow machine is no silent master
     const auto is_over = [&] { return *done || shared_->stopping || is_absent() || shared_->answers != before; };
-    const bool heard = shared_->changed.wait_for(lock, patience, is_over);
+    const bool heard = shared_->changed.wait_for(lock, deadline, is_over);
     if (*done) return true;
     if (!heard) shared_->silent_after = before;
     if (!heard || shared_->stopping || is_absent()) return false;

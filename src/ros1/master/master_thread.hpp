@@ -29,7 +29,7 @@ class MasterThread {
     std::function<std::string()> refusal;
     Job on_absent;     ///< once, if the first try fails or takes too long
     Job on_connected;  ///< once roscpp is started, before any job
-    Job in_passing;    ///< while connected, whenever check found the master
+    Job on_idle;       ///< while connected, whenever check found the master
     Job on_leaving;    ///< before roscpp is shut down, when it was connected and the master was there when last asked
   };
 
@@ -57,8 +57,8 @@ class MasterThread {
   void post(Job job);
 
   /// Posts `job` and waits until it has run. False when there is no master, or when it has not answered anything for
-  /// `patience`; the job runs later then, and calls before the master's next answer are not even posted.
-  bool run(Job job, std::chrono::milliseconds patience);
+  /// `deadline`; the job runs later then, and calls before the master's next answer are not even posted.
+  bool run(Job job, std::chrono::milliseconds deadline);
 
   /// Ends the node and the thread, within 2 s; any thread may call it. False if a call that cannot be interrupted (a
   /// name lookup) keeps the thread alive: then nothing that jobs and roscpp refer to may be destroyed.

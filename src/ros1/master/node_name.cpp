@@ -49,7 +49,7 @@ bool takes_connections(const std::string& uri) {
   std::uint32_t port = 0;
   if (!ros::network::splitURI(uri, host, port)) return false;
   try {
-    const TimedSocket socket(host, port, Patience(Patience::Clock::now() + kAnswerTime));
+    const TimedSocket socket(host, port, Deadline(Deadline::Clock::now() + kAnswerTime));
     return true;
   } catch (const std::runtime_error&) {
     return false;
@@ -74,8 +74,8 @@ void end_other_node_of_this_name() {
   arguments[0] = ros::this_node::getName();
   arguments[1] = "another node takes its name";
   TimedClient(host, port).call("shutdown", arguments);
-  const auto end = Patience::Clock::now() + kTimeToEnd;
-  while (takes_connections(uri) && Patience::Clock::now() < end) std::this_thread::sleep_for(kBetweenLooks);
+  const auto end = Deadline::Clock::now() + kTimeToEnd;
+  while (takes_connections(uri) && Deadline::Clock::now() < end) std::this_thread::sleep_for(kBetweenLooks);
 }
 
 bool master_knows_this_node() { return registered_uri() == ros::XMLRPCManager::instance()->getServerURI(); }

@@ -32,8 +32,8 @@ Addresses look_up(const std::string& host, std::uint32_t port) {
 
 }  // namespace
 
-TimedSocket::TimedSocket(const std::string& host, std::uint32_t port, Patience patience)
-    : patience_(std::move(patience)) {
+TimedSocket::TimedSocket(const std::string& host, std::uint32_t port, Deadline deadline)
+    : patience_(std::move(deadline)) {
   const Addresses addresses = look_up(host, port);
   int error = ENOTCONN;
   // `localhost` may be two addresses, of which the server listens on one.

@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "master/patience.hpp"
+#include "master/deadline.hpp"
 
 namespace bubblesim {
 
-/// A TCP connection that never waits longer than its user's patience lasts.
+/// A TCP connection that never waits longer than its user's deadline lasts.
 class TimedSocket {
  public:
   struct TimedOut : std::runtime_error {
@@ -18,7 +18,7 @@ class TimedSocket {
   };
 
   /// Connects. As read() and write(), it throws TimedOut, or std::runtime_error that says what went wrong.
-  TimedSocket(const std::string& host, std::uint32_t port, Patience patience);
+  TimedSocket(const std::string& host, std::uint32_t port, Deadline deadline);
   ~TimedSocket();
   TimedSocket(const TimedSocket&) = delete;
   TimedSocket& operator=(const TimedSocket&) = delete;
@@ -30,7 +30,7 @@ class TimedSocket {
  private:
   void wait_for(short event);
 
-  const Patience patience_;
+  const Deadline patience_;
   int descriptor_ = -1;
 };
 

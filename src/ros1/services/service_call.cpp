@@ -111,12 +111,12 @@ ServiceError other_type(const std::string& service, const std::string& name, con
 }
 
 WireBuffer call_service(const std::string& name, const ServiceType& type, WireBuffer request,
-                        const Patience& patience) {
+                        const Deadline& deadline) {
   if (request.size() > std::numeric_limits<std::uint32_t>::max()) throw ServiceError("the request has 4 GiB or more");
   const std::optional<Address> address = look_up(name);
   if (!address) throw ServiceError("no service '" + name + "'" + did_you_mean(name, known_services()));
   try {
-    TimedSocket socket(address->host, address->port, patience);
+    TimedSocket socket(address->host, address->port, deadline);
     write_header(socket, name);
     ros::Header header = read_header(socket);
     check_header(name, header, type);
@@ -134,11 +134,11 @@ WireBuffer call_service(const std::string& name, const ServiceType& type, WireBu
   }
 }
 
-bool find_service(const std::string& name, const Patience& patience) {
+bool find_service(const std::string& name, const Deadline& deadline) {
   try {
     const std::optional<Address> address = look_up(name);
     if (!address) return false;
-    const TimedSocket reachable(address->host, address->port, patience);
+    const TimedSocket reachable(address->host, address->port, deadline);
     return true;
   } catch (const std::runtime_error&) {  // no master, or a server that died without telling it
     return false;

@@ -23,7 +23,7 @@ using messages::ServiceError;
 using messages::ServiceType;
 using messages::WireBuffer;
 using messages::WireView;
-using Clock = Patience::Clock;
+using Clock = Deadline::Clock;
 
 constexpr std::size_t kRetiredKept = 64;
 constexpr int kMostNested = 16;
@@ -33,9 +33,9 @@ constexpr double kOneLook = 0.5;        // [s]
 // What a thread gets for telling that it ran out of time, beyond that time.
 constexpr std::chrono::milliseconds kGrace{100};
 
-Patience patience_for(double timeout) {
+Deadline patience_for(double timeout) {
   const std::chrono::duration<double> seconds(std::min(timeout, kLongestWait));
-  return Patience(Clock::now() + std::chrono::duration_cast<Clock::duration>(seconds));
+  return Deadline(Clock::now() + std::chrono::duration_cast<Clock::duration>(seconds));
 }
 
 std::string seconds_text(double seconds) {
@@ -138,16 +138,16 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
   };
   const auto call = std::make_shared<Call>();
   call->request = std::move(request);
-  const Patience patience = patience_for(timeout);
+  const Deadline deadline = patience_for(timeout);
   const bool finished = run_beside(
-      [call, patience, service = name, &wanted = type] {
+      [call, deadline, service = name, &wanted = type] {
         try {
-          call->response = call_service(service, wanted, std::move(call->request), patience);
+          call->response = call_service(service, wanted, std::move(call->request), deadline);
         } catch (...) {
           call->error = std::current_exception();
         }
       },
-      patience);
+      deadline);
   if (!finished) throw ServiceError("service '" + name + "' not called: the ROS master does not answer");
   if (!call->error) return std::move(call->response);
   try {
@@ -162,13 +162,13 @@ bool Services::wait_for(const std::string& name, double timeout) {
   if (!(timeout >= 0)) throw std::invalid_argument("the timeout for a service must not be negative");
   if (find_own(resolved)) return true;
   const auto found = std::make_shared<bool>(false);
-  const Patience patience = patience_for(timeout > 0 ? timeout : kOneLook);
-  const auto look = [found, patience, resolved, once = timeout == 0] {
-    while (!(*found = find_service(resolved, patience)) && !once && !patience.over()) {
-      std::this_thread::sleep_for(patience.slice());
+  const Deadline deadline = patience_for(timeout > 0 ? timeout : kOneLook);
+  const auto look = [found, deadline, resolved, once = timeout == 0] {
+    while (!(*found = find_service(resolved, deadline)) && !once && !deadline.over()) {
+      std::this_thread::sleep_for(deadline.slice());
     }
   };
-  return run_beside(look, patience) && *found;
+  return run_beside(look, deadline) && *found;
 }
 
 void Services::silence() {
@@ -189,8 +189,8 @@ std::shared_ptr<ServiceServer> Services::find_own(const std::string& name) const
 }
 
 /// Runs `work` on a thread of its own and answers requests until it is done; false when it is not even then done when
-/// `patience` is over, because only the master can hold it up longer.
-bool Services::run_beside(std::function<void()> work, Patience patience) {
+/// `deadline` is over, because only the master can hold it up longer.
+bool Services::run_beside(std::function<void()> work, Deadline deadline) {
   if (nested_ >= kMostNested) {
     throw ServiceError(std::to_string(kMostNested) +
                        " service calls wait for each other: do services call in a circle?");
@@ -198,7 +198,7 @@ bool Services::run_beside(std::function<void()> work, Patience patience) {
   if (*calls_ - nested_ >= kMostLeftBehind) return false;
   const auto done = std::make_shared<std::atomic<bool>>(false);
   ++*calls_;
-  // Ends by itself when patience is over, or when the master answers; what it needs then is its own.
+  // Ends by itself when deadline is over, or when the master answers; what it needs then is its own.
   start_without_signals([work = std::move(work), done, queue = queue_, calls = calls_] {
     work();
     *done = true;
@@ -211,10 +211,10 @@ bool Services::run_beside(std::function<void()> work, Patience patience) {
     return *done || interrupted;
   };
   ++nested_;
-  const bool finished = queue_->serve_until(is_over, patience.end() + kGrace);
+  const bool finished = queue_->serve_until(is_over, deadline.end() + kGrace);
   --nested_;
   if (interrupted && !*done) {
-    patience.give_up();
+    deadline.give_up();
     throw ServiceError("the call was given up: the simulator is ending");
   }
   return finished;

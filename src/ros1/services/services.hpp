@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "master/patience.hpp"
+#include "master/deadline.hpp"
 #include "services/request_queue.hpp"
 #include "services/service_server.hpp"
 #include "topics/endpoint_table.hpp"
@@ -59,7 +59,7 @@ class Services {
   std::shared_ptr<ServiceServer> find_own(const std::string& name) const;
   void take_off(std::shared_ptr<ServiceServer> server);
   void take_off_leaving();
-  bool run_beside(std::function<void()> work, Patience patience);
+  bool run_beside(std::function<void()> work, Deadline deadline);
 
   MasterThread& master_;
   MasterWatch& watch_;

@@ -15,7 +15,7 @@ using Level = diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::chrono::seconds kPeriod{1};
 constexpr double kSlow = 0.9;      // of the wanted speed
-constexpr double kStanding = 2.0;  // s without the end of a pass that a running simulation should not have
+constexpr double kStanding = 2.0;  // s without the end of a step that a running simulation should not have
 
 std::string two_digits(double number) {
   char text[32];
@@ -23,7 +23,7 @@ std::string two_digits(double number) {
   return text;
 }
 
-/// Of the passes in the report; not a number when there are none.
+/// Of the steps in the report; not a number when there are none.
 double real_time_factor(const RunReport& report) {
   return report.wall_time > 0 ? report.simulated_time / report.wall_time : std::nan("");
 }
@@ -62,8 +62,8 @@ void Diagnostics::tell_simulation(Status& status) {
     status.mergeSummary(Level::WARN,
                         "real-time factor " + two_digits(factor) + ", wanted " + two_digits(report.wanted_speed));
   }
-  if (report.since_last_pass > kStanding) {
-    status.mergeSummary(Level::WARN, "no pass has ended for " + two_digits(report.since_last_pass) + " s");
+  if (report.since_last_step > kStanding) {
+    status.mergeSummary(Level::WARN, "no step has ended for " + two_digits(report.since_last_step) + " s");
   }
   if (report.disabled_scripts > 0) {
     status.mergeSummary(Level::ERROR, "child scripts disabled by an error: " + std::to_string(report.disabled_scripts));
@@ -75,9 +75,9 @@ void Diagnostics::tell_simulation(Status& status) {
   status.add("Simulation time (s)", report.simulation_time);
   status.add("Real-time factor", std::isnan(factor) ? "" : two_digits(factor));
   status.add("Wanted real-time factor", paced ? two_digits(report.wanted_speed) : "max");
-  status.add("Passes", report.passes);
+  status.add("Steps", report.steps);
   status.add("Step time, mean (ms)",
-             report.passes == 0 ? 0.0 : 1e3 * report.step_time / static_cast<double>(report.passes));
+             report.steps == 0 ? 0.0 : 1e3 * report.step_time / static_cast<double>(report.steps));
   status.add("Step time, longest (ms)", 1e3 * report.longest_step);
   status.add("Script errors", report.script_errors);
   status.add("Measurements of sensors", report.measurements);

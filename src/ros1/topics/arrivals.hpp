@@ -37,9 +37,9 @@ class Arrivals {
 };
 
 /// Notes what comes into it.
-class NotingQueue final : public ros::CallbackQueue {
+class NotifyingQueue final : public ros::CallbackQueue {
  public:
-  explicit NotingQueue(std::shared_ptr<Arrivals> arrivals) : arrivals_(std::move(arrivals)) {}
+  explicit NotifyingQueue(std::shared_ptr<Arrivals> arrivals) : arrivals_(std::move(arrivals)) {}
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override {
     ros::CallbackQueue::addCallback(callback, owner);

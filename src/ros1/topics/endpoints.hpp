@@ -3,7 +3,7 @@
 //
 // They stand on roscpp's TopicManager rather than on ros::NodeHandle: every ros::Publisher::publish() takes a lock that
 // roscpp holds during calls to the master, so a master that hangs would stop the simulation; and no C++ message class
-// exists for the bytes that pass here.
+// exists for the bytes that step here.
 //
 // register_*/unregister_* belong to the master thread, everything else to the simulation's thread.
 #pragma once

@@ -64,7 +64,7 @@ void Topics::subscribe(EndpointId id, const std::string& topic, const MessageTyp
   put_on(subscriber);
 }
 
-void Topics::give_way(EndpointId id) {
+void Topics::yield_topic(EndpointId id) {
   giving_way_.try_emplace(id);
   const auto publisher = publishers_.find(id);
   settle(publisher != publishers_.end() ? publisher->second->topic()

@@ -31,7 +31,7 @@ class Topics {
                  std::uint32_t queue_size, bool latch);
   void subscribe(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
                  std::uint32_t queue_size, messages::MessageCallback callback, bool tcp_no_delay);
-  void give_way(messages::EndpointId id);
+  void yield_topic(messages::EndpointId id);
   bool wants_messages(messages::EndpointId publisher) const;
   bool has_publisher(messages::EndpointId subscriber) const;
   WaitingCount waiting(messages::EndpointId subscriber) const;

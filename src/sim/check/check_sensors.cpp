@@ -102,7 +102,7 @@ void check_any_sensor(Checker& checker, const SensorDescription& sensor, const s
   checker.at(sensor.source, path + "/" + sensor.name);
   checker.check_pose(sensor.pose);
   checker.require(sensor.update_rate >= 0 && within(sensor.update_rate, 1e5), "the update rate",
-                  text(sensor.update_rate) + " Hz", "0 (every pass) to 1e5 Hz");
+                  text(sensor.update_rate) + " Hz", "0 (every step) to 1e5 Hz");
   std::visit([&checker](const auto& kind) { check_sensor(checker, kind); }, sensor.kind);
 }
 

@@ -12,7 +12,7 @@ namespace bubblesim {
 constexpr double kMaxDistance = 1e6;      ///< m from the origin
 constexpr double kMaxSize = 1e5;          ///< m, of shapes and ranges
 constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
-constexpr double kMinTimeStep = 1e-4;     ///< s, of a pass
+constexpr double kMinTimeStep = 1e-4;     ///< s, of a step
 constexpr double kMaxTimeStep = 10;       ///< s
 constexpr double kFall = 1000;            ///< m; what falls deeper under everything else is gone
 constexpr double kMinPhysicsStep = 1e-5;  ///< s

@@ -99,14 +99,14 @@ void check_model(Checker& checker, const ModelDescription& model) {
 
 void check_scene(Checker& checker, const SceneDescription& scene) {
   checker.at(scene.source, "");
-  checker.require(scene.physics_step >= kMinPhysicsStep && scene.physics_step <= kMaxPhysicsStep, "the physics step",
-                  text(scene.physics_step), "1e-5 to 1 s");
-  checker.require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step of a pass", text(scene.time_step),
+  checker.require(scene.substep >= kMinPhysicsStep && scene.substep <= kMaxPhysicsStep, "the physics substep",
+                  text(scene.substep), "1e-5 to 1 s");
+  checker.require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step of a step", text(scene.time_step),
                   "1e-4 to 10 s");
-  const double substeps = scene.time_step / scene.physics_step;
+  const double substeps = scene.time_step / scene.substep;
   checker.require(checker.found_any() || (substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6),
-                  "the time step of a pass", text(scene.time_step) + " s",
-                  "a whole number of physics steps (" + text(scene.physics_step) + " s)");
+                  "the time step of a step", text(scene.time_step) + " s",
+                  "a whole number of physics substeps (" + text(scene.substep) + " s)");
   checker.require(within(scene.gravity, 1e4), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
   check_environment(checker, scene.environment);
   for (const ModelDescription& model : scene.models) check_model(checker, model);

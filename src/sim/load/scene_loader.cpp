@@ -16,10 +16,9 @@
 #include "check/scene_check.hpp"
 #include "load/find/model_folders.hpp"
 #include "load/find/scene_folders.hpp"
-#include "load/own_elements.hpp"
+#include "load/load_context.hpp"
 #include "load/parser_messages.hpp"
 #include "load/scene_limits.hpp"
-#include "load/scene_reading.hpp"
 #include "load/scene_text.hpp"
 #include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_models.hpp"
@@ -28,6 +27,7 @@
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf/sdf_state.hpp"
 #include "load/sdf/sdf_visuals.hpp"
+#include "load/sdf_extensions.hpp"
 #include "load/urdf/urdf_reading.hpp"
 
 namespace bubblesim {
@@ -177,7 +177,7 @@ class SceneLoader {
     const Source file{reading_.xml().file(), 0};
     for (const std::string& message : messages) {
       if (failed) reading_.report(file, "", message);
-      if (!failed && problems_.empty()) SceneReading::warn(file, "", message);
+      if (!failed && problems_.empty()) LoadContext::warn(file, "", message);
     }
   }
 
@@ -220,12 +220,12 @@ class SceneLoader {
                         did_you_mean(policy, {"pause", "reset", "remove"}));
   }
 
-  /// The longest pass of whole physics steps that is not over the default, or a single one.
+  /// The longest step of whole physics substeps that is not over the default, or a single one.
   static void fit_time_step(SceneDescription& scene) {
-    if (!(scene.physics_step >= kMinPhysicsStep && scene.physics_step <= kMaxPhysicsStep)) return;  // told later
-    const double steps = scene.time_step / scene.physics_step;
+    if (!(scene.substep >= kMinPhysicsStep && scene.substep <= kMaxPhysicsStep)) return;  // told later
+    const double steps = scene.time_step / scene.substep;
     const bool fits = std::abs(steps - std::round(steps)) < 1e-6;
-    if (!fits) scene.time_step = scene.physics_step * std::max(1.0, std::floor(steps + 1e-6));
+    if (!fits) scene.time_step = scene.substep * std::max(1.0, std::floor(steps + 1e-6));
   }
 
   void read_world(const sdf::World& world, SceneDescription& scene) {
@@ -233,7 +233,7 @@ class SceneLoader {
     if (!world.Name().empty()) scene.world_name = world.Name();
     scene.plugins = read_plugins(world.Element());
     scene.gravity = world.Gravity();
-    if (const sdf::Physics* physics = world.PhysicsDefault()) scene.physics_step = physics->MaxStepSize();
+    if (const sdf::Physics* physics = world.PhysicsDefault()) scene.substep = physics->MaxStepSize();
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) {
       scene.time_step = *step;
     } else {
@@ -257,7 +257,7 @@ class SceneLoader {
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (model.Static() && model.LinkCount() == 0 && model.ModelCount() == 0) {
-        SceneReading::warn(source_of(model.Element()), "/" + model.Name(), "has no link and is left out");
+        LoadContext::warn(source_of(model.Element()), "/" + model.Name(), "has no link and is left out");
         continue;
       }
       scene.models.push_back(read_model(model, reading_.resolved(model, "/" + model.Name()), reading_));
@@ -265,7 +265,7 @@ class SceneLoader {
     apply_state(world, scene.models);
   }
 
-  SceneReading reading_;
+  LoadContext reading_;
   std::vector<Problem>& problems_ = reading_.problems();
   bool is_read_ = false;  // SDFormat found nothing wrong
 };

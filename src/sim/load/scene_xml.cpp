@@ -11,7 +11,7 @@
 #include <regex>
 #include <string_view>
 
-#include "load/own_elements.hpp"
+#include "load/sdf_extensions.hpp"
 #include "load/xml_fault.hpp"
 #include "load/xml_lines.hpp"
 

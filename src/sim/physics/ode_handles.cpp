@@ -38,6 +38,6 @@ void prepare_this_thread() {
   static_cast<void>(allocated);
 }
 
-bool solver_complained() { return std::exchange(complained, false); }
+bool solver_warned() { return std::exchange(complained, false); }
 
 }  // namespace bubblesim::ode

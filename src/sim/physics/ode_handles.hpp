@@ -33,6 +33,6 @@ using ThreadingHandle =
 void prepare_this_thread();
 
 /// Whether a solver of ODE complained on this thread since this was asked last.
-bool solver_complained();
+bool solver_warned();
 
 }  // namespace bubblesim::ode

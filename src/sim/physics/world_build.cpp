@@ -70,7 +70,7 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
                      link.inertia_products.Z());
   ode::BodyHandle body(dBodyCreate(world));
   dBodySetMass(body.get(), &mass);
-  dBodySetGravityMode(body.get(), link.has_weight ? 1 : 0);
+  dBodySetGravityMode(body.get(), link.gravity_enabled ? 1 : 0);
   place_body(body.get(), link, pose);
   return body;
 }

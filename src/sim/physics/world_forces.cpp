@@ -96,8 +96,8 @@ const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides) {
   return meter.get();
 }
 
-std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child) {
-  auto meter = std::make_unique<WrenchMeter>();
+std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
+  auto meter = std::make_unique<WrenchAccumulator>();
   for (int i = 0; i < dBodyGetNumJoints(child); ++i) {
     dJointID joint = dBodyGetJoint(child, i);
     const dBodyID first = dJointGetBody(joint, 0);

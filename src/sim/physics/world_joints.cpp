@@ -64,7 +64,7 @@ std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& jo
 
 }  // namespace
 
-Pose World::joint_moving_pose(ObjectId joint) const {
+Pose World::joint_child_pose(ObjectId joint) const {
   const PlacedJoint& placed = placed_joint(*state_, joint);
   return link_pose(state_->link(placed.child)) * placed.in_child;
 }
@@ -79,7 +79,7 @@ double World::joint_velocity(ObjectId joint, int axis) const {
   return found.joint.velocity(found.index);
 }
 
-double World::motor_force(ObjectId joint, int axis) {
+double World::motor_effort(ObjectId joint, int axis) {
   const int index = joint_axis(*state_, joint, axis).index;
   const Object& object = state_->tree.at(joint);
   PlacedJoint& placed = state_->models.at(state_->tree.outermost_model_of(joint)).joints[object.index];

@@ -159,7 +159,7 @@ void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) 
   set_velocity(object, velocity);
 }
 
-std::vector<Light> World::carried_lights() const {
+std::vector<Light> World::link_lights() const {
   std::vector<Light> lights;
   for (const auto& [id, model] : state_->models) {
     for (std::size_t i = 0; i < model.links.size(); ++i) {

@@ -39,7 +39,7 @@ PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
 
 }  // namespace
 
-void World::drive_in_plane(ObjectId model, double x, double y, double turning) {
+void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
   const Object& object = state_->tree.at(model);
   const std::string name = state_->shown(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {

@@ -51,7 +51,7 @@ struct JointReport {
 };
 
 /// What a joint transmits, told by those of ODE's joints that it consists of. These keep pointers to their reports.
-struct WrenchMeter {
+struct WrenchAccumulator {
   std::deque<JointReport> reports;
   Wrench sum;  // over the steps of the last advance(), N s and N m s
 };
@@ -74,7 +74,7 @@ struct PlacedJoint {
   ObjectId child = kNoObject;
   Pose in_parent;
   Pose in_child;
-  std::unique_ptr<WrenchMeter> meter;                     // null when no sensor wants to know
+  std::unique_ptr<WrenchAccumulator> meter;               // null when no sensor wants to know
   std::vector<std::unique_ptr<MotorMeter>> motor_meters;  // of axes that somebody asked for
 };
 
@@ -160,7 +160,7 @@ struct World::State {
   double age = 0;                         // s since it was built
   int steps_to_iterate = 0;               // after the exact solver found no solution
   unsigned long random;                   // state of the iterative solver's random numbers
-  std::deque<StateSample> history;        // the last passes
+  std::deque<StateSample> history;        // the last steps
   std::vector<ObjectId> lost_models;      // those that diverged
   bool diverged = false;
   bool interrupted = false;  // ODE threw in the middle of a step
@@ -196,7 +196,7 @@ void find_contacts(World::State& state, double step);
 void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
                    const dContactGeom& contact);
 /// Has ODE report on a joint from now on.
-std::unique_ptr<WrenchMeter> make_meter(dBodyID parent, dBodyID child);
+std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child);
 /// The meter of an axis's motor, which measures from now on; null when it has no motor.
 const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides);
 /// Has its motor meters know where they are, before a step.

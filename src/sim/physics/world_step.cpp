@@ -43,7 +43,7 @@ void check_bodies(World::State& state) {
   throw Diverged("the physics diverged at " + state.tree.path(first->object) + ": position " +
                  text(to_vector(dBodyGetPosition(body))) + " m, velocity " + text(velocity.linear) + " m/s, " +
                  text(velocity.angular) +
-                 " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics step");
+                 " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics substep");
 }
 
 /// ODE keeps one state of random numbers for all worlds and threads, which its iterative solver draws from: each world
@@ -72,7 +72,7 @@ void substep(World::State& state, double step) {
       state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
     } else {
       dWorldStep(state.world.get(), step);
-      if (ode::solver_complained()) state.steps_to_iterate = kStepsToIterate;
+      if (ode::solver_warned()) state.steps_to_iterate = kStepsToIterate;
     }
     gather_forces(state, step);
   } catch (const Diverged&) {
@@ -100,7 +100,7 @@ void remember(World::State& state, double duration) {
 
 void World::advance(double duration, double step) {
   if (!(step >= kMinPhysicsStep && step <= kMaxPhysicsStep)) {
-    throw InvalidInput("a physics step of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
+    throw InvalidInput("a physics substep of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
   }
   if (!(duration >= 0 && duration <= kMaxDuration)) {
     throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");

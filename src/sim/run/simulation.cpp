@@ -15,11 +15,11 @@
 
 namespace bubblesim {
 
-void Participant::actuate(World&, double) {}
-void Participant::sense(const World&, double) {}
-void Participant::publish(const World&, double) {}
-void Participant::model_added(World&, ObjectId) {}
-void Participant::model_removing(World&, ObjectId) {}
+void System::actuate(World&, double) {}
+void System::sense(const World&, double) {}
+void System::publish(const World&, double) {}
+void System::model_added(World&, ObjectId) {}
+void System::model_removing(World&, ObjectId) {}
 
 struct Simulation::SensorSlot {
   ObjectId id = kNoObject;
@@ -70,10 +70,10 @@ void Simulation::make_all_sensors() {
 
 Simulation::~Simulation() = default;
 
-void Simulation::add(Participant& participant) { participants_.push_back(&participant); }
+void Simulation::add(System& system) { systems_.push_back(&system); }
 
-void Simulation::drain() {
-  for (Participant* participant : participants_) participant->drain();
+void Simulation::process_input() {
+  for (System* system : systems_) system->process_input();
 }
 
 namespace {
@@ -90,10 +90,10 @@ class Noted {
   bool& flag_;
 };
 
-/// Seconds of a physics step when scripts have changed the time step: a whole number of them make a pass.
+/// Seconds of a physics substep when scripts have changed the time step: a whole number of them make a step.
 double substep(const SceneDescription& scene) {
   constexpr double kRounding = 1e-6;
-  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.physics_step - kRounding));
+  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.substep - kRounding));
 }
 
 }  // namespace
@@ -103,33 +103,33 @@ void Simulation::set_time_step(double seconds) {
     throw InvalidInput("a time step of " + text(seconds) + " s is not usable: it must be from 1e-4 to 10 s");
   }
   time_before_ = time();
-  passes_before_ = passes_;
+  steps_before_ = steps_;
   scene_.time_step = seconds;
 }
 
 void Simulation::step() {
   if (stepping_.is_mine()) {
-    throw std::logic_error("a pass is being run: step() cannot be called by what takes part in it");
+    throw std::logic_error("a step is being run: step() cannot be called by what takes part in it");
   }
   const AccessLock::Hold alone(stepping_);
-  drain();
+  process_input();
   const AccessLock::Hold hold(world_.access());
-  const Noted in_pass(in_pass_);
-  const double now = time();  // a reset while draining sets it back
-  for (Participant* participant : participants_) participant->actuate(world_, now);
-  advance_physics(scene_.time_step == first_time_step_ ? scene_.physics_step : substep(scene_));
+  const Noted in_pass(in_step_);
+  const double now = time();  // a reset by input sets it back
+  for (System* system : systems_) system->actuate(world_, now);
+  advance_physics(scene_.time_step == first_time_step_ ? scene_.substep : substep(scene_));
   update_sensors();
-  for (Participant* participant : participants_) participant->sense(world_, now);
-  for (Participant* participant : participants_) participant->publish(world_, now);
-  ++passes_;
+  for (System* system : systems_) system->sense(world_, now);
+  for (System* system : systems_) system->publish(world_, now);
+  ++steps_;
 }
 
 void Simulation::check_may_change() const {
-  if (!in_pass_) return;
+  if (!in_step_) return;
   if (!stepping_.is_mine()) {
-    throw std::logic_error("another thread is in the middle of a pass of this simulation: change it between passes");
+    throw std::logic_error("another thread is in the middle of a step of this simulation: change it between steps");
   }
-  throw std::logic_error("a pass is being run: the world can be changed before its actuation or after it");
+  throw std::logic_error("a step is being run: the world can be changed before its actuation or after it");
 }
 
 void Simulation::reset_world() {
@@ -142,7 +142,7 @@ void Simulation::reset_world() {
     sensors_[i].due = before[i].due;
     sensors_[i].wanted = before[i].wanted;
   }
-  for (Participant* participant : participants_) participant->reset();
+  for (System* system : systems_) system->reset();
 }
 
 void Simulation::reset() {
@@ -150,10 +150,10 @@ void Simulation::reset() {
   check_may_change();
   world_.reset();
   make_all_sensors();
-  passes_ = passes_before_ = 0;
+  steps_ = steps_before_ = 0;
   time_before_ = 0;
   scene_.time_step = first_time_step_;
-  for (Participant* participant : participants_) participant->reset();
+  for (System* system : systems_) system->reset();
 }
 
 ObjectId Simulation::add_model(ModelDescription model) {
@@ -162,7 +162,7 @@ ObjectId Simulation::add_model(ModelDescription model) {
   const ObjectId id = world_.add_model(std::move(model));
   rays_->add_model(world_, id, world_.description(id));
   make_sensors(id);
-  for (Participant* participant : participants_) participant->model_added(world_, id);
+  for (System* system : systems_) system->model_added(world_, id);
   return id;
 }
 
@@ -170,11 +170,11 @@ void Simulation::remove_model(ObjectId model) {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.check_removable(model);
-  take_out(model);
+  remove_model_now(model);
 }
 
-void Simulation::take_out(ObjectId model) {
-  for (Participant* participant : participants_) participant->model_removing(world_, model);
+void Simulation::remove_model_now(ObjectId model) {
+  for (System* system : systems_) system->model_removing(world_, model);
   const auto gone = [&](const SensorSlot& slot) { return world_.tree().outermost_model_of(slot.id) == model; };
   sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
   rays_->remove_model(model);
@@ -182,7 +182,7 @@ void Simulation::take_out(ObjectId model) {
 }
 
 void Simulation::update_sensors() {
-  // Half a pass of tolerance: a due time that lies on a pass must not slip to the next by rounding.
+  // Half a step of tolerance: a due time that lies on a step must not slip to the next by rounding.
   const double until = time() + scene_.time_step / 2;
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
@@ -224,7 +224,7 @@ std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
   return found.sensor->reading();
 }
 
-void Simulation::show_picture(ObjectId camera, const std::vector<std::uint8_t>& rgb) {
+void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>& rgb) {
   SensorSlot& found = slot(camera, "camera");
   const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
   if (image == nullptr) {
@@ -267,7 +267,7 @@ ProximityReading Simulation::measure_proximity(ObjectId sensor) {
 
 std::uint64_t Simulation::state_hash() const {
   Fnv1a hash;
-  hash.add(passes_);
+  hash.add(steps_);
   hash.add(seed_);
   hash.add(world_.state_hash());
   return hash.value();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The physics of a pass, and what comes of models that leave the world in it.
+// The physics of a step, and what comes of models that leave the world in it.
 #include <unistd.h>
 
 #include <cstdio>
@@ -30,15 +30,15 @@ void warn(const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.
 
 }  // namespace
 
-void Simulation::advance_physics(double physics_step) {
+void Simulation::advance_physics(double substep) {
   try {
-    world_.advance(scene_.time_step, physics_step);
+    world_.advance(scene_.time_step, substep);
   } catch (const Diverged& divergence) {
     handle(divergence);
   }
   for (const ObjectId model : world_.fallen_models()) {
     warn(world_.tree().path(model) + " fell off the world and is removed");
-    take_out(model);
+    remove_model_now(model);
   }
 }
 
@@ -49,11 +49,11 @@ void Simulation::handle(const Diverged& divergence) {
     warn(what + "; the world is put back to its start");
     world_.reset();
     make_all_sensors();
-    for (Participant* participant : participants_) participant->reset();
+    for (System* system : systems_) system->reset();
   } else if (scene_.on_divergence == OnDivergence::kRemove && !lost.empty()) {
     for (const ObjectId model : lost) {
       warn(what + "; " + world_.tree().path(model) + " is removed");
-      take_out(model);
+      remove_model_now(model);
     }
   } else {
     if (state_ == RunState::kRunning) state_ = RunState::kPaused;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a simulation is started, paused and stopped by those who do not run its passes.
+// How a simulation is started, paused and stopped by those who do not run its steps.
 #include <algorithm>
 #include <utility>
 
@@ -24,18 +24,18 @@ void Simulation::set_synchronous(bool synchronous) {
   if (!synchronous) triggers_ = 0;
 }
 
-void Simulation::trigger_pass() {
+void Simulation::trigger_step() {
   const std::lock_guard lock(requests_mutex_);
   if (synchronous_) ++triggers_;
 }
 
-bool Simulation::pass_is_due() const {
+bool Simulation::step_is_due() const {
   if (state_ != RunState::kRunning) return false;
   const std::lock_guard lock(requests_mutex_);
   return !synchronous_ || triggers_ > 0;
 }
 
-void Simulation::run_pass() {
+void Simulation::run_step() {
   {
     const std::lock_guard lock(requests_mutex_);
     if (triggers_ > 0) --triggers_;
@@ -75,7 +75,7 @@ void Simulation::carry_out(Request wanted) {
     case Request::kStart:
       state_ = RunState::kRunning;
       if (before == RunState::kStopped) {
-        for (Participant* participant : participants_) participant->start();
+        for (System* system : systems_) system->start();
       }
       return;
     case Request::kPause:
@@ -90,7 +90,7 @@ void Simulation::carry_out(Request wanted) {
         // It paused for that, and is put back now.
       }
       if (ends_at_stop_) return end();
-      for (Participant* participant : participants_) participant->stop();
+      for (System* system : systems_) system->stop();
       reset();
       state_ = RunState::kStopped;
       forget_triggers();

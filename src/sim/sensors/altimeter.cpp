@@ -12,7 +12,7 @@ class Altimeter final : public Sensor {
       : Sensor(AltimeterReading{}), description_(description), id_(id), start_(start) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     AltimeterReading reading{moment.world.pose(id_).Pos().Z() - start_, moment.world.velocity(id_).linear.Z()};
     distort(reading.height, description_.position_noise, moment, id_, 0);
     distort(reading.velocity, description_.velocity_noise, moment, id_, 1);

@@ -49,7 +49,7 @@ class Camera final : public Sensor {
     return image;
   }
 
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     auto& image = std::get<CameraImage>(measurement);
     moment.rays.refresh(moment.world);
     if (description_.color) shading_.place_lights(moment.world);

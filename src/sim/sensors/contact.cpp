@@ -14,7 +14,7 @@ class ContactSensor final : public Sensor {
       : Sensor(ContactReading{}), description_(std::move(description)), link_(link) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     std::vector<Contact> contacts = moment.world.contacts(link_);
     const auto foreign = [this](const Contact& contact) { return !watches(description_, contact.collision); };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), foreign), contacts.end());

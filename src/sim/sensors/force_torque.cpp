@@ -19,10 +19,10 @@ class ForceTorque final : public Sensor {
         child_(child) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     const World& world = moment.world;
     const Wrench wrench = world.joint_wrench(joint_);
-    const Vector3 lever = world.joint_moving_pose(joint_).Pos() - world.pose(id_).Pos();
+    const Vector3 lever = world.joint_child_pose(joint_).Pos() - world.pose(id_).Pos();
     const double sign = description_.of_child ? 1 : -1;
     const Quaternion turn = axes(world);
     ForceTorqueReading reading;

@@ -11,7 +11,7 @@ class Imu final : public Sensor {
   Imu(const ImuDescription& description, ObjectId id) : Sensor(ImuReading{}), description_(description), id_(id) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     const World& world = moment.world;
     ImuReading reading;
     reading.orientation = world.pose(id_).Rot();

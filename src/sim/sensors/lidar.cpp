@@ -46,7 +46,7 @@ class Lidar final : public Sensor {
     return scan;
   }
 
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     auto& scan = std::get<LidarScan>(measurement);
     moment.rays.refresh(moment.world);
     const Pose sensor = moment.world.pose(id_);
@@ -83,7 +83,7 @@ class Lidar final : public Sensor {
     }
   }
 
-  void distort(const Moment& moment, std::vector<float>& ranges) const {
+  void distort(const MeasurementContext& moment, std::vector<float>& ranges) const {
     Noise noise(description_.noise, moment, id_);
     if (!noise.active() && description_.resolution <= 0) return;
     for (float& range : ranges) {
@@ -104,7 +104,7 @@ class Lidar final : public Sensor {
 
 }  // namespace
 
-std::vector<Point> points_of(const LidarScan& scan) {
+std::vector<Point> to_point_cloud(const LidarScan& scan) {
   struct Turn {
     double cosine;
     double sine;

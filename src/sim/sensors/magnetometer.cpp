@@ -12,7 +12,7 @@ class Magnetometer final : public Sensor {
       : Sensor(MagnetometerReading{}), description_(description), field_(field), id_(id) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     MagnetometerReading reading{moment.world.pose(id_).Rot().RotateVectorReverse(field_)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       distort(reading.field[axis], description_.field_noise[axis], moment, id_, axis);

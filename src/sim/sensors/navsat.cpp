@@ -19,7 +19,7 @@ class NavSat final : public Sensor {
         earth_(origin.latitude, origin.longitude, origin.elevation) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     Vector3 place = to_east_north_up_.RotateVector(moment.world.pose(id_).Pos());
     Vector3 velocity = to_east_north_up_.RotateVector(moment.world.velocity(id_).linear);
     for (std::size_t axis = 0; axis < 3; ++axis) {

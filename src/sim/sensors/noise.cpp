@@ -53,7 +53,8 @@ double NormalSource::next() {
   return u * scale;
 }
 
-Noise::Noise(const NoiseDescription& description, const Moment& moment, ObjectId sensor, std::uint64_t channel)
+Noise::Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+             std::uint64_t channel)
     : description_(description),
       active_(description.mean != 0 || description.stddev > 0 || description.bias_mean != 0 ||
               description.bias_stddev > 0 || description.precision > 0),
@@ -70,7 +71,7 @@ double Noise::operator()(double value) {
   return noisy;
 }
 
-void distort(double& value, const NoiseDescription& description, const Moment& moment, ObjectId sensor,
+void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
              std::uint64_t channel) {
   Noise noise(description, moment, sensor, channel);
   if (noise.active()) value = noise(value);

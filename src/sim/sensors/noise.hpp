@@ -28,7 +28,8 @@ class NormalSource {
 class Noise {
  public:
   /// `channel` tells apart several noises of one sensor.
-  Noise(const NoiseDescription& description, const Moment& moment, ObjectId sensor, std::uint64_t channel = 0);
+  Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+        std::uint64_t channel = 0);
 
   /// False when values stay as they are.
   bool active() const { return active_; }
@@ -42,7 +43,7 @@ class Noise {
 };
 
 /// Noise of a measurement's single value.
-void distort(double& value, const NoiseDescription& description, const Moment& moment, ObjectId sensor,
+void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
              std::uint64_t channel);
 
 }  // namespace bubblesim

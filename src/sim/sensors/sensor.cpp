@@ -24,7 +24,7 @@ std::string_view kind_name(const Measurement& measurement) {
   return std::visit(Name{}, measurement);
 }
 
-void Sensor::update(const Moment& moment) {
+void Sensor::update(const MeasurementContext& moment) {
   if (reading_.use_count() > 1) {  // somebody holds the last one
     reading_ = std::make_shared<Reading>();
     reading_->measurement = empty_;

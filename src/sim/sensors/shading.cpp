@@ -68,7 +68,7 @@ Arrival arrive(const Light& light, const Vector3& axis, const Vector3& point) {
 
 void Shading::place_lights(const World& world) {
   lights_ = environment_.lights;
-  for (Light& light : world.carried_lights()) lights_.push_back(std::move(light));
+  for (Light& light : world.link_lights()) lights_.push_back(std::move(light));
 }
 
 Color Shading::behind(const Vector3& direction) const {

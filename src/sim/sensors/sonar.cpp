@@ -75,7 +75,7 @@ class Sonar final : public Sensor {
       : Sensor(ProximityReading{}), description_(description), id_(id), model_(model), rays_(fill(description)) {}
 
  private:
-  void measure(const Moment& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& moment, Measurement& measurement) override {
     moment.rays.refresh(moment.world);
     const Pose sensor = moment.world.pose(id_);
     ProximityReading nearest;

@@ -52,7 +52,7 @@ std::vector<Field> fields() {
       {"", "gravity", [](auto& s) -> double& { return s.gravity[0]; }, {kNever, -kNever, 1e300}},
       {"", "gravity", [](auto& s) -> double& { return s.gravity[2]; }, {kNever}},
       {"", "time step", [](auto& s) -> double& { return s.time_step; }, {0, -1, 0.012, kNever, 1e300, 1e-300}},
-      {"", "physics step", [](auto& s) -> double& { return s.physics_step; }, {0, -1, kNever, 1e300, 1e-300}},
+      {"", "physics substep", [](auto& s) -> double& { return s.substep; }, {0, -1, kNever, 1e300, 1e-300}},
       {"/Robot", "position", [](auto& s) -> double& { return s.models[0].pose.Pos()[1]; }, {kNever, -1e300}},
       {"/Robot/base", "position", [](auto& s) -> double& { return base(s).pose.Pos()[0]; }, {kNever, 1e300}},
       {"/Robot/base", "mass", [](auto& s) -> double& { return base(s).mass; }, {0, -1, kNever, 1e300}},

@@ -184,7 +184,7 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
   const SceneDescription scene = load_scene(file.path());
   EXPECT_EQ(scene.name, "all");
   EXPECT_EQ(scene.gravity, Vector3(1, 2, -3));
-  EXPECT_EQ(scene.physics_step, 0.002);
+  EXPECT_EQ(scene.substep, 0.002);
   EXPECT_EQ(scene.time_step, 0.02);
   ASSERT_EQ(scene.models.size(), 1u);
   const ModelDescription& robot = scene.models[0];

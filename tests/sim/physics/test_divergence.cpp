@@ -31,7 +31,7 @@ struct Leaving {
 };
 
 /// Notes the models that are about to be removed.
-struct Witness : Participant {
+struct Witness : System {
   void model_removing(World& world, ObjectId model) override { removed.push_back(world.tree().path(model)); }
   std::vector<std::string> removed;
 };

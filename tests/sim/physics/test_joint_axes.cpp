@@ -186,7 +186,7 @@ TEST(JointPose, IsAttachedToTheParentAndItsMovingFrameToTheChild) {
   pair.world.set_target_velocity(pair.joint, 0.5);
   pair.world.advance(2, kStep);
   const Pose still = pair.world.pose(pair.joint);
-  const Pose moving = pair.world.joint_moving_pose(pair.joint);
+  const Pose moving = pair.world.joint_child_pose(pair.joint);
   EXPECT_LT((still.Pos() - moving.Pos()).Length(), 1e-3);
   EXPECT_NEAR(turn_about(Vector3::UnitZ, pair.world.pose(pair.base), still), 0, 1e-9);
   EXPECT_NEAR(turn_about(Vector3::UnitZ, still, moving), pair.world.joint_position(pair.joint), 1e-6);

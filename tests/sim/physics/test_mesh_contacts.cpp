@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "bubblesim/world.hpp"
-#include "physics/collision_mesh.hpp"
 #include "meshes/finish_mesh.hpp"
 #include "meshes/made_meshes.hpp"
+#include "physics/collision_mesh.hpp"
 #include "scenes.hpp"
 #include "surfaces.hpp"
 

@@ -230,10 +230,10 @@ TEST(DivergedWorld, GoesOnWithoutWhatDiverged) {
 }
 
 /// Notes which models it is told of, and adds or removes one where it is asked to.
-struct Watcher : Participant {
+struct Watcher : System {
   explicit Watcher(Simulation& s) : simulation(s) { s.add(*this); }
 
-  void drain() override {
+  void process_input() override {
     if (on_drain) on_drain();
   }
   void actuate(World&, double) override {
@@ -251,7 +251,7 @@ struct Watcher : Participant {
   std::vector<std::string> told;
 };
 
-TEST(Participants, AreToldOfModelsThatComeAndGo) {
+TEST(Systems, AreToldOfModelsThatComeAndGo) {
   Simulation simulation(scene(heap()));
   Watcher watcher(simulation);
   simulation.remove_model(simulation.add_model(robot({})));

@@ -74,7 +74,7 @@ TEST(DivergingWorld, NamesTheLinkAndWhatToDo) {
     FAIL() << "it left the finite world";
   } catch (const Diverged& error) {
     EXPECT_NE(std::string(error.what()).find("/Ball/link"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("smaller physics step"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("smaller physics substep"), std::string::npos) << error.what();
   }
 }
 

@@ -47,7 +47,7 @@ TEST_F(RobotWorld, PosesAreWhereTheSceneSays) {
   expect_same(world.pose(find("/base")), model.pose * model.links[0].pose);
   expect_same(world.pose(find("/arm")), model.pose * model.links[1].pose);
   expect_same(world.pose(find("/joint")), model.pose * model.joints[0].pose);
-  expect_same(world.joint_moving_pose(find("/joint")), model.pose * model.joints[0].pose);
+  expect_same(world.joint_child_pose(find("/joint")), model.pose * model.joints[0].pose);
   expect_same(world.pose(find("/Sonar")), model.pose * model.links[0].pose * model.links[0].sensors[0].pose);
   expect_same(world.pose(find("/Wall/link")), described.models[1].pose);
 }
@@ -204,7 +204,7 @@ TEST_F(RobotWorld, BadTargetsAreRefusedByName) {
 
 TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
   expect_refused(world, [&] { world.joint_position(find("/base")); }, {"/base", "link", "not a joint"});
-  expect_refused(world, [&] { world.joint_moving_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
+  expect_refused(world, [&] { world.joint_child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
   expect_refused(world, [&] { world.set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
   expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "moves with its link"});
   expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "moves with its link"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pass: its phases, its clock, when sensors measure, and that it repeats itself.
+// The step: its phases, its clock, when sensors measure, and that it repeats itself.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,12 +14,12 @@ namespace {
 using Log = std::vector<std::pair<std::string, double>>;
 
 /// Notes which of its phases is called when.
-class Recorder : public Participant {
+class Recorder : public System {
  public:
   Recorder(std::string name, Log& log, const Simulation& simulation)
       : name_(std::move(name)), log_(log), simulation_(simulation) {}
 
-  void drain() override { log_.emplace_back(name_ + " drain", simulation_.time()); }
+  void process_input() override { log_.emplace_back(name_ + " process_input", simulation_.time()); }
   void actuate(World&, double time) override { log_.emplace_back(name_ + " actuate", time); }
   void sense(const World&, double time) override { log_.emplace_back(name_ + " sense", time); }
   void publish(const World&, double time) override { log_.emplace_back(name_ + " publish", time); }
@@ -31,7 +31,7 @@ class Recorder : public Participant {
 };
 
 /// Calls functions in its phases.
-struct Caller : Participant {
+struct Caller : System {
   void actuate(World& world, double time) override {
     if (on_actuate) on_actuate(world, time);
   }
@@ -50,8 +50,8 @@ TEST(Pass, RunsItsPhasesInOrderForAllParticipantsAtOneTime) {
   simulation.add(first);
   simulation.add(second);
   simulation.step();
-  const Log expected = {{"a drain", 0}, {"b drain", 0}, {"a actuate", 0}, {"b actuate", 0},
-                        {"a sense", 0}, {"b sense", 0}, {"a publish", 0}, {"b publish", 0}};
+  const Log expected = {{"a process_input", 0}, {"b process_input", 0}, {"a actuate", 0}, {"b actuate", 0},
+                        {"a sense", 0},         {"b sense", 0},         {"a publish", 0}, {"b publish", 0}};
   EXPECT_EQ(log, expected);
   log.clear();
   simulation.step();
@@ -85,8 +85,8 @@ TEST(Drain, MovesNothing) {
   Recorder recorder("a", log, simulation);
   simulation.add(recorder);
   const std::uint64_t before = simulation.state_hash();
-  simulation.drain();
-  EXPECT_EQ(log, (Log{{"a drain", 0}}));
+  simulation.process_input();
+  EXPECT_EQ(log, (Log{{"a process_input", 0}}));
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
@@ -110,7 +110,7 @@ struct Approach {
   explicit Approach(double update_rate) : simulation(approach(update_rate)) {
     simulation.world().set_velocity(simulation.world().tree().find("/Ball"), {{-1, 0, 0}, {}});
   }
-  /// How many passes ago the sensor measured what it says now.
+  /// How many steps ago the sensor measured what it says now.
   double age_in_passes() {
     const double measured_at = 5 - simulation.read_proximity(sonar).distance;
     return (simulation.time() - measured_at) / simulation.time_step();
@@ -140,7 +140,7 @@ TEST_P(SensorRate, MeasuresOnceInItsPeriod) {
   }
 }
 
-// A pass is 1/20 s; rates above cannot be reached.
+// A step is 1/20 s; rates above cannot be reached.
 INSTANTIATE_TEST_SUITE_P(Rates, SensorRate,
                          ::testing::Values(std::pair(20.0, 1), std::pair(10.0, 2), std::pair(5.0, 4),
                                            std::pair(2.0, 10), std::pair(1000.0, 1)));
@@ -254,7 +254,7 @@ SceneDescription tumble() {
   return described;
 }
 
-/// Hash and sonar distance after each of some passes.
+/// Hash and sonar distance after each of some steps.
 std::vector<std::pair<std::uint64_t, double>> history(Simulation& simulation) {
   const ObjectId sonar = simulation.world().tree().find("/Sonar");
   std::vector<std::pair<std::uint64_t, double>> seen;
@@ -295,13 +295,13 @@ TEST(ResetWorld, LetsSensorsForgetWhatTheySawAndKeepTheirRate) {
   approach.simulation.world().set_velocity(ball, {{-1, 0, 0}, {}});
   for (int i = 30; i < 40; ++i) approach.simulation.step();
   EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, kExact);
-  approach.simulation.step();  // the pass at 2 s
+  approach.simulation.step();  // the step at 2 s
   EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5 - 11 * 0.05, kExact);
 }
 
-/// Calls a function in its drain().
-struct Drainer : Participant {
-  void drain() override {
+/// Calls a function in its process_input().
+struct Drainer : System {
+  void process_input() override {
     if (on_drain) on_drain();
   }
   std::function<void()> on_drain;

@@ -13,8 +13,8 @@
 namespace bubblesim::test::test_simulation_run {
 namespace {
 
-/// Notes the passes, stops and starts that it sees, with the simulation's state; does something more when stopped.
-struct Witness : Participant {
+/// Notes the steps, stops and starts that it sees, with the simulation's state; does something more when stopped.
+struct Witness : System {
   explicit Witness(const Simulation& watched) : simulation(watched) {}
 
   void sense(const World&, double) override { note("pass"); }
@@ -128,36 +128,36 @@ TEST_F(Run, AStopMayBeAnEnd) {
 }
 
 TEST_F(Run, InSynchronousModeEachTriggerIsGoodForOnePass) {
-  EXPECT_TRUE(simulation.pass_is_due());
-  simulation.trigger_pass();  // not in the mode: nothing
+  EXPECT_TRUE(simulation.step_is_due());
+  simulation.trigger_step();  // not in the mode: nothing
   simulation.set_synchronous(true);
-  EXPECT_FALSE(simulation.pass_is_due());
-  simulation.trigger_pass();
-  simulation.trigger_pass();
+  EXPECT_FALSE(simulation.step_is_due());
+  simulation.trigger_step();
+  simulation.trigger_step();
   simulation.set_synchronous(true);
   int passes = 0;
-  for (; simulation.pass_is_due(); ++passes) simulation.run_pass();
+  for (; simulation.step_is_due(); ++passes) simulation.run_step();
   EXPECT_EQ(passes, 2);
-  simulation.trigger_pass();
+  simulation.trigger_step();
   simulation.set_synchronous(false);
-  EXPECT_TRUE(simulation.pass_is_due());
+  EXPECT_TRUE(simulation.step_is_due());
   simulation.set_synchronous(true);
-  EXPECT_FALSE(simulation.pass_is_due()) << "a trigger of before";
+  EXPECT_FALSE(simulation.step_is_due()) << "a trigger of before";
 }
 
 TEST_F(Run, APauseKeepsTriggersAndAStopForgetsThem) {
   simulation.set_synchronous(true);
-  simulation.trigger_pass();
+  simulation.trigger_step();
   simulation.pause();
   simulation.carry_out_requests();
-  EXPECT_FALSE(simulation.pass_is_due());
+  EXPECT_FALSE(simulation.step_is_due());
   simulation.start();
   simulation.carry_out_requests();
-  EXPECT_TRUE(simulation.pass_is_due());
+  EXPECT_TRUE(simulation.step_is_due());
   simulation.stop();
   simulation.start();
   simulation.carry_out_requests();
-  EXPECT_FALSE(simulation.pass_is_due()) << "still synchronous, and waiting";
+  EXPECT_FALSE(simulation.step_is_due()) << "still synchronous, and waiting";
   EXPECT_EQ(simulation.state(), RunState::kRunning);
 }
 

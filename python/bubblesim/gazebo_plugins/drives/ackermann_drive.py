@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
@@ -19,9 +19,9 @@ class AckermannDrive(Device):
     forward.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         fronts = [self.joint(name, name) for name in ("front_left_joint", "front_right_joint")]
@@ -82,4 +82,4 @@ class AckermannDrive(Device):
     def publish(self) -> None:
         """Tell the odometry."""
         if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.place.model))
+            self._odometry.publish(motion_in_world(self.world, self.context.model))

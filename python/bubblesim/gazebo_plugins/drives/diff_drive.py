@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Place
+from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics
@@ -18,9 +18,9 @@ class DiffDrive(Device):
     several pairs of wheels: <num_wheel_pairs> of them, each joint, separation and diameter in an element of its own.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
         left, right = (self._joints(f"{side}Joint", f"{side}_joint") for side in ("left", "right"))

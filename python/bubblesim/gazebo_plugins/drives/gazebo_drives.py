@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Place
+from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
 
@@ -21,9 +21,9 @@ class GazeboDiffDrive(Device):
     left: tuple[str, ...] = ("left_joint",)
     right: tuple[str, ...] = ("right_joint",)
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters; joints have the parameters' names when these are left out."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
         left, right = ([self.joint(name, name) for name in names] for names in (self.left, self.right))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
 from bubblesim.gazebo_plugins.drives.odometry import motion_in_world
@@ -17,11 +17,11 @@ SIDES = ("left", "right")
 class GzAckermannSteering(Device):
     """A Twist's angular.z is the rate of turn (rad/s). The odometry is exact; its transform goes to /tf."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
-        model = self.world.name(place.model)
+        model = self.world.name(context.model)
         rears = [[self.joint_named(n, f"{side}_joint") for n in p.names(f"{side}_joint")] for side in SIDES]
         steering = [self.joint(f"{side}_steering_joint", "") for side in SIDES]
         self._wheelbase = p.length("wheel_base", 1.0)
@@ -62,4 +62,4 @@ class GzAckermannSteering(Device):
     def publish(self) -> None:
         """Tell the odometry."""
         if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.place.model))
+            self._odometry.publish(motion_in_world(self.world, self.context.model))

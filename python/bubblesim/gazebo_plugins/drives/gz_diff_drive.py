@@ -8,7 +8,7 @@ import math
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.controllers.speed_ramp import approached
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Place
+from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.rate import Rate
@@ -17,11 +17,11 @@ from bubblesim.gazebo_plugins.rate import Rate
 class GzDiffDrive(Device):
     """Any number of wheels on both sides. The transform goes to /tf, whatever <tf_topic> says."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
-        model = self.world.name(place.model)
+        model = self.world.name(context.model)
         self._left, self._right = (self._wheels(f"{side}_joint") for side in ("left", "right"))
         geometry = DifferentialDrive(p.length("wheel_radius", 0.2), p.length("wheel_separation", 1.0), FASTEST)
         self._most = [self._limit(kind, "velocity") for kind in ("linear", "angular")]

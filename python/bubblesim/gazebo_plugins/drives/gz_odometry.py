@@ -10,7 +10,7 @@ from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
 def drive_odometry(device: Device) -> Odometry:
     """Of a drive; its transform goes to /tf."""
     p = device.parameters
-    model = device.world.name(device.place.model)
+    model = device.world.name(device.context.model)
     return Odometry(
         device,
         topic=p.text("odom_topic", f"/model/{model}/odometry"),

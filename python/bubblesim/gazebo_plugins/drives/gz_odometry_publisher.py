@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
 from bubblesim.gazebo_plugins.rate import Rate
 
@@ -11,11 +11,11 @@ from bubblesim.gazebo_plugins.rate import Rate
 class GzOdometryPublisher(Device):
     """Names and defaults are those of its topics; the transform goes to /tf, whatever <tf_topic> says."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
-        model = self.world.name(place.model)
+        model = self.world.name(context.model)
         self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
         p.ignore("tf_topic", "dimensions", "odom_covariance_topic", "xyz_offset", "rpy_offset", "gaussian_noise")
         p.check()
@@ -35,4 +35,4 @@ class GzOdometryPublisher(Device):
     def publish(self) -> None:
         """Tell pose and velocity."""
         if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.place.model))
+            self._odometry.publish(motion_in_world(self.world, self.context.model))

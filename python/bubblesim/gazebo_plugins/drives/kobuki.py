@@ -8,7 +8,7 @@ from typing import Any
 from bubblesim._core import read_imu, read_lidar, read_sensor
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Message, Place
+from bubblesim.gazebo_plugins.device import FASTEST, Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.kobuki_events import SIDES, bumpers_pressed, cliff_reading
 from bubblesim.gazebo_plugins.drives.odometry import Motion, Odometry, covariance, motion_on_plane
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
@@ -27,9 +27,9 @@ class Kobuki(Device):
     As in the Kobuki's driver, the odometry takes distances from the wheels and the heading from the gyroscope.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._joints = [self.joint(f"{side}_wheel_joint_name", f"wheel_{side}_joint") for side in ("left", "right")]
@@ -146,7 +146,7 @@ class Kobuki(Device):
     def _publish_bumpers(self) -> None:
         _, reading = read_sensor(self.simulation, self._bumper)
         points = [point for contact in reading.contacts for point in contact.points]
-        pose = self.world.pose(self.place.model)
+        pose = self.world.pose(self.context.model)
         pressed = bumpers_pressed(pose, [(point.position.tolist(), point.normal.tolist()) for point in points])
         for side in SIDES:
             if (side in pressed) != self._pressed[side]:

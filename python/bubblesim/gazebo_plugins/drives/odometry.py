@@ -71,11 +71,11 @@ class Odometry:
         self._twist_covariance = twist_covariance or [0.0] * 36
 
     def publish(self, motion: Motion) -> None:
-        """Tell it as that of this pass."""
+        """Tell it as that of this step."""
         device = self._device
         header = device.header(self._frame)
         if self._transform:
-            device.place.transforms.add(header, self._base_frame, motion.pose)
+            device.context.transforms.add(header, self._base_frame, motion.pose)
         if self._publisher is None or not device.wanted(self._publisher):
             return
         twist = {"linear": {"x": motion.forward, "y": motion.leftward}, "angular": {"z": motion.turning}}

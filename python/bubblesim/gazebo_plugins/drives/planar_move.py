@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.geometry.rotations import heading_of
@@ -14,9 +14,9 @@ from bubblesim.geometry.rotations import heading_of
 class PlanarMove(Device):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs; it is pushed, and may fall and be stopped."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._rate = Rate(p.number("odometryRate", 20.0, least=0.0), self.simulation.time_step)
@@ -51,14 +51,14 @@ class PlanarMove(Device):
         """Push the model."""
         if 0 <= self._patience < self.simulation.time - self._heard_at:
             self._forward = self._leftward = self._turning = 0.0
-        # The heading in the middle of the pass, so that it keeps to its arc.
-        yaw = heading_of(*self.world.pose(self.place.model)[3:]) + self._turning * self.simulation.time_step / 2
+        # The heading in the middle of the step, so that it keeps to its arc.
+        yaw = heading_of(*self.world.pose(self.context.model)[3:]) + self._turning * self.simulation.time_step / 2
         cos, sin = math.cos(yaw), math.sin(yaw)
         x = cos * self._forward - sin * self._leftward
         y = sin * self._forward + cos * self._leftward
-        self.world.drive_in_plane(self.place.model, x, y, self._turning)
+        self.world.set_planar_velocity(self.context.model, x, y, self._turning)
 
     def publish(self) -> None:
         """Tell the odometry, which is exact."""
         if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.place.model))
+            self._odometry.publish(motion_in_world(self.world, self.context.model))

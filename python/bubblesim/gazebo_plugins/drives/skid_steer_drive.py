@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Place
+from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.rate import Rate
@@ -13,9 +13,9 @@ from bubblesim.gazebo_plugins.rate import Rate
 class SkidSteerDrive(Device):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs; the odometry is exact."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         left = [self.joint(f"left{row}Joint", f"left_{row.lower()}_joint") for row in ("Front", "Rear")]

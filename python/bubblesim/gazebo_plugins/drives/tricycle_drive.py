@@ -8,7 +8,7 @@ import math
 from bubblesim._core import MotorMode
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels
 from bubblesim.controllers.speed_ramp import SpeedRamp, approached
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance, motion_in_world, motion_on_plane
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics, drive_by_velocity
 from bubblesim.gazebo_plugins.rate import Rate
@@ -22,9 +22,9 @@ class TricycleDrive(Device):
     As there, a Twist's linear.x is the speed of the front wheel's rim (m/s), its angular.z the steering angle (rad).
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
         self._steering = self.joint("steeringJoint", "front_steering_joint")
@@ -89,7 +89,7 @@ class TricycleDrive(Device):
             self._encoder.update(self._angles(), self.simulation.time_step)
             motion = motion_on_plane(self._encoder.pose, self._encoder.velocity)
         else:
-            motion = motion_in_world(self.world, self.place.model)
+            motion = motion_in_world(self.world, self.context.model)
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion)
             self._wheels.publish()

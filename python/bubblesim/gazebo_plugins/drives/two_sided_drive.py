@@ -83,13 +83,13 @@ class TwoSidedDrive:
         return Wheels(position(self._groups[0].left[0]), position(self._groups[0].right[0]))
 
     def moved(self, *, by_wheels: bool) -> Motion:
-        """How the robot moves, as its wheels say or exactly; to be asked in each pass."""
+        """How the robot moves, as its wheels say or exactly; to be asked in each step."""
         if not by_wheels:
-            return motion_in_world(self._device.world, self._device.place.model)
+            return motion_in_world(self._device.world, self._device.context.model)
         velocity = self.encoder_velocity()
         return motion_on_plane(self._encoder.pose, velocity)
 
     def encoder_velocity(self) -> Velocity:
-        """How fast the robot moves, as its wheels say; to be asked once in each pass."""
+        """How fast the robot moves, as its wheels say; to be asked once in each step."""
         self._encoder.update(self._angles(), self._device.simulation.time_step)
         return self._encoder.velocity

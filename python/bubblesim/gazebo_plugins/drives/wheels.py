@@ -27,7 +27,7 @@ def wheel_radius(device: Device, joint: int) -> float | None:
 
 
 def joint_states(device: Device, joints: Sequence[int], *, efforts: bool = False) -> Message:
-    """A sensor_msgs/JointState of this pass; the effort is the motor's limit."""
+    """A sensor_msgs/JointState of this step; the effort is the motor's limit."""
     world = device.world
     return {
         "header": device.header(""),
@@ -52,7 +52,7 @@ class WheelTopics:
             self._publisher = device.advertise("joint_states", "sensor_msgs/JointState", 1000)
 
     def publish(self) -> None:
-        """Tell what holds in this pass."""
+        """Tell what holds in this step."""
         device, world = self._device, self._device.world
         if self._publisher is not None and device.wanted(self._publisher):
             message = joint_states(device, self._joints, efforts=self._efforts)
@@ -61,4 +61,4 @@ class WheelTopics:
             for joint in self._joints:
                 parent, child = world.joint_links(joint)
                 header = device.header(device.frame(world.name(parent)))
-                device.place.transforms.add(header, device.frame(world.name(child)), world.pose_in(child, parent))
+                device.context.transforms.add(header, device.frame(world.name(child)), world.pose_in(child, parent))

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim._core import MotorMode
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 
 
 class GzJointController(Device):
@@ -14,15 +14,15 @@ class GzJointController(Device):
     initial = "initial_velocity"
     command_topic = "cmd_vel"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self._joint = self.joint("joint_name", "")
         self._first = p.number(self.initial, 0.0)
         p.ignore("use_force_commands", "use_velocity_commands", "use_actuator_msg", "actuator_number")
         p.ignore(*(f"{gain}_gain" for gain in "pid"), "i_max", "i_min", "cmd_max", "cmd_min", "cmd_offset")
-        default = f"/model/{self.world.name(place.model)}/joint/{self.world.name(self._joint)}/{self.default_topic()}"
+        default = f"/model/{self.world.name(context.model)}/joint/{self.world.name(self._joint)}/{self.default_topic()}"
         topic = p.text("topic", p.text("sub_topic", default))
         p.check()
         self._wanted = self._first

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim._core import MotorMode
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 
 
 class JointPoseTrajectory(Device):
@@ -13,9 +13,9 @@ class JointPoseTrajectory(Device):
     Each point holds from its time on; times count from when the message is taken.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         p.ignore("serviceName", "updateRate")
@@ -31,7 +31,7 @@ class JointPoseTrajectory(Device):
         names = trajectory["joint_names"]
         if any(len(positions) != len(names) for _, positions in points):
             raise ValueError(f"each of its points must have {len(names)} positions, one for each joint")
-        joints = [self.world.find(f"{self.world.path(self.place.model)}/{name}") for name in names]
+        joints = [self.world.find(f"{self.world.path(self.context.model)}/{name}") for name in names]
         for joint in joints:
             self.world.set_motor_mode(joint, MotorMode.POSITION)
         start = self.simulation.time

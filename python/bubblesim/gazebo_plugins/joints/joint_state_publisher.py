@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.drives.wheels import joint_states
 from bubblesim.gazebo_plugins.rate import Rate
 
@@ -13,9 +13,9 @@ class JointStatePublisher(Device):
 
     names = "jointName"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
         self._joints = [self.joint_named(name, self.names) for name in p.names(self.names)] or self._moving_joints()
@@ -48,5 +48,5 @@ class GzJointStatePublisher(JointStatePublisher):
 
     def default_topic(self) -> str:
         """As it is in Gazebo's transport."""
-        default = f"/world/{self.simulation.world_name}/model/{self.world.name(self.place.model)}/joint_state"
+        default = f"/world/{self.simulation.world_name}/model/{self.world.name(self.context.model)}/joint_state"
         return "/" + self.parameters.text("topic", default).lstrip("/")

@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.device import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 
 
 class Baro(HectorSensor):
     """Parameters and defaults are hector's. Its Altimeter message is not known here, so that topic is not there."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters; heights in metres."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self._above = p.number("elevation", 0.0)
         p.ignore("altimeterTopicName", "qnh")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 Array = np.ndarray[Any, Any]
@@ -27,9 +27,9 @@ class BlockLaser(Device):
 
     message_type = "sensor_msgs/PointCloud"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._frame = p.text("frameName", "world").lstrip("/")
@@ -66,14 +66,14 @@ class VelodyneLaser(BlockLaser):
 
     message_type = "sensor_msgs/PointCloud2"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        p = place.parameters
+        p = context.parameters
         self._least = p.number("min_range", 0.0, least=0.0)
         self._most = p.number("max_range", np.inf, least=0.0)
         self._organized = p.flag("organize_cloud", default=False)
         p.ignore("min_intensity")
-        super().__init__(place)
+        super().__init__(context)
 
     def cloud(self, scan: Any) -> Message:
         """The message without its header; an organized cloud has rays that meet nothing as not a number."""

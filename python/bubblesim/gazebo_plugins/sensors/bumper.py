@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from bubblesim._core import read_sensor
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.geometry.frames import into
 from bubblesim.ros_messages import vector_message
@@ -18,9 +18,9 @@ _WORLD = ("/world", "world", "/map", "map")
 class Bumper(Device):
     """Parameters and defaults are those of gazebo_ros_pkgs: places and forces are in the frame of a link."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._frame = p.text("frameName", "world")
@@ -36,7 +36,7 @@ class Bumper(Device):
     def publish(self) -> None:
         """Tell what is touched, also that it is nothing."""
         if self.wanted(self._publisher) and (reading := self._readings.take()):
-            link = self.world.parent(self.place.owner)
+            link = self.world.parent(self.context.owner)
             states = [contact_state(self.world, link, each, self._turned, self._placed) for each in reading.contacts]
             self.bridge.publish(self._publisher, {"header": self.header(self._frame.lstrip("/")), "states": states})
 

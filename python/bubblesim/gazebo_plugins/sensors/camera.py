@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from bubblesim._core import camera_optics, read_camera
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.scripting.api.ros.image_codec import COMPRESSIONS, compress
@@ -21,9 +21,9 @@ class Camera(Device):
     image_topic = "image_raw"
     info_topic = "camera_info"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self.frame_id = self.frame(p.text("frameName", "/world"))
@@ -65,12 +65,12 @@ class Camera(Device):
             return
         header = self.header(self.frame_id)
         if pictures:
-            self.tell(read_camera(self.simulation, self.place.owner), header)
+            self.tell(read_camera(self.simulation, self.context.owner), header)
         if infos:
             self._publish_infos(header)
 
     def _publish_infos(self, header: Message) -> None:
-        info = {"header": header, **self.info.message(*camera_optics(self.simulation, self.place.owner))}
+        info = {"header": header, **self.info.message(*camera_optics(self.simulation, self.context.owner))}
         for publisher in filter(self.wanted, self.infos):
             self.bridge.publish(publisher, info)
 

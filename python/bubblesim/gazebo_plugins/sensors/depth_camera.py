@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.gazebo_plugins.device import Message, Place
+from bubblesim.gazebo_plugins.device import Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera import Camera, image_message
 
 Array = np.ndarray[Any, Any]
@@ -27,9 +27,9 @@ class DepthCamera(Camera):
     info_topic = "ir/camera_info"
     farthest = np.inf  # m, unless the plugin says so
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self._cutoffs = p.number("pointCloudCutoff", 0.4), p.number("pointCloudCutoffMax", self.farthest)
         p.check()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim._core import read_sensor
-from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.ros_messages import vector_message
@@ -13,9 +13,9 @@ from bubblesim.ros_messages import vector_message
 class FtSensor(Device):
     """Parameters and defaults are those of gazebo_ros_pkgs; the joint must have a sensor of type force_torque."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         joint = self.joint("jointName", "")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.device import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.ros_messages import vector_message
@@ -20,9 +20,9 @@ class Gps(HectorSensor):
 
     default_rate = 4.0
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters; angles in degrees."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self._latitude = p.number("referenceLatitude", 49.9)
         self._longitude = p.number("referenceLongitude", 8.9)

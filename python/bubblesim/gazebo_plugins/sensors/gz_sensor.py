@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.gazebo_plugins.device import Message, Place
+from bubblesim.gazebo_plugins.device import Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.camera import image_message
 from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCloud
@@ -51,17 +51,17 @@ class GzSensor(SensorTopic):
     sensor's own axes, x forward. The others are those of SensorTopic.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Advertise the topics."""
-        self._kind, self._given_topic, self._info_topic, self._given_frame = place.simulation.world.gz_topic(
-            place.owner
+        self._kind, self._given_topic, self._info_topic, self._given_frame = context.simulation.world.gz_topic(
+            context.owner
         )
         self._cloud = DepthCloud(optical=False)
-        super().__init__(place)
+        super().__init__(context)
 
     def place_of_topic(self) -> tuple[str, str]:
         """The sensor's topic and frame."""
-        chain = [self.place.owner]
+        chain = [self.context.owner]
         while (parent := self.world.parent(chain[0])) >= 0:
             chain.insert(0, parent)
         names = [self.world.name(part) for part in chain]

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 
@@ -11,11 +11,11 @@ from bubblesim.gazebo_plugins.sensors.noise import Noise
 class HectorSensor(Device):
     """Parameters and defaults are hector's; offsets and drifts are left out."""
 
-    default_rate = 0.0  # Hz; 0: in each pass
+    default_rate = 0.0  # Hz; 0: in each step
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters that all have."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._link = self.link("bodyName", self.world.name(self.first_link()))

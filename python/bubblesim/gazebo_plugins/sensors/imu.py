@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bubblesim._core import read_imu
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
@@ -18,9 +18,9 @@ from bubblesim.ros_messages import vector_message
 class ImuSensor(Device):
     """Parameters and defaults are those of gazebo_ros_pkgs; the sensor's own noise comes first."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
         if p.given("frameName") is None:
@@ -56,9 +56,9 @@ class LinkImu(Device):
     default_topic = "/default_imu"
     default_service = "/default_imu"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._link = self.link("bodyName", self.default_body())
@@ -71,7 +71,7 @@ class LinkImu(Device):
         service = self.topic(p.text("serviceName", self.default_service))
         p.check()
         self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", 1)
-        self.offer(service, "std_srvs/Empty", lambda _: None)  # calibrates, in other drivers
+        self.advertise_service(service, "std_srvs/Empty", lambda _: None)  # calibrates, in other drivers
 
     def default_body(self) -> str:
         """The link without <bodyName>; none, for that is wanted."""
@@ -102,9 +102,9 @@ class HectorImu(LinkImu):
     default_topic = "imu"
     default_service = "imu/calibrate"
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         for kind in ("accel", "rate", "heading", "yaw"):
             self.parameters.ignore(*(f"{kind}{what}" for what in ("Offset", "Drift", "DriftFrequency")))
         self.parameters.ignore("biasTopicName", "headingGaussianNoise", "yawGaussianNoise")

@@ -6,16 +6,16 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 
 class Laser(Device):
     """Parameters and defaults are those of gazebo_ros_pkgs; ranges beyond the greatest are infinite (REP 117)."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._frame = self.frame(p.text("frameName", "/world"))

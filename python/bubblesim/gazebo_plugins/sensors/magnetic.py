@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.device import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.geometry.frames import into
 from bubblesim.ros_messages import vector_message
@@ -17,9 +17,9 @@ class Magnetic(HectorSensor):
     With <useMagneticFieldMsgs> the message is a sensor_msgs/MagneticField, else a geometry_msgs/Vector3Stamped.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         magnitude = p.number("magnitude", 1.0)
         inclination = math.radians(p.number("inclination", 60.0))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Place
+from bubblesim.gazebo_plugins.device import PluginContext
 from bubblesim.gazebo_plugins.sensors.camera import Camera
 
 _SIDES = ("left", "right")
@@ -16,9 +16,9 @@ class MultiCamera(Camera):
     <hackBaseline> is that of the right one.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         if self._side() == "left":
             self.info.baseline = 0.0
 
@@ -28,6 +28,6 @@ class MultiCamera(Camera):
         return super().below_camera(name if name.startswith("/") or not side else f"{side}/{name}")
 
     def _side(self) -> str:
-        camera = self.world.name(self.place.owner)
+        camera = self.world.name(self.context.owner)
         side = max(_SIDES, key=camera.rfind)  # the camera's name follows that of the sensor
         return side if side in camera else ""

@@ -15,7 +15,7 @@ class Noise:
 
     def __init__(self, device: Device, *deviations: float) -> None:
         """``deviations``: standard deviation, in the unit of what it is added to; three of them along x, y and z."""
-        self._seed = [device.simulation.seed, device.place.owner]
+        self._seed = [device.simulation.seed, device.context.owner]
         self._deviations = deviations
         self.reset()
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, Place
+from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.geometry.frames import state_in
@@ -16,9 +16,9 @@ _WORLD = ("/world", "world", "/map", "map", "")
 class P3D(Device):
     """Parameters and defaults are those of gazebo_ros_pkgs."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._link = self.link("bodyName", "")

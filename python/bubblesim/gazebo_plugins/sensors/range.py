@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
@@ -21,9 +21,9 @@ class Range(Device):
     default_topic = "/range"
     default_fov: float | None = 0.05  # rad; None for the angle that the rays span
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
         self._frame = p.text(self.frame_parameter, self.default_frame).lstrip("/")
@@ -65,7 +65,7 @@ class HectorSonar(Range):
     default_topic = "sonar"
     default_fov = None
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         self.parameters.ignore("offset", "drift", "driftFrequency")

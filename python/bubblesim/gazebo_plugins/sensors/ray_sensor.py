@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.laser import laser_scan
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
@@ -22,12 +22,12 @@ _OUT = "~/out:="
 class RaySensor(Device):
     """Its topic is PLUGIN/out, or what <ros><remapping>~/out:=TOPIC</remapping></ros> says; the frame is the link's."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
-        super().__init__(place)
+        super().__init__(context)
         p = self.parameters
         self.enter_namespace()
-        self._frame = p.text("frameName", self.world.name(self.world.parent(place.owner)))
+        self._frame = p.text("frameName", self.world.name(self.world.parent(context.owner)))
         message_type = p.text("outputType", "sensor_msgs/PointCloud2")
         if message_type not in _OUTPUTS:
             raise p.fail("outputType", f"is '{message_type}', it must be {' or '.join(_OUTPUTS)}")

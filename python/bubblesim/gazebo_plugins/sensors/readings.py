@@ -22,17 +22,17 @@ class NewReadings:
         Without ``sensor``, a handle, the sensor is that which has the plugin.
         """
         self._device = device
-        self._sensor = device.place.owner if sensor is None else sensor
+        self._sensor = device.context.owner if sensor is None else sensor
         self._read = read
         self._rate = Rate(hertz, device.simulation.time_step)
         self._time: float | None = None
 
     def take(self) -> Any | None:
-        """The reading of this pass, None when the sensor was not due; to be asked in each pass with a listener."""
+        """The reading of this step, None when the sensor was not due; to be asked in each step with a listener."""
         return self._read(self._device.simulation, self._sensor) if self.due() else None
 
     def due(self) -> bool:
-        """Whether there is a new one to be taken in this pass, without having the sensor measure."""
+        """Whether there is a new one to be taken in this step, without having the sensor measure."""
         time = reading_time(self._device.simulation, self._sensor)
         if time == self._time:
             return False

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import CameraImage, camera_optics, read_sensor, reading_time
-from bubblesim.gazebo_plugins.device import Device, Message, Place
+from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.bumper import contact_state
 from bubblesim.gazebo_plugins.sensors.camera import image_message
@@ -43,13 +43,13 @@ class SensorTopic(Device):
     MagneticField; a contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
     """
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, context: PluginContext) -> None:
         """Advertise the topics."""
-        super().__init__(place)
+        super().__init__(context)
         self._topic, self._frame = self.place_of_topic()
         self._time: float | None = None
         self._info = CameraInfo(self.parameters)
-        _, reading = read_sensor(self.simulation, place.owner)
+        _, reading = read_sensor(self.simulation, context.owner)
         self._outputs = [
             (self.advertise(topic, message_type, 1), message)
             for topic, message_type, message in self.outputs(self._topic, reading)
@@ -57,8 +57,8 @@ class SensorTopic(Device):
 
     def place_of_topic(self) -> tuple[str, str]:
         """The sensor's topic and frame."""
-        topic, frame, _ = self.world.sensor_topic(self.place.owner)
-        return topic, frame or self.world.name(self.world.parent(self.place.owner))
+        topic, frame, _ = self.world.sensor_topic(self.context.owner)
+        return topic, frame or self.world.name(self.world.parent(self.context.owner))
 
     def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
         """What is published of a kind of reading: topic, type and what makes the message."""
@@ -79,18 +79,18 @@ class SensorTopic(Device):
         wanted = [output for output in self._outputs if self.wanted(output[0])]
         if not wanted:
             return
-        time = reading_time(self.simulation, self.place.owner)
+        time = reading_time(self.simulation, self.context.owner)
         if time == self._time:
             return
         self._time = time
         header = self.header(self._frame)
         optics_alone = all(message == self._optics for _, message in wanted)
-        reading = None if optics_alone else read_sensor(self.simulation, self.place.owner)[1]
+        reading = None if optics_alone else read_sensor(self.simulation, self.context.owner)[1]
         for publisher, message in wanted:
             self.bridge.publish(publisher, {"header": header, **message(reading)})
 
     def _optics(self, _: Any) -> Message:
-        return self._info.message(*camera_optics(self.simulation, self.place.owner))
+        return self._info.message(*camera_optics(self.simulation, self.context.owner))
 
     def form(self, reading: Any) -> tuple[str, MakeMessage]:
         """The type of the message, and what makes it."""
@@ -125,11 +125,11 @@ class SensorTopic(Device):
                 raise ValueError(f"there is no message for a {kind}: take it out, or read it in a script")
 
     def _contacts(self, reading: Any) -> Message:
-        link = self.world.parent(self.place.owner)
+        link = self.world.parent(self.context.owner)
         return {"states": [contact_state(self.world, link, contact) for contact in reading.contacts]}
 
     def _range(self, reading: Any) -> Message:
-        least, most, angle = self.world.sonar_limits(self.place.owner)
+        least, most, angle = self.world.sonar_limits(self.context.owner)
         return {
             "radiation_type": 0,  # ultrasound
             "field_of_view": 2 * angle,

@@ -43,7 +43,7 @@ class ChildScript:
         self.shared = host.shared
         self.programs: list[Program] = []  # that it started
         self.at_end: dict[Hashable, Hook] = {}  # undoes what else the script made: publishers
-        self.in_each_pass: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
+        self.in_each_step: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
         self._started = False
         self._thread: AnyThread | None = None
         self._sockets = script_sockets.Sockets()
@@ -96,7 +96,7 @@ class ChildScript:
             self._started = True
             self._call("sysCall_init")
             self._start_thread()
-        for hook in list(self.in_each_pass.values()):
+        for hook in list(self.in_each_step.values()):
             hook()
         if self._thread and self.alive and not interruption.requested:
             self.run("sysCall_thread", self._thread.give_turn)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the child scripts of a scene and calls them in the phases of a pass."""
+"""Keeps the child scripts of a scene and calls them in the phases of a step."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _BETWEEN_LOOKS = 0.25  # s
 
 
 class ScriptHost:
-    """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every pass and ``finish`` at the end."""
+    """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every step and ``finish`` at the end."""
 
     def __init__(
         self,
@@ -64,7 +64,7 @@ class ScriptHost:
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
-        self.after_drain: Callable[[], None] | None = None
+        self.after_input: Callable[[], None] | None = None
         self._paused = False  # as scripts know it
         self._next_look = 0.0 if watch else math.inf  # at the files, by time.monotonic()
         script_sockets.install()
@@ -82,7 +82,7 @@ class ScriptHost:
         self.count_disabled()
 
     def count_disabled(self) -> None:
-        """Bring ``disabled``, which the node reads in each pass, up to date."""
+        """Bring ``disabled``, which the node reads in each step, up to date."""
         self.disabled = sum(script.failed for script in self.scripts)
 
     def stop(self) -> None:
@@ -131,10 +131,10 @@ class ScriptHost:
             "simROS2": SimRos2(self.bridge, self.simulation, script),
         }
 
-    def drain(self) -> None:
+    def process_input(self) -> None:
         """When messages have been delivered, also while paused: tell scripts of pauses that want to know."""
-        if self.after_drain is not None:
-            self.after_drain()
+        if self.after_input is not None:
+            self.after_input()
         listening = [script for script in self.scripts if script.follows_pauses]
         if listening:
             paused = bool(self.simulation.state == _core.RunState.PAUSED)
@@ -173,7 +173,7 @@ class ScriptHost:
     def restart(self) -> None:
         """End all scripts, put the world back to its start at time 0, and load the scripts afresh unless it is stopped.
 
-        Between passes or while messages are delivered, but not from within a script: RuntimeError.
+        Between steps or while messages are delivered, but not from within a script: RuntimeError.
         """
         if interruption.allowed:  # a script is running
             raise RuntimeError("a child script cannot start the simulation anew that it is called from")

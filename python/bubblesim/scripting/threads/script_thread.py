@@ -187,7 +187,7 @@ class ScriptThread:
     def step(self) -> None:
         """Called by the thread: gives its turn back and waits for the next one."""
         if self._calling:
-            raise RuntimeError("a callback that a function of sim or simROS calls cannot wait for the next pass")
+            raise RuntimeError("a callback that a function of sim or simROS calls cannot wait for the next step")
         with self._changed:
             if self.exit_requested:  # once, so that it sees the request
                 self._steps_to_end += 1

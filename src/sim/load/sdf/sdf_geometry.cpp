@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 class GeometryReader {
  public:
-  GeometryReader(sdf::ElementPtr element, SceneReading& reading) : element_(std::move(element)), reading_(reading) {}
+  GeometryReader(sdf::ElementPtr element, LoadContext& reading) : element_(std::move(element)), reading_(reading) {}
 
   Geometry mesh(const sdf::Mesh& mesh) const {
     return from_file(mesh.Uri(), [&](const fs::path& file) {
@@ -82,12 +82,12 @@ class GeometryReader {
   }
 
   sdf::ElementPtr element_;
-  SceneReading& reading_;
+  LoadContext& reading_;
 };
 
 }  // namespace
 
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, SceneReading& reading) {
+std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, LoadContext& reading) {
   if (const auto* box = geometry.BoxShape()) return Box{box->Size()};
   if (const auto* sphere = geometry.SphereShape()) return Sphere{sphere->Radius()};
   if (const auto* cylinder = geometry.CylinderShape()) return Cylinder{cylinder->Radius(), cylinder->Length()};

@@ -9,9 +9,9 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "check/checks.hpp"
-#include "load/own_elements.hpp"
 #include "load/sdf/sdf_sensors.hpp"
 #include "load/sdf/sdf_source.hpp"
+#include "load/sdf_extensions.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {
@@ -47,7 +47,7 @@ const char* sdf_type(sdf::JointType type) {
 }
 
 /// SDFormat 1.11 has <mimic joint="..." axis="...">; older files may write it as <bubblesim:mimic>.
-std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, SceneReading& reading) {
+std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, LoadContext& reading) {
   for (auto element = axis->GetFirstElement(); element != nullptr; element = element->GetNextElement()) {
     if (element->GetName() != "mimic" && element->GetName() != "bubblesim:mimic") continue;
     MimicDescription mimic;
@@ -62,7 +62,7 @@ std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, SceneRea
 }
 
 /// Metres a turn, from an element that may be in one of two conventions.
-double read_screw_lead(const sdf::Joint& joint, const std::string& path, SceneReading& reading) {
+double read_screw_lead(const sdf::Joint& joint, const std::string& path, LoadContext& reading) {
   const sdf::ElementPtr element = joint.Element();
   // SDFormat 1.10: metres a turn, right-handed.
   if (const auto lead = own_number(element, "screw_thread_pitch", reading.problems())) return *lead;
@@ -77,13 +77,13 @@ double reachable(double limit, double none, const std::string& name, const sdf::
                  const std::string& path) {
   if (std::abs(limit) >= kNoLimit) return none;
   if (!(std::abs(limit) > kMaxDistance)) return limit;
-  SceneReading::warn(source_of(axis.Element()->FindElement("limit"), name), path,
-                     "the " + name + " limit is " + text(limit) + ", beyond 1e6: there is none");
+  LoadContext::warn(source_of(axis.Element()->FindElement("limit"), name), path,
+                    "the " + name + " limit is " + text(limit) + ", beyond 1e6: there is none");
   return none;
 }
 
 AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, const std::string& path,
-                          SceneReading& reading) {
+                          LoadContext& reading) {
   const auto limit = [](double value, double none) { return std::abs(value) < kNoLimit ? value : none; };
   const double none = std::numeric_limits<double>::infinity();
   AxisDescription description;
@@ -126,7 +126,7 @@ void complete_universal(JointDescription& joint) {
 
 }  // namespace
 
-JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path, SceneReading& reading) {
+JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path, LoadContext& reading) {
   const std::string path = model_path + "/" + joint.Name();
   JointDescription description;
   description.name = joint.Name();

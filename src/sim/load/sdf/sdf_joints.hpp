@@ -6,11 +6,11 @@
 #include <string>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// `model_path` is the path of the model's object.
-JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path, SceneReading& reading);
+JointDescription read_joint(const sdf::Joint& joint, const std::string& model_path, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 #include "load/sdf/sdf_source.hpp"
 
 namespace bubblesim {
@@ -58,8 +58,8 @@ void report_left_out(const sdf::ElementPtr& owner, const std::string& path) {
          element = element->GetNextElement(kind.name)) {
       if (!kind.counts(element)) continue;
       const std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
-      SceneReading::warn(source_of(element), name.empty() ? path : path + "/" + name,
-                         "<" + std::string(kind.name) + "> is left out: " + kind.reason);
+      LoadContext::warn(source_of(element), name.empty() ? path : path + "/" + name,
+                        "<" + std::string(kind.name) + "> is left out: " + kind.reason);
     }
   }
 }

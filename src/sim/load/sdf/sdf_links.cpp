@@ -49,15 +49,15 @@ std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, cons
     Shape shape;
     shape.Load(element);  // what is wrong with it was told when the file was read
     shape.SetName(name + "_" + std::to_string(number));
-    SceneReading::warn(source_of(element), link_path + "/" + shape.Name(),
-                       "is named so, as another one has the name '" + name + "'");
+    LoadContext::warn(source_of(element), link_path + "/" + shape.Name(),
+                      "is named so, as another one has the name '" + name + "'");
     found.push_back(std::move(shape));
   }
   return found;
 }
 
 std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const Pose& pose,
-                                                   const std::string& link_path, SceneReading& reading) {
+                                                   const std::string& link_path, LoadContext& reading) {
   CollisionDescription description;
   description.name = collision.Name();
   description.source = source_of(collision.Element());
@@ -68,8 +68,8 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
     if (!geometry) return std::nullopt;
     description.geometry = *geometry;
   } catch (const MissingFile& error) {
-    SceneReading::warn(source_of(collision.Element(), "geometry"), path,
-                       std::string(error.what()) + "; this collision is left out");
+    LoadContext::warn(source_of(collision.Element(), "geometry"), path,
+                      std::string(error.what()) + "; this collision is left out");
     return std::nullopt;
   } catch (const MeshError& error) {
     reading.report(source_of(collision.Element(), "geometry"), path, error.what());
@@ -96,7 +96,7 @@ void thicken(Geometry& geometry) {
 
 /// A visual whose shape cannot be had is replaced by the link's collision shapes, in its colour.
 void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string& link_path, bool is_static,
-                 LinkDescription& link, SceneReading& reading) {
+                 LinkDescription& link, LoadContext& reading) {
   VisualDescription description;
   description.name = visual.Name();
   description.source = source_of(visual.Element());
@@ -120,8 +120,8 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
     link.visuals.push_back(std::move(description));
     return;
   } catch (const MeshError& error) {
-    SceneReading::warn(source_of(visual.Element(), "geometry"), path,
-                       std::string(error.what()) + "; the link shows its collision shapes instead");
+    LoadContext::warn(source_of(visual.Element(), "geometry"), path,
+                      std::string(error.what()) + "; the link shows its collision shapes instead");
   }
   for (const CollisionDescription& collision : link.collisions) {
     description.pose = collision.pose;
@@ -144,26 +144,26 @@ void repair_inertia(LinkDescription& link, const std::string& path) {
   if (nearest) {
     link.inertia_diagonal = nearest->diagonal;
     link.inertia_products = nearest->products;
-    SceneReading::warn(link.source, path,
-                       is + ": the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
-                           text(nearest->products) + ", is taken");
+    LoadContext::warn(link.source, path,
+                      is + ": the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
+                          text(nearest->products) + ", is taken");
     return;
   }
   link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
   link.inertia_products = Vector3::Zero;
-  SceneReading::warn(link.source, path, is + ": that of a ball with a radius of 0.1 m is taken instead");
+  LoadContext::warn(link.source, path, is + ": that of a ball with a radius of 0.1 m is taken instead");
 }
 
 }  // namespace
 
-LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading) {
+LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading) {
   const std::string path = model_path + "/" + link.Name();
   LinkDescription description;
   description.name = link.Name();
   description.pose = reading.resolved(link, path);
   description.source = source_of(link.Element());
   report_left_out(link.Element(), path);
-  description.has_weight = link.Element()->Get<bool>("gravity", true).first;
+  description.gravity_enabled = link.Element()->Get<bool>("gravity", true).first;
   const auto& inertial = link.Inertial();
   const ignition::math::Matrix3d inertia = inertial.Moi();
   description.mass = inertial.MassMatrix().Mass();

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// `model_path` is the path of the model's object; `is_static` tells whether the model stands fast.
-LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, SceneReading& reading);
+LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "load/own_elements.hpp"
 #include "load/sdf/sdf_joints.hpp"
 #include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_links.hpp"
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_source.hpp"
+#include "load/sdf_extensions.hpp"
 
 namespace bubblesim {
 namespace {
@@ -19,7 +19,7 @@ constexpr const char* kChildScript = "bubblesim:child_script";
 
 /// The file that a model names, beside the file that the model stands in; whoever includes a model may give it
 /// another.
-std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std::string& path, SceneReading& reading) {
+std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std::string& path, LoadContext& reading) {
   const sdf::ElementPtr include = model->GetIncludeElement();
   if (include != nullptr) check_own_elements(include, reading.problems());
   const bool given_by_include = include != nullptr && own_text(include, kChildScript);
@@ -42,7 +42,7 @@ std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std:
 /// "::", and has its pose in that one.
 class ModelReader {
  public:
-  ModelReader(ModelDescription& description, SceneReading& reading) : description_(description), reading_(reading) {}
+  ModelReader(ModelDescription& description, LoadContext& reading) : description_(description), reading_(reading) {}
 
   void read(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& path) {
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
@@ -110,7 +110,7 @@ class ModelReader {
   }
 
   ModelDescription& description_;
-  SceneReading& reading_;
+  LoadContext& reading_;
 };
 
 /// Names that hold what separates them in paths could not be told from several.
@@ -118,13 +118,13 @@ std::string name_in_paths(const sdf::Model& model) {
   std::string name = model.Name();
   if (name.find('/') == std::string::npos) return name;
   std::replace(name.begin(), name.end(), '/', '_');
-  SceneReading::warn(source_of(model.Element()), "/" + name, "is named so, as '/' separates names in paths");
+  LoadContext::warn(source_of(model.Element()), "/" + name, "is named so, as '/' separates names in paths");
   return name;
 }
 
 }  // namespace
 
-ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading) {
+ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading) {
   const std::string name = name_in_paths(model);
   const std::string path = "/" + name;
   report_left_out(model.Element(), path);

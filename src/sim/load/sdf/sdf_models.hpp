@@ -5,11 +5,11 @@
 #include <sdf/Model.hh>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// `pose` is the model's in the world.
-ModelDescription read_model(const sdf::Model& model, const Pose& pose, SceneReading& reading);
+ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading);
 
 }  // namespace bubblesim

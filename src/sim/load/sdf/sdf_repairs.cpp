@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "load/find/model_folders.hpp"
-#include "load/own_elements.hpp"
 #include "load/sdf/sdf_values.hpp"
+#include "load/sdf_extensions.hpp"
 #include "load/xml_lines.hpp"
 
 namespace bubblesim {
@@ -41,7 +41,7 @@ std::string attribute(const XMLElement& element, const char* name) {
 bool is(const XMLElement& element, std::string_view name) { return name == element.Name(); }
 
 void warn(const std::string& file, const XMLElement& element, const std::string& message) {
-  SceneReading::warn({file, element.GetLineNum()}, object_path(element), message);
+  LoadContext::warn({file, element.GetLineNum()}, object_path(element), message);
 }
 
 /// The frames whose names end as `wanted` does, beginning with those that share most of it with it.
@@ -168,8 +168,8 @@ bool SdfRepairs::number_models(XMLElement& parent, const std::string& file) {
       auto* element = model->FirstChildElement("name");
       (element != nullptr ? element : model->InsertNewChildElement("name"))->SetText(numbered.c_str());
     }
-    SceneReading::warn({file, model->GetLineNum()}, object_path(parent) + "/" + numbered,
-                       "is named so, as another model has the name '" + name + "'");
+    LoadContext::warn({file, model->GetLineNum()}, object_path(parent) + "/" + numbered,
+                      "is named so, as another model has the name '" + name + "'");
   }
   return seen.size() < models.size();
 }

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
@@ -18,7 +18,7 @@ namespace bubblesim {
 /// own, which lasts as long as it does.
 class SdfRepairs {
  public:
-  explicit SdfRepairs(SceneReading& reading) : reading_(reading) {}
+  explicit SdfRepairs(LoadContext& reading) : reading_(reading) {}
   ~SdfRepairs();
   SdfRepairs(const SdfRepairs&) = delete;
   SdfRepairs& operator=(const SdfRepairs&) = delete;
@@ -49,7 +49,7 @@ class SdfRepairs {
   void read_included(const std::filesystem::path& file, Included& included);
   std::filesystem::path keep(const std::filesystem::path& original, const std::string& text);
 
-  SceneReading& reading_;
+  LoadContext& reading_;
   std::map<std::filesystem::path, Included> included_;
   std::filesystem::path folder_;  // empty while nothing is kept
 };

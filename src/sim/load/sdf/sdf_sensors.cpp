@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/own_elements.hpp"
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_source.hpp"
+#include "load/sdf_extensions.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {
@@ -67,12 +67,12 @@ ScanAngles read_angles(unsigned int samples, double resolution, double min, doub
 void straighten(ScanAngles& vertical, const Source& source, const std::string& path) {
   const std::string angles = text(vertical.min) + " to " + text(vertical.max) + " rad";
   if (vertical.samples < 1 || (vertical.samples == 1 && vertical.min != vertical.max)) {
-    SceneReading::warn(
+    LoadContext::warn(
         source, path,
         std::to_string(vertical.samples) + " vertical samples from " + angles + ": a single ring at 0 rad is taken");
     vertical = {1, 0, 0};
   } else if (vertical.min > vertical.max) {
-    SceneReading::warn(source, path, "the vertical angles are " + angles + ": they are taken from low to high");
+    LoadContext::warn(source, path, "the vertical angles are " + angles + ": they are taken from low to high");
     std::swap(vertical.min, vertical.max);
   }
 }
@@ -154,9 +154,9 @@ void widen_at_most(double& field_of_view, const Source& source, const std::strin
   constexpr double kWidest = 3.13;
   if (!(field_of_view > kWide && field_of_view <= M_PI + 1e-3)) return;
   const std::string taken = field_of_view > kWidest ? ", " + text(kWidest) + " is taken" : "";
-  SceneReading::warn(source, path,
-                     "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
-                         ": what lies ahead is tiny in such a picture");
+  LoadContext::warn(source, path,
+                    "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
+                        ": what lies ahead is tiny in such a picture");
   field_of_view = std::min(field_of_view, kWidest);
 }
 
@@ -210,9 +210,9 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
 }
 
 void tell_left_out(const Source& source, const std::string& path, const std::string& type) {
-  SceneReading::warn(source, path,
-                     "sensors of type '" + type +
-                         "' are not simulated, the model goes without this one; simulated are " + list_of_simulated());
+  LoadContext::warn(source, path,
+                    "sensors of type '" + type +
+                        "' are not simulated, the model goes without this one; simulated are " + list_of_simulated());
 }
 
 /// Reads what kind of sensor it is, and how it measures, into `description`, whose pose is known already. False when it
@@ -320,7 +320,7 @@ SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose) {
 }  // namespace
 
 std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                             const Pose& pose, SceneReading& reading) {
+                                             const Pose& pose, LoadContext& reading) {
   const std::string path = carrier_path + "/" + sensor.Name();
   SensorDescription description = read_any(sensor, pose);
   const Report report_here = [&](const Source& source, std::string message) {
@@ -331,7 +331,7 @@ std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const st
 }
 
 std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                                const Pose& pose, SceneReading& reading) {
+                                                const Pose& pose, LoadContext& reading) {
   const std::string path = carrier_path + "/" + sensor.Name();
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));

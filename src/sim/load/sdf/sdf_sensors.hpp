@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// A sensor of the link or joint at a path, with its pose in there. Nothing when it cannot be told what it is, which
 /// is reported, or when it is of a kind that is not simulated, which is a warning.
 std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                             const Pose& pose, SceneReading& reading);
+                                             const Pose& pose, LoadContext& reading);
 
 /// The cameras of a sensor of type multicamera, each a sensor named SENSOR_CAMERA.
 std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                                const Pose& pose, SceneReading& reading);
+                                                const Pose& pose, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 #include "load/sdf/sdf_source.hpp"
 
 namespace bubblesim {
@@ -71,7 +71,7 @@ class ModelState {
   }
 
   void warn(const sdf::ElementPtr& element, const std::string& message) const {
-    SceneReading::warn(source_of(element), path_, message);
+    LoadContext::warn(source_of(element), path_, message);
   }
 
   ModelDescription& model_;
@@ -99,13 +99,13 @@ void apply_state(const sdf::World& world, std::vector<ModelDescription>& models)
     if (ModelDescription* model = named(models, name)) {
       ModelState(*model).apply(each);
     } else {
-      SceneReading::warn(source_of(each), "/" + name, "the <state> names it, and the world has no such model");
+      LoadContext::warn(source_of(each), "/" + name, "the <state> names it, and the world has no such model");
     }
   }
   for (const char* kind : {"insertions", "deletions"}) {
     const sdf::ElementPtr element = state->FindElement(kind);
     if (element == nullptr) continue;
-    SceneReading::warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> are left out");
+    LoadContext::warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> are left out");
   }
 }
 

@@ -36,7 +36,7 @@ double read_torsion(const sdf::ElementPtr& element) {
 
 }  // namespace
 
-Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, SceneReading& reading) {
+Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading) {
   Surface surface;
   read<int>(collision, "max_contacts", surface.max_contacts);
   const sdf::ElementPtr friction = below(collision, {"surface", "friction", "ode"});

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// `path` is the path of the collision that has it.
-Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, SceneReading& reading);
+Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading);
 
 }  // namespace bubblesim

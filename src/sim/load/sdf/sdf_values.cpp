@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "load/own_elements.hpp"
+#include "load/sdf_extensions.hpp"
 #include "load/xml_lines.hpp"
 
 namespace bubblesim {
@@ -85,7 +85,7 @@ std::string default_of(const sdf::Param& value) {
 
 class ValueCheck {
  public:
-  ValueCheck(const std::string& file, SceneReading& reading) : file_(file), reading_(reading) {}
+  ValueCheck(const std::string& file, LoadContext& reading) : file_(file), reading_(reading) {}
 
   void check_below(XMLElement& parent, const sdf::ElementPtr& description) {
     for (auto* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
@@ -200,25 +200,24 @@ class ValueCheck {
     reading_.report({file_, element.GetLineNum()}, object_path(element), std::move(message));
   }
   void warn(const XMLElement& element, const std::string& message) {
-    SceneReading::warn({file_, element.GetLineNum()}, object_path(element),
-                       "<" + std::string(element.Name()) + "> " + message);
+    LoadContext::warn({file_, element.GetLineNum()}, object_path(element),
+                      "<" + std::string(element.Name()) + "> " + message);
   }
 
   const std::string& file_;
-  SceneReading& reading_;
+  LoadContext& reading_;
   bool changed_ = false;
 };
 
 }  // namespace
 
-bool replace_bad_values(XMLElement& sdf, const std::string& file, SceneReading& reading) {
+bool replace_bad_values(XMLElement& sdf, const std::string& file, LoadContext& reading) {
   ValueCheck check(file, reading);
   check.check_below(sdf, root_description());
   return check.changed();
 }
 
-bool replace_bad_values(XMLElement& element, const std::string& parent, const std::string& file,
-                        SceneReading& reading) {
+bool replace_bad_values(XMLElement& element, const std::string& parent, const std::string& file, LoadContext& reading) {
   sdf::ElementPtr description = description_below(root_description(), "model");
   if (parent == "link") description = description_below(description, "link");
   const sdf::ElementPtr known = description_below(description, element.Name());

@@ -6,16 +6,16 @@
 
 #include <string>
 
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// Replaces values in the <sdf> of `file` that its description does not allow, so that the rest can be read: by what
 /// Gazebo takes, with a warning, or by the default, with a problem. True when it has changed anything.
-bool replace_bad_values(tinyxml2::XMLElement& sdf, const std::string& file, SceneReading& reading);
+bool replace_bad_values(tinyxml2::XMLElement& sdf, const std::string& file, LoadContext& reading);
 
 /// The same of what stands in a <gazebo> of URDF: `parent` says where SDFormat has it, "link" or "model".
 bool replace_bad_values(tinyxml2::XMLElement& element, const std::string& parent, const std::string& file,
-                        SceneReading& reading);
+                        LoadContext& reading);
 
 }  // namespace bubblesim

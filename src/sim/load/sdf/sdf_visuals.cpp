@@ -13,7 +13,7 @@
 #include "load/find/model_folders.hpp"
 #include "load/materials/material_scripts.hpp"
 #include "load/materials/named_materials.hpp"
-#include "load/own_elements.hpp"
+#include "load/sdf_extensions.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/picture.hpp"
 
@@ -28,7 +28,7 @@ Color brightened(const ignition::math::Color& color, double factor) {
 }
 
 /// Of the script that a material names: the model's own, or one of Gazebo's.
-std::optional<Material> scripted(const sdf::Material& material, SceneReading& reading) {
+std::optional<Material> scripted(const sdf::Material& material, LoadContext& reading) {
   const sdf::ElementPtr element = material.Element();
   if (!element->HasElement("script")) return std::nullopt;
   const sdf::ElementPtr script = element->GetElement("script");
@@ -44,7 +44,7 @@ std::optional<Material> scripted(const sdf::Material& material, SceneReading& re
 }
 
 /// The picture that <pbr> gives for colours, as models for gz-sim have it.
-std::shared_ptr<const Texture> albedo(const sdf::Material& material, SceneReading& reading) {
+std::shared_ptr<const Texture> albedo(const sdf::Material& material, LoadContext& reading) {
   const sdf::Pbr* pbr = material.PbrMaterial();
   if (pbr == nullptr) return nullptr;
   for (const auto type : {sdf::PbrWorkflowType::METAL, sdf::PbrWorkflowType::SPECULAR}) {
@@ -64,7 +64,7 @@ std::shared_ptr<const Texture> albedo(const sdf::Material& material, SceneReadin
 
 }  // namespace
 
-std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& reading) {
+std::optional<Material> read_material(const sdf::Visual& visual, LoadContext& reading) {
   const sdf::Material* described = visual.Material();
   if (described == nullptr) return std::nullopt;
   const sdf::ElementPtr element = described->Element();

@@ -9,13 +9,13 @@
 #include <sdf/Visual.hh>
 
 #include "bubblesim/scene.hpp"
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
 /// What a visual gives by values, by the name of a material script that the model brings, or by one of Gazebo's names.
 /// Nothing when it gives none that is known.
-std::optional<Material> read_material(const sdf::Visual& visual, SceneReading& reading);
+std::optional<Material> read_material(const sdf::Visual& visual, LoadContext& reading);
 
 /// Background, ambient light and shadows.
 void read_surroundings(const sdf::Scene& scene, Environment& environment);

@@ -85,16 +85,16 @@ bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
 }
 
 /// A first link without mass would go, and the whole robot with it: nothing could move it, so the world holds it.
-void hold_massless_root(XMLElement& robot, const SceneReading& reading) {
+void hold_massless_root(XMLElement& robot, const LoadContext& reading) {
   std::set<std::string> children;
   each(robot, "joint", [&](const XMLElement& joint) { children.insert(child_attribute(joint, "child", "link")); });
   auto* root = robot.FirstChildElement("link");
   while (root != nullptr && children.count(attribute(root, "name")) > 0) root = root->NextSiblingElement("link");
   const std::string name = attribute(root, "name");
   if (root == nullptr || name == kWorld || has_mass(robot, name)) return;
-  SceneReading::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
-                     "has no mass, so that nothing can move it: it is fixed to the world; give it an <inertial> if it "
-                     "is to move");
+  LoadContext::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
+                    "has no mass, so that nothing can move it: it is fixed to the world; give it an <inertial> if it "
+                    "is to move");
   if (auto* inertial = root->FirstChildElement("inertial")) root->DeleteChild(inertial);
   auto* inertial = root->InsertNewChildElement("inertial");
   inertial->InsertNewChildElement("mass")->SetAttribute("value", 1);
@@ -110,15 +110,15 @@ void hold_massless_root(XMLElement& robot, const SceneReading& reading) {
 }
 
 /// What a <gazebo> adds to a link or to the model is SDFormat, but for its own words.
-void repair_extension(XMLElement& extension, SceneReading& reading) {
+void repair_extension(XMLElement& extension, LoadContext& reading) {
   const std::string& file = reading.xml().file();
   const std::string link = attribute(&extension, "reference");
   const std::string path = "/" + attribute(reading.xml().document().RootElement(), "name") + "/" + link;
   for (auto* child = extension.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string_view name = child->Name();
     if ((name == "mu1" || name == "mu2") && child->DoubleText() < 0) {
-      SceneReading::warn({file, child->GetLineNum()}, path,
-                         "<" + std::string(name) + "> is below 0: the friction is infinite");
+      LoadContext::warn({file, child->GetLineNum()}, path,
+                        "<" + std::string(name) + "> is below 0: the friction is infinite");
       child->SetText("inf");
     } else if (name == "sensor") {
       replace_bad_values(*child, link.empty() ? "model" : "link", file, reading);
@@ -135,7 +135,7 @@ std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
 
 }  // namespace
 
-std::string prepared_urdf(SceneReading& reading) {
+std::string prepared_urdf(LoadContext& reading) {
   XMLElement& original = *reading.xml().document().RootElement();  // a copy has no lines
   for (auto* extension = original.FirstChildElement("gazebo"); extension != nullptr;
        extension = extension->NextSiblingElement("gazebo")) {
@@ -163,7 +163,7 @@ sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const st
   return errors;
 }
 
-void finish_urdf(ModelDescription& model, SceneReading& reading) {
+void finish_urdf(ModelDescription& model, LoadContext& reading) {
   const auto find = [&model](const std::string& name) {
     return std::find_if(model.joints.begin(), model.joints.end(),
                         [&name](const JointDescription& joint) { return joint.name == name; });
@@ -183,13 +183,13 @@ void finish_urdf(ModelDescription& model, SceneReading& reading) {
     const auto found = find(name);
     if (found == model.joints.end()) {
       if (attribute(&joint, "type") == "fixed") return;  // lumped
-      SceneReading::warn(source, path,
-                         "is left out with all that hangs on it: '" + child_attribute(joint, "child", "link") +
-                             "', or a link that carries it, has no mass; give it an <inertial>");
+      LoadContext::warn(source, path,
+                        "is left out with all that hangs on it: '" + child_attribute(joint, "child", "link") +
+                            "', or a link that carries it, has no mass; give it an <inertial>");
     } else if (lets_go(joint)) {
       model.joints.erase(found);
       if (attribute(&joint, "type") == "planar") {
-        SceneReading::warn(source, path, "planar joints are not simulated: its child moves freely");
+        LoadContext::warn(source, path, "planar joints are not simulated: its child moves freely");
       }
     }
   });
@@ -201,8 +201,8 @@ void finish_urdf(ModelDescription& model, SceneReading& reading) {
     const auto* leader = robot.FirstChildElement("joint");
     while (leader != nullptr && attribute(leader, "name") != mimic->joint) leader = leader->NextSiblingElement("joint");
     if (leader != nullptr && find(mimic->joint) == model.joints.end()) {
-      SceneReading::warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
-                         "mimics '" + mimic->joint + "', which does not move: it is free instead");
+      LoadContext::warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
+                        "mimics '" + mimic->joint + "', which does not move: it is free instead");
       return;
     }
     found->axes.front().mimic = mimic;

@@ -6,7 +6,7 @@
 
 #include "physics/contact_defaults.hpp"
 #include "physics/joints/kinds.hpp"
-#include "physics/joints/tooth.hpp"
+#include "physics/joints/point_velocity_constraint.hpp"
 
 namespace bubblesim {
 namespace {
@@ -81,7 +81,7 @@ class Gearbox final : public Joint {
     shafts_[1] = shaft(site.child, site.child_shaft, 1);
     for (int i = 0; i < 2; ++i) at_start_[i] = frame.pose.Rot().Inverse() * Frame(shafts_[i].body).pose.Rot();
     if (const auto direct = mesh_of(shafts_[0], shafts_[1], ratio_)) {
-      teeth_.push_back({shafts_[0].body, shafts_[1].body, *direct, ratio_, Tooth(world)});
+      teeth_.push_back({shafts_[0].body, shafts_[1].body, *direct, ratio_, PointVelocityConstraint(world)});
     } else {
       add_layshaft(world);
     }
@@ -107,7 +107,7 @@ class Gearbox final : public Joint {
     dBodyID second;
     Mesh mesh;
     double ratio;
-    Tooth tooth;
+    PointVelocityConstraint tooth;
   };
 
   /// Shafts on one line have no point in which they could hold each other: a small shaft beside them turns in between.
@@ -132,8 +132,9 @@ class Gearbox final : public Joint {
     const Vector3 direction = frame.Rot().RotateVector(lay.direction);
     dJointSetHingeAnchor(bearing_.get(), anchor.X(), anchor.Y(), anchor.Z());
     dJointSetHingeAxis(bearing_.get(), direction.X(), direction.Y(), direction.Z());
-    teeth_.push_back({parent.body, lay.body, *mesh_of(parent, lay, 1), 1, Tooth(world)});
-    teeth_.push_back({lay.body, shafts_[1].body, *mesh_of(lay, shafts_[1], -ratio_), -ratio_, Tooth(world)});
+    teeth_.push_back({parent.body, lay.body, *mesh_of(parent, lay, 1), 1, PointVelocityConstraint(world)});
+    teeth_.push_back(
+        {lay.body, shafts_[1].body, *mesh_of(lay, shafts_[1], -ratio_), -ratio_, PointVelocityConstraint(world)});
   }
 
   /// Puts the layshaft where the reference body has it, for that may have been moved. It is round: its own turn does

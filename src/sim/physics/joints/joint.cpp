@@ -10,7 +10,7 @@
 namespace bubblesim {
 namespace {
 
-/// How fast position control closes the gap to its target, as a time constant in seconds: one default pass.
+/// How fast position control closes the gap to its target, as a time constant in seconds: one default step.
 constexpr double kServoTime = 0.05;
 
 /// The turn from `from` to `to` that is at most half a revolution.

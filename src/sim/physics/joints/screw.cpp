@@ -4,7 +4,7 @@
 
 #include "physics/contact_defaults.hpp"
 #include "physics/joints/kinds.hpp"
-#include "physics/joints/tooth.hpp"
+#include "physics/joints/point_velocity_constraint.hpp"
 
 namespace bubblesim {
 namespace {
@@ -54,7 +54,7 @@ class Screw final : public Joint {
   }
 
   ode::JointHandle joint_;
-  Tooth thread_;
+  PointVelocityConstraint thread_;
   dBodyID child_;
   dBodyID parent_;
   double slope_;  // m/rad, along the axis

@@ -87,7 +87,7 @@ class ActionClient:
         return True
 
     def send_outgoing(self) -> None:
-        """Send what waits for the server, if it is there; to be called in every pass."""
+        """Send what waits for the server, if it is there; to be called in every step."""
         if self._topics.closed:
             return
         if not self._topics.are_connected():  # a server's answer would be lost

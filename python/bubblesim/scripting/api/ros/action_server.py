@@ -96,7 +96,7 @@ class ActionServer:
         return goal_id in self._goals and self._goals[goal_id].status in statuses
 
     def publish_status_when_due(self) -> None:
-        """Publish the status some times a second; to be called in every pass."""
+        """Publish the status some times a second; to be called in every step."""
         if time.monotonic() >= self._next_status:
             self._publish_status()
 

@@ -57,7 +57,7 @@ class RosActions(RosContext):
         with topics.closed_on_error():
             client = ActionClient(topics, *callbacks)
         self._action_clients[client.handle] = client
-        self._caller.in_each_pass["action client", client.handle] = client.send_outgoing
+        self._caller.in_each_step["action client", client.handle] = client.send_outgoing
         self._caller.at_end["action client", client.handle] = lambda: self.shutdownActionClient(client.handle)
         return client.handle
 
@@ -98,7 +98,7 @@ class RosActions(RosContext):
         with topics.closed_on_error():
             server = ActionServer(topics, handle_goal, handle_cancel, handle_accepted)
         self._action_servers[server.handle] = server
-        self._caller.in_each_pass["action server", server.handle] = server.publish_status_when_due
+        self._caller.in_each_step["action server", server.handle] = server.publish_status_when_due
         self._caller.at_end["action server", server.handle] = lambda: self.shutdownActionServer(server.handle)
         return server.handle
 
@@ -158,7 +158,7 @@ class RosActions(RosContext):
         return self._action_servers[handle]
 
     def _forget(self, what: str, handle: int) -> None:
-        self._caller.in_each_pass.pop((what, handle), None)
+        self._caller.in_each_step.pop((what, handle), None)
         self._caller.at_end.pop((what, handle), None)
 
 

@@ -191,7 +191,7 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         return time["sec"] + time["nanosec"] * 1e-9
 
     def spinSome(self) -> None:
-        """Accepted for older scripts: messages are delivered at the start of each pass in any case."""
+        """Accepted for older scripts: messages are delivered at the start of each step in any case."""
 
     def getTime(self) -> dict[str, int]:
         """ROS time as {sec, nanosec}."""

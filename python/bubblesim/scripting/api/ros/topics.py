@@ -65,7 +65,7 @@ class RosTopics(RosContext):
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
         self._caller.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
         self._topics[publisher] = topic
-        self._caller.in_each_pass["checks of messages"] = self._renew_checks
+        self._caller.in_each_step["checks of messages"] = self._renew_checks
         return publisher
 
     def _check(self, publisher: int, message: Message) -> None:

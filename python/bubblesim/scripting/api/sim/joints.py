@@ -42,9 +42,9 @@ class JointFunctions(ApiContext):
         return float(self._world.joint_velocity(self._resolve(joint)))
 
     def getJointForce(self, joint: Handle) -> float:
-        """What the joint's motor did in the last pass, in the joint's positive direction; measured from the first call
+        """What the joint's motor did in the last step, in the joint's positive direction; measured from the first call
         on, which returns 0. What holds a joint beside its motor, such as limits and friction, does not count."""
-        return float(self._world.motor_force(self._resolve(joint)))
+        return float(self._world.motor_effort(self._resolve(joint)))
 
     def getJointTargetPosition(self, joint: Handle) -> float:
         """Where a position-controlled joint goes."""

@@ -56,7 +56,7 @@ class SensorFunctions(ApiContext):
         return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
 
     def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
-        """1, and the force (N) and torque (N m) of a force-torque sensor, the means over the last pass."""
+        """1, and the force (N) and torque (N m) of a force-torque sensor, the means over the last step."""
         reading = read_force_torque(self._simulation, self._resolve(sensor))
         return 1, reading.force.tolist(), reading.torque.tolist()
 
@@ -76,7 +76,7 @@ class SensorFunctions(ApiContext):
         return field
 
     def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
-        """What the sensor's link touched during the last pass, one for each pair of shapes; empty for nothing.
+        """What the sensor's link touched during the last step, one for each pair of shapes; empty for nothing.
 
         Each has ``other``, the handle of the link touched, the names ``collision`` and ``otherCollision``, the mean
         ``force`` (N, on the sensor's link) and the lists ``positions`` (m) and ``normals``, all in world axes.

@@ -10,11 +10,11 @@ from bubblesim.scripting.api.functions import any_time
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.threads.script_thread import AnyThread, current
 
-_TOLERANCE = 1e-6  # of a pass
+_TOLERANCE = 1e-6  # of a step
 
 
 class ThreadFunctions(ApiContext):
-    """A script's thread is switched away after 2 ms in each pass, or with stepping where it calls ``step``."""
+    """A script's thread is switched away after 2 ms in each step, or with stepping where it calls ``step``."""
 
     @any_time
     def setStepping(self, enable: bool) -> int:
@@ -44,12 +44,12 @@ class ThreadFunctions(ApiContext):
 
     @any_time
     def step(self) -> None:
-        """Wait for the next pass."""
+        """Wait for the next step."""
         self._thread("step").step()
 
     @any_time
     def switchThread(self) -> None:
-        """Wait for the next pass."""
+        """Wait for the next step."""
         self._thread("switchThread").step()
 
     @any_time
@@ -77,7 +77,7 @@ class ThreadFunctions(ApiContext):
 
     @any_time
     def getSimulationStopping(self) -> bool:
-        """Whether this is the last pass, or the end after it."""
+        """Whether this is the last step, or the end after it."""
         return self.getThreadExitRequest() or bool(self._simulation.state == RunState.STOPPING)
 
     def _thread(self, function: str) -> AnyThread:

@@ -24,20 +24,20 @@ def _seconds_since_start() -> float:
 
 
 class TimeFunctions(ApiContext):
-    """Simulation time in seconds starts at 0 and is constant through a pass."""
+    """Simulation time in seconds starts at 0 and is constant through a step."""
 
     def getSimulationTime(self) -> float:
         """Simulated seconds."""
         return float(self._simulation.time)
 
     def getSimulationTimeStep(self) -> float:
-        """Seconds that one pass takes."""
+        """Seconds that one step takes."""
         return float(self._simulation.time_step)
 
     def setSimulationTimeStep(self, seconds: float) -> None:
-        """Let passes take so many seconds from this one on, 0.0001 to 10, until the simulation stops.
+        """Let steps take so many seconds from this one on, 0.0001 to 10, until the simulation stops.
 
-        Physics steps become shorter when need be, never longer.
+        Physics substeps become shorter when need be, never longer.
         """
         self._simulation.set_time_step(seconds)
 
@@ -57,7 +57,7 @@ class TimeFunctions(ApiContext):
         return _STATES[self._simulation.state]
 
     def pauseSimulation(self) -> None:
-        """Pause after this pass."""
+        """Pause after this step."""
         self._simulation.pause()
 
     def startSimulation(self) -> None:
@@ -65,9 +65,9 @@ class TimeFunctions(ApiContext):
         self._simulation.start()
 
     def stopSimulation(self) -> None:
-        """Stop after one more pass, back to the start of the scene; the node ends when nobody could start it again."""
+        """Stop after one more step, back to the start of the scene; the node ends when nobody could start it again."""
         self._simulation.stop()
 
     def quitSimulator(self) -> None:
-        """End the node after this pass."""
+        """End the node after this step."""
         self._simulation.end()

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim._core import camera_optics, measure_camera, read_camera, read_lidar, show_picture
+from bubblesim._core import camera_optics, measure_camera, override_image, read_camera, read_lidar
 from bubblesim.scripting.api.kinds import Bytes, Handle, Integers
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -55,7 +55,7 @@ class VisionFunctions(ApiContext):
         if len(image) != columns * rows * 3:
             raise ValueError(f"{columns} x {rows} pixels of 3 bytes are not {len(image)} bytes")
         top_down = np.frombuffer(image, np.uint8).reshape(rows, columns, 3)[::-1]
-        show_picture(self._simulation, self._resolve(sensor), top_down.tobytes())
+        override_image(self._simulation, self._resolve(sensor), top_down.tobytes())
 
     def setVisionSensorCharImage(self, sensor: Handle, image: Bytes) -> None:
         """Show a picture on a camera (old style)."""

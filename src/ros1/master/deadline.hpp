@@ -9,11 +9,11 @@
 namespace bubblesim {
 
 /// How long something that runs on a thread of its own may take: until a time, or until whoever waits gives up.
-class Patience {
+class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit Patience(Clock::time_point end) : end_(end) {}
+  explicit Deadline(Clock::time_point end) : end_(end) {}
 
   Clock::time_point end() const { return end_; }
   void give_up() { *given_up_ = true; }  ///< Also that of all copies.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "load/scene_reading.hpp"
+#include "load/load_context.hpp"
 
 #include <cstdio>
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace bubblesim {
 
-void SceneReading::report(const Source& source, const std::string& object, std::string message) {
+void LoadContext::report(const Source& source, const std::string& object, std::string message) {
   problems_.push_back({source.file, source.line, object, std::move(message)});
 }
 
-void SceneReading::warn(const Source& source, const std::string& object, std::string message) {
+void LoadContext::warn(const Source& source, const std::string& object, std::string message) {
   const Problem problem{source.file, source.line, object, std::move(message)};
   std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
 }
@@ -48,7 +48,7 @@ bool is_of_later_version(const std::string& message) {
 
 }  // namespace
 
-void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
+void LoadContext::take(const sdf::Errors& errors, const std::string& object) {
   // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is enough.
   if (!object.empty() && frames_broken_) return;
   for (Problem& problem : xml_.located(errors, object)) {
@@ -75,7 +75,7 @@ void SceneReading::take(const sdf::Errors& errors, const std::string& object) {
   }
 }
 
-std::string SceneReading::where_models_are() const {
+std::string LoadContext::where_models_are() const {
   std::string folders;
   for (const std::filesystem::path& folder : model_folders(folder_)) folders += " " + folder.string();
   return " (searched in" + folders + "; BUBBLESIM_MODEL_PATH adds folders)";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "load/own_elements.hpp"
+#include "load/sdf_extensions.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -17,9 +17,9 @@ struct OwnElement {
   std::vector<std::string> parents;
 };
 
-const std::vector<OwnElement>& own_elements() {
+const std::vector<OwnElement>& sdf_extensions() {
   static const std::vector<OwnElement> elements = {
-      {"bubblesim:time_step", {"world"}},                // seconds of one simulation pass
+      {"bubblesim:time_step", {"world"}},                // seconds of one simulation step
       {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
       {"bubblesim:motor", {"axis", "axis2"}},            // velocity or position
       {"bubblesim:mimic", {"axis", "axis2"}},            // as <mimic> of SDFormat 1.11
@@ -65,7 +65,7 @@ void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problem
     problems.push_back({element->FilePath(), element->LineNumber().value_or(0), object_path(element), message});
   };
   std::vector<std::string> known;
-  for (const OwnElement& own : own_elements()) {
+  for (const OwnElement& own : sdf_extensions()) {
     known.emplace_back(own.name);
     if (name != own.name) continue;
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";

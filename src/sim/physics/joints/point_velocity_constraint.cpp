@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/joints/tooth.hpp"
+#include "physics/joints/point_velocity_constraint.hpp"
 
 #include "check/checks.hpp"
 
 namespace bubblesim {
 
-void Tooth::hold(dBodyID first, dBodyID second, const Vector3& point, const Vector3& direction, double velocity) {
+void PointVelocityConstraint::hold(dBodyID first, dBodyID second, const Vector3& point, const Vector3& direction,
+                                   double velocity) {
   // The friction of a contact, of any force, holds the direction. The contact itself, at right angles to it, would hold
   // only what comes nearer faster than anything can.
   const dVector3 along = {direction.X(), direction.Y(), direction.Z()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the plugins of Gazebo's robots do, as a participant of a simulation.
+// What the plugins of Gazebo's robots do, as a system of a simulation.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@ namespace bubblesim {
 
 /// Drives models and publishes their sensors as their <plugin> elements ask for. A plugin that is not known, or whose
 /// parameters are wrong, is reported on stderr; its model runs without it.
-class Devices final : public Participant {
+class GazeboPlugins final : public System {
  public:
   /// They use the scripts' interpreter and bridge, of which there must be one; the scripts must outlive them. To be
-  /// added before the scripts: these may overrule what a device commands, and hear last of a pass.
-  Devices(Simulation& simulation, const ChildScripts& scripts);
-  ~Devices() override;
+  /// added before the scripts: these may overrule what a device commands, and hear last of a step.
+  GazeboPlugins(Simulation& simulation, const ChildScripts& scripts);
+  ~GazeboPlugins() override;
 
   void actuate(World& world, double time) override;
   void publish(const World& world, double time) override;

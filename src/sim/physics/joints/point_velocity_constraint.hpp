@@ -11,9 +11,9 @@
 
 namespace bubblesim {
 
-class Tooth {
+class PointVelocityConstraint {
  public:
-  explicit Tooth(dWorldID world) : world_(world) {}
+  explicit PointVelocityConstraint(dWorldID world) : world_(world) {}
 
   /// For the next substep: the velocity of `first` relative to `second` (null: the world) at `point` along `direction`
   /// is `velocity`. All in the world, the direction of unit length.

@@ -15,12 +15,12 @@
 
 namespace bubblesim {
 
-class SceneReading {
+class LoadContext {
  public:
   /// Of a file, whose neighbours are the scene's own files. Throws as SceneXml does.
-  explicit SceneReading(const std::filesystem::path& file) : xml_(file), folder_(file.parent_path()) {}
+  explicit LoadContext(const std::filesystem::path& file) : xml_(file), folder_(file.parent_path()) {}
   /// Of a text that errors call `name`; its own files are in `folder`.
-  SceneReading(const std::string& text, std::string name, std::filesystem::path folder)
+  LoadContext(const std::string& text, std::string name, std::filesystem::path folder)
       : xml_(text, std::move(name)), folder_(std::move(folder)) {}
 
   const SceneXml& xml() const { return xml_; }
