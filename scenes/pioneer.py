@@ -32,7 +32,16 @@ def sysCall_init():
         self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
         self.cloud_topic = simROS.advertise('/lidarPC', 'sensor_msgs/PointCloud2')
     numbers = random.Random(sim.getRandom())
-    self.odometry = WheelOdometry(DRIVE, encoders(), lambda: numbers.gauss(0.0, noise))
+    self.noise = lambda: numbers.gauss(0.0, noise)
+    start_odometry()
+
+
+def start_odometry():
+    self.odometry = WheelOdometry(DRIVE, encoders(), self.noise)
+
+
+def sysCall_reset():
+    start_odometry()
 
 
 def on_velocity(twist):

@@ -28,11 +28,7 @@ def find_parts():
     self.camera = sim.getObject('/Camera')
     self.gps = sim.getObject('/Gps')
     self.told = {}  # when what the camera and the GPS receiver told last was measured
-    # The odometry starts where the robot stands: its frame is then that of the world.
-    x, y, _ = sim.getObjectPosition(self.body)
-    self.pose = Pose2D(x, y, sim.getObjectOrientation(self.body)[2])
-    self.wheel_angle = sim.getJointPosition(self.motor)
-    self.steered = sim.getJointPosition(self.steering)
+    start_odometry()
     if simROS:
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
         self.odometry_topic = simROS.advertise('/odom', 'nav_msgs/Odometry')
@@ -40,6 +36,18 @@ def find_parts():
         self.image_topic = simROS.imageTransportAdvertise('/image')
         self.camera_topic = simROS.advertise('/camera_info', 'sensor_msgs/CameraInfo')
         self.fix_topic = simROS.advertise('/fix', 'sensor_msgs/NavSatFix')
+
+
+def start_odometry():
+    # The odometry starts at the robot's pose: its frame is then that of the world.
+    x, y, _ = sim.getObjectPosition(self.body)
+    self.pose = Pose2D(x, y, sim.getObjectOrientation(self.body)[2])
+    self.wheel_angle = sim.getJointPosition(self.motor)
+    self.steered = sim.getJointPosition(self.steering)
+
+
+def sysCall_reset():
+    start_odometry()
 
 
 def on_steering(message):

@@ -50,6 +50,8 @@ class ChildScripts : public System {
   void stop() override;
   /// Loads the scripts afresh, from their files.
   void start() override;
+  /// Calls sysCall_reset of all scripts.
+  void reset() override;
   /// Loads the script of a model that has one: it runs from the next actuation on.
   void model_added(World& world, ObjectId model) override;
   /// Calls sysCall_cleanup of a model's scripts and ends what they started.

@@ -18,6 +18,11 @@ struct NoSuchObject : InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
+/// An object that a function cannot work on: one of another kind, an axis that its joint lacks, or a static model.
+struct WrongObject : InvalidInput {
+  using InvalidInput::InvalidInput;
+};
+
 /// One thing that is wrong with a scene file.
 struct Problem {
   std::string file;

@@ -114,25 +114,27 @@ class Simulation {
   const World& world() const { return world_; }
 
   /// What the sensor measured in its last due step. A sensor that nobody read for a while measures when it is asked.
-  /// Throws NoSuchObject when the object is no sensor.
+  /// Throws WrongObject when the object is not a sensor.
   std::shared_ptr<const Reading> read(ObjectId sensor);
   /// Seconds of simulation time at which the sensor was last due, or measured for measure(): another one means another
-  /// reading. It measures nothing. Throws NoSuchObject when the object is no sensor.
+  /// reading. It measures nothing. Throws WrongObject when the object is not a sensor.
   double reading_time(ObjectId sensor);
   /// Measures now, whatever the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
   /// Makes a camera show a picture: three bytes a pixel, the uppermost row first. It measures no more then, until the
-  /// world or the simulation is reset. Throws NoSuchObject for what is no camera, InvalidInput when sizes differ.
+  /// world or the simulation is reset. Throws WrongObject when it is not a camera, InvalidInput when sizes differ.
   void override_image(ObjectId camera, const std::vector<std::uint8_t>& rgb);
   /// How many times sensors have measured so far.
   std::uint64_t measurements() const { return measurements_; }
   /// See kind_name(); it measures nothing.
   std::string_view sensor_kind(ObjectId sensor);
-  /// The same for sensors of one kind; NoSuchObject for those of others.
+  /// The same for sensors of one kind; WrongObject for sensors of other kinds.
   ProximityReading read_proximity(ObjectId sensor);
   ProximityReading measure_proximity(ObjectId sensor);
 
-  /// Equal for equal histories, in every process.
+  /// Hash of the number of steps, the seed and World::state_hash(). Equal histories give equal hashes in every process.
+  /// It leaves out what child scripts and plugins keep in their own variables. Noise of sensors depends on the time and
+  /// the seed alone.
   std::uint64_t state_hash() const;
 
  private:

@@ -56,7 +56,7 @@ struct Wrench {
 };
 
 /// All setters check what they are given and throw InvalidInput, naming object and value, before anything is changed:
-/// a bad value never reaches the physics. Handles that name no object, or one of the wrong kind, throw NoSuchObject.
+/// a bad value never reaches the physics. A handle of no object throws NoSuchObject, that of another kind of object WrongObject.
 class World {
  public:
   /// Throws InvalidInput when the scene asks for something that cannot be built.
@@ -82,7 +82,7 @@ class World {
   void check_removable(ObjectId model) const;
   /// Of the model that an object belongs to.
   const ModelDescription& description(ObjectId object) const;
-  /// Throws NoSuchObject for objects of other kinds.
+  /// Throws WrongObject for objects of other kinds.
   const SensorDescription& sensor_description(ObjectId sensor) const;
 
   /// Puts the models that are there now back to where they came into the world: poses, velocities, joint targets and
@@ -161,8 +161,9 @@ class World {
   /// The lights of links, where they are now.
   std::vector<Light> link_lights() const;
 
-  /// FNV-1a over the bits of every body's pose and velocity, every joint's targets and the seed: equal for equal
-  /// histories.
+  /// FNV-1a hash of the state: pose and velocity of each body and whether it sleeps, targets and modes of all motors,
+  /// the seed and the state of the iterative solver. Equal histories give equal hashes in every process. It leaves out
+  /// how long a body has been at rest, which ODE does not tell.
   std::uint64_t state_hash() const;
 
   struct State;  // see src/sim/world_state.hpp

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         ProximityReading,
         SceneError,
         Simulation,
+        WrongObject,
         scene_folders,
         scene_names,
     )
@@ -53,6 +54,7 @@ __all__ = [
     "ProximityReading",
     "SceneError",
     "Simulation",
+    "WrongObject",
     "scene_folders",
     "scene_names",
 ]

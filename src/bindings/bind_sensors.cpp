@@ -18,12 +18,12 @@ namespace {
 
 namespace py = pybind11;
 
-/// Throws NoSuchObject when the sensor measures something else.
+/// Throws WrongObject when the sensor measures something else.
 template <class Kind>
 Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading,
                 const char* wanted) {
   if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
-  throw NoSuchObject(simulation.world().tree().short_path(sensor) + " is a " +
+  throw WrongObject(simulation.world().tree().short_path(sensor) + " is a " +
                      std::string(kind_name(reading->measurement)) + ", not a " + wanted);
 }
 
@@ -52,7 +52,7 @@ py::tuple camera_optics(Simulation& simulation, ObjectId sensor) {
   const std::string_view kind = simulation.sensor_kind(sensor);
   const auto* camera = std::get_if<CameraDescription>(&world.sensor_description(sensor).kind);
   if (camera != nullptr) return py::make_tuple(camera->width, camera->height, camera->horizontal_fov);
-  throw NoSuchObject(world.tree().short_path(sensor) + " is a " + std::string(kind) + ", not a camera");
+  throw WrongObject(world.tree().short_path(sensor) + " is a " + std::string(kind) + ", not a camera");
 }
 
 }  // namespace

@@ -136,8 +136,10 @@ ObjectView add_model(const py::object& owner, const std::string& text, const std
 void bind_errors(py::module_& module) {
   static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
+  static py::exception<WrongObject> wrong_object(module, "WrongObject", PyExc_ValueError);
   static py::exception<Diverged> diverged(module, "Diverged", PyExc_RuntimeError);
-  for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(diverged)}) {
+  for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(wrong_object),
+                                 py::handle(diverged)}) {
     error.attr("__module__") = "bubblesim";  // where users import it from
   }
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
@@ -148,6 +150,8 @@ void bind_errors(py::module_& module) {
       scene_error(error.what());
     } catch (const NoSuchObject& error) {
       no_such_object(error.what());
+    } catch (const WrongObject& error) {
+      wrong_object(error.what());
     } catch (const Diverged& error) {
       diverged(error.what());
     }
@@ -248,7 +252,7 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
       .def_property_readonly(
           "plugins", [](const Simulation& s) { return s.scene().plugins; },
           "The PluginDescriptions that stand directly in the world.")
-      .def("state_hash", &Simulation::state_hash, "64 bit hash of the whole state.")
+      .def("state_hash", &Simulation::state_hash, "64 bit hash of the physical state; see World::state_hash in world.hpp for what it covers.")
       .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
       .def("object", &find_object, py::arg("path"),
            "The object at a path such as /Tricycle/FrontMotor, or /FrontMotor when that is the only one.\n\n"

@@ -103,8 +103,9 @@ void bind_world(py::module_& module) {
       .def(
           "sonar_limits",
           [](const World& w, ObjectId id) {
-            const auto& sonar = std::get<SonarDescription>(w.sensor_description(id).kind);
-            return py::make_tuple(sonar.min_range, sonar.max_range, sonar.half_angle);
+            const auto* sonar = std::get_if<SonarDescription>(&w.sensor_description(id).kind);
+            if (sonar == nullptr) throw WrongObject(w.tree().short_path(id) + " is not a proximity sensor");
+            return py::make_tuple(sonar->min_range, sonar->max_range, sonar->half_angle);
           },
           py::arg("sensor"), "Of a proximity sensor: the least and the greatest range, m, and half its angle, rad.")
       .def("plugins", &plugins, py::arg("handle"), "The PluginDescriptions that stand directly in a model or sensor.")

@@ -138,6 +138,10 @@ void ChildScripts::start() {
   with_host([&] { python_->host.attr("start")(); });
 }
 
+void ChildScripts::reset() {
+  with_host([&] { python_->host.attr("reset")(); });
+}
+
 void ChildScripts::model_added(World& world, ObjectId model) {
   for (const auto& [path, file] : scripts_of(world.description(model), world.tree().path(model))) {
     with_host([&, &path = path, &file = file] { python_->host.attr("add_script")(path, file); });

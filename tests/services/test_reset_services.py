@@ -55,6 +55,26 @@ def test_reset_puts_the_world_back_and_lets_time_and_scripts_go_on(start: Start,
     assert times(node.output, "init") == [0.0]
 
 
+def test_reset_calls_scripts_and_their_odometry_starts_again(start: Start, roscore: RosCore) -> None:
+    node = start("""\
+        def sysCall_init():
+            self.travelled = 0.0
+        def sysCall_actuation():
+            self.travelled += 1.0
+        def sysCall_reset():
+            self.travelled = 0.0
+            print('reset', sim.getSimulationTime())
+        def sysCall_sensing():
+            print('travelled', self.travelled)
+        """)
+    node.wait_for_output("travelled 20.0")
+    roscore.run("rosservice", "call", f"{NAME}/reset")
+    node.wait_for_output("reset")
+    before, after = node.output.split("reset", 1)
+    assert "travelled 1.0" in before
+    wait_until(lambda: "travelled 1.0" in node.output.split("reset", 1)[1], "the odometry's new start")
+
+
 def test_reset_simulation_starts_scripts_and_time_afresh(start: Start, roscore: RosCore) -> None:
     node = start("""\
         count = 0

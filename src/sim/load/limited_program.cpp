@@ -52,8 +52,9 @@ class Output {
 class Running {
  public:
   Running(std::vector<std::string> command, const Output& output, const Output& errors) {
-    // The kernel ends it with this process.
-    command.insert(command.begin(), {"setpriv", "--pdeathsig", "KILL"});
+    // The kernel ends it with this process, which may have ended before the kernel was asked to.
+    command.insert(command.begin(), {"setpriv", "--pdeathsig", "KILL", "sh", "-c", R"([ "$PPID" = "$0" ] && exec "$@")",
+                                     std::to_string(::getpid())});
     std::vector<char*> argv;
     argv.reserve(command.size() + 1);
     for (std::string& word : command) argv.push_back(word.data());

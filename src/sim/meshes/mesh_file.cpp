@@ -71,10 +71,14 @@ std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshRe
                 request.scale.Z(),
                 request.submesh,
                 request.center};
-  std::weak_ptr<const TriangleMesh>& shared = known[key];
-  if (std::shared_ptr<const TriangleMesh> mesh = shared.lock()) return mesh;
+  if (const auto found = known.find(key); found != known.end()) {
+    if (std::shared_ptr<const TriangleMesh> mesh = found->second.lock()) return mesh;
+  }
+  for (auto entry = known.begin(); entry != known.end();) {
+    entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
+  }
   std::shared_ptr<const TriangleMesh> mesh = read(request, file, reader);
-  shared = mesh;
+  known.insert_or_assign(key, mesh);
   return mesh;
 }
 

@@ -81,7 +81,7 @@ void World::check_removable(ObjectId model) const {
   if (state_->interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(*state_);
   const Object& object = state_->tree.at(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
-    throw InvalidInput(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
+    throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                        ": it belongs to its model; remove that");
   }
 }
@@ -104,7 +104,7 @@ const ModelDescription& World::description(ObjectId model) const { return state_
 const SensorDescription& World::sensor_description(ObjectId sensor) const {
   const Object& object = state_->tree.at(sensor);
   if (object.kind != ObjectKind::kSensor) {
-    throw NoSuchObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
+    throw WrongObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
   }
   const Object& carrier = state_->tree.at(object.parent);
   const ModelDescription& model = state_->model_of(sensor).description;
@@ -127,6 +127,18 @@ std::vector<PlacedShape> World::shapes() const {
   return shapes;
 }
 
+namespace {
+
+void add_planar_motor(Fnv1a& hash, const PlanarMotor& motor) {
+  if (motor.linear == nullptr) return;
+  const double velocity[] = {dJointGetLMotorParam(motor.linear.get(), dParamVel),
+                             dJointGetLMotorParam(motor.linear.get(), dParamVel2),
+                             dJointGetAMotorParam(motor.angular.get(), dParamVel)};
+  hash.add(velocity, 3);
+}
+
+}  // namespace
+
 std::uint64_t World::state_hash() const {
   Fnv1a hash;
   for (const auto& [id, model] : state_->models) {
@@ -137,7 +149,10 @@ std::uint64_t World::state_hash() const {
       hash.add(dBodyGetQuaternion(body), 4);
       hash.add(dBodyGetLinearVel(body), 3);
       hash.add(dBodyGetAngularVel(body), 3);
+      hash.add(static_cast<std::uint64_t>(dBodyIsEnabled(body)));
     }
+    hash.add(static_cast<std::uint64_t>(id));
+    add_planar_motor(hash, model.planar_motor);
   }
   for (const auto& [id, model] : state_->models) {
     for (const PlacedJoint& placed : model.joints) {
@@ -145,10 +160,13 @@ std::uint64_t World::state_hash() const {
         const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
                                   placed.joint->axis(axis).max_force};
         hash.add(targets, 3);
+        hash.add(static_cast<std::uint64_t>(placed.joint->axis(axis).motor));
       }
     }
   }
   hash.add(state_->seed);
+  hash.add(static_cast<std::uint64_t>(state_->random));
+  hash.add(static_cast<std::uint64_t>(state_->steps_to_iterate));
   return hash.value();
 }
 

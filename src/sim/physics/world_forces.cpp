@@ -146,7 +146,7 @@ void gather_forces(World::State& state, double step) {
 }
 
 std::vector<Contact> World::contacts(ObjectId link) const {
-  if (state_->tree.at(link).kind != ObjectKind::kLink) throw NoSuchObject(state_->shown(link) + " is no link");
+  if (state_->tree.at(link).kind != ObjectKind::kLink) throw WrongObject(state_->shown(link) + " is a " + std::string(kind_name(state_->tree.at(link).kind)) + ", not a link");
   std::vector<Contact> contacts;
   for (const Touch& touch : state_->touches) {
     if (touch.watched->link->object != link) continue;
@@ -162,7 +162,7 @@ Wrench World::joint_wrench(ObjectId joint) const {
       object.kind == ObjectKind::kJoint ? &state_->model_of(joint).joints[object.index] : nullptr;
   if (placed != nullptr && placed->joint == nullptr) return {};  // of a static model
   if (placed == nullptr || placed->meter == nullptr) {
-    throw InvalidInput(state_->shown(joint) + " is no joint that moves and has a force-torque sensor");
+    throw WrongObject(state_->shown(joint) + " is not a moving joint with a force-torque sensor");
   }
   if (state_->last_duration == 0) return {};
   return {placed->meter->sum.force / state_->last_duration, placed->meter->sum.torque / state_->last_duration};

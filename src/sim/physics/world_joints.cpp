@@ -19,7 +19,7 @@ constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
 const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
   const Object& object = state.tree.at(id);
   if (object.kind != ObjectKind::kJoint) {
-    throw NoSuchObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
+    throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
   }
   return state.model_of(id).joints[object.index];
 }
@@ -33,9 +33,9 @@ struct JointAxis {
 JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
   const PlacedJoint& placed = placed_joint(state, id);
   if (placed.object != id) axis = 1;
-  if (placed.joint == nullptr) throw NoSuchObject(state.shown(id) + " belongs to a static model: it does not move");
+  if (placed.joint == nullptr) throw WrongObject(state.shown(id) + " belongs to a static model: it does not move");
   if (axis < 0 || axis >= placed.joint->axis_count()) {
-    throw NoSuchObject(state.shown(id) + " has " + std::to_string(placed.joint->axis_count()) +
+    throw WrongObject(state.shown(id) + " has " + std::to_string(placed.joint->axis_count()) +
                        " axes: there is none with index " + std::to_string(axis));
   }
   return {*placed.joint, axis};
@@ -139,7 +139,7 @@ void World::set_joint_position(ObjectId joint, double position) {
   const JointDescription& description = joint_description(joint);
   const bool slides = description.type == "prismatic";
   if (!slides && description.type != "revolute" && description.type != "continuous") {
-    throw InvalidInput(state_->shown(joint) + " is a " + description.type +
+    throw WrongObject(state_->shown(joint) + " is a " + description.type +
                        " joint: only revolute, continuous and prismatic ones can be put somewhere");
   }
   check_target(*state_, joint, "position", position);
@@ -151,7 +151,7 @@ void World::set_joint_position(ObjectId joint, double position) {
                              : to_frame * Pose(Vector3::Zero, Quaternion(axis, way)) * to_frame.Inverse();
   const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
   if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
-    throw InvalidInput(state_->shown(joint) + " belongs to a closed chain of links: no part hangs on it alone");
+    throw WrongObject(state_->shown(joint) + " belongs to a closed chain of links: no part hangs on it alone");
   }
   for (const ObjectId link : moved) set_pose(link, motion * pose(link));
 }

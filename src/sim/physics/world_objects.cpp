@@ -16,11 +16,11 @@ namespace {
 std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   const Object& object = state.tree.at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
-    throw InvalidInput(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
+    throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                        ": it moves with its link; move that or the model");
   }
   if (state.model_of(id).description.is_static) {
-    throw InvalidInput(state.shown(id) + " is static: it stays where the scene put it");
+    throw WrongObject(state.shown(id) + " is static: it stays where the scene put it");
   }
   if (object.kind == ObjectKind::kLink) return {&state.link(id)};
   std::vector<const Link*> links;

@@ -43,11 +43,11 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
   const Object& object = state_->tree.at(model);
   const std::string name = state_->shown(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
-    throw InvalidInput(name + " is a " + std::string(kind_name(object.kind)) +
+    throw WrongObject(name + " is a " + std::string(kind_name(object.kind)) +
                        ": only an outermost model is driven as a whole");
   }
   PlacedModel& placed = state_->models.at(model);
-  if (placed.description.is_static) throw InvalidInput(name + " is static: it stays where the scene put it");
+  if (placed.description.is_static) throw WrongObject(name + " is static: it stays where the scene put it");
   if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
     throw InvalidInput(name + ": a velocity in the plane must be finite and at most 1e6");
   }

@@ -204,7 +204,7 @@ Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
   for (SensorSlot& slot : sensors_) {
     if (slot.id == sensor) return slot;
   }
-  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " +
+  throw WrongObject(world_.tree().short_path(sensor) + " is a " +
                      std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
 }
 
@@ -228,7 +228,7 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
   SensorSlot& found = slot(camera, "camera");
   const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
   if (image == nullptr) {
-    throw NoSuchObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
+    throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
                        ", not a camera");
   }
   if (image->rgb.size() != rgb.size()) {
@@ -251,7 +251,7 @@ std::string_view Simulation::sensor_kind(ObjectId sensor) {
 
 void Simulation::require_proximity(ObjectId sensor) {
   if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
-  throw NoSuchObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
+  throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
                      ", not a proximity sensor");
 }
 

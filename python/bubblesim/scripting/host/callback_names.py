@@ -8,7 +8,15 @@ import difflib
 from bubblesim.messages.names import did_you_mean
 
 PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
-HOOKS = ("sysCall_init", "sysCall_thread", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup", *PAUSE_HOOKS)
+HOOKS = (
+    "sysCall_init",
+    "sysCall_thread",
+    "sysCall_actuation",
+    "sysCall_sensing",
+    "sysCall_reset",
+    "sysCall_cleanup",
+    *PAUSE_HOOKS,
+)
 
 _PREFIX = "sysCall_"
 # CoppeliaSim's callbacks of other kinds of scripts, and of events that do not exist here: what does the same.

@@ -118,7 +118,7 @@ class ChildScript:
         self._call("sysCall_sensing")
 
     def tell(self, hook: str) -> None:
-        """Run one of PAUSE_HOOKS."""
+        """Run one of PAUSE_HOOKS or sysCall_reset."""
         if self._started:
             self._call(hook)
 

@@ -170,6 +170,11 @@ class ScriptHost:
         for script in self.scripts:
             script.sense()
 
+    def reset(self) -> None:
+        """Call sysCall_reset of all scripts, after the world was reset."""
+        for script in self.scripts:
+            script.tell("sysCall_reset")
+
     def restart(self) -> None:
         """End all scripts, put the world back to its start at time 0, and load the scripts afresh unless it is stopped.
 
