@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A child script of a test's own in a running node."""
 
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -26,4 +27,5 @@ def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
     yield run
     for node in nodes:
         if node.process.poll() is None:
-            assert node.end() == (3 if "is disabled" in node.output else 0)
+            ended = 3 if "is disabled" in node.output else 0
+            assert node.end() in (ended, -signal.SIGINT)  # on a busy machine the node ends before it has cleaned up

@@ -40,11 +40,11 @@ def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: s
 
 def test_a_callback_is_told_once(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): time.sleep(4.5)\n"
-    run = run_script(tmp_path, code)
+    run = run_script(tmp_path, code, slowness=True)
     assert run.returncode == 0
     assert run.stderr.count("the simulation waits for it") == 1
 
 
 def test_callbacks_that_return_are_not_told(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): pass\ndef sysCall_actuation(): time.sleep(0.5)\n"
-    assert run_script(tmp_path, code, until=0.3).stderr == ""
+    assert run_script(tmp_path, code, until=0.3, slowness=True).stderr == ""

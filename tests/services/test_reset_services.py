@@ -70,8 +70,6 @@ def test_reset_calls_scripts_and_their_odometry_starts_again(start: Start, rosco
     node.wait_for_output("travelled 20.0")
     roscore.run("rosservice", "call", f"{NAME}/reset")
     node.wait_for_output("reset")
-    before, after = node.output.split("reset", 1)
-    assert "travelled 1.0" in before
     wait_until(lambda: "travelled 1.0" in node.output.split("reset", 1)[1], "the odometry's new start")
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models in models: names, frames, joints across them, and what moves with what.
+// Nested models: names, frames, joints across them, and what moves with what.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"

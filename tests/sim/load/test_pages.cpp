@@ -29,7 +29,7 @@ std::string completed(const std::string& xml) {
 }
 
 std::vector<Snippet> snippets() {
-  std::vector<fs::path> pages{fs::path(BUBBLESIM_DOCS) / "worlds" / "models_in_models.md",
+  std::vector<fs::path> pages{fs::path(BUBBLESIM_DOCS) / "worlds" / "nested_models.md",
                               fs::path(BUBBLESIM_DOCS) / "worlds" / "surfaces.md"};
   for (const auto& entry : fs::directory_iterator(fs::path(BUBBLESIM_DOCS) / "joints")) pages.push_back(entry.path());
   std::vector<Snippet> found;

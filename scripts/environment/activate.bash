@@ -2,7 +2,7 @@
 # To be sourced: makes this shell use the workspace and the virtual environment that scripts/setup made.
 # What the caller's own environment says about Python and ROS workspaces is left behind; the master's address stays.
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_ROOT
-_bubblesim_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+_bubblesim_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 set +u  # catkin's setup files read variables that may not be set
 # shellcheck disable=SC1091
 source "$_bubblesim_root/.ws/devel/setup.bash"
