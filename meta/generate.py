@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns the lists of message and service types into C++ tables. CMake runs it when it configures the build.
+"""Generate C++ tables from the lists of message and service types. CMake runs this at configure time.
 
-One C++ file for each message package, one that lists the packages, and tables.cmake, which names these files and all
-that was read. Files that would not change are left alone. Problems of the lists are printed all at once; the exit
-code is then 1 and nothing is written. A type that is listed twice is a warning.
+Writes one C++ file for each message package, one that lists the packages, and tables.cmake, which lists these files and
+all inputs. Files that do not change are not written. All errors of the lists are printed at once; the exit code is then
+1 and nothing is written. A duplicate type causes a warning.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent / "python" / "bubblesim"
 
-# What is shared with the run time lies in the Python package, which cannot be imported before the compiled module
-# exists. Its folder messages/ can, below an empty stand-in for the package.
+# Code shared with the run time is in the Python package, which cannot be imported before the compiled module exists.
+# Import only its folder messages/, below an empty stand-in for the package.
 stand_in = ModuleType("bubblesim")
 stand_in.__path__ = [str(PACKAGE)]
 sys.modules["bubblesim"] = stand_in
@@ -40,7 +40,7 @@ except ImportError as error:
 
 @dataclass(frozen=True)
 class TypeTable:
-    """What the template prints of one message or of one half of a service; strings are C++ literals."""
+    """Template data of a message, or of the request or response of a service; strings are C++ literals."""
 
     label: str
     name: str
@@ -53,7 +53,7 @@ class TypeTable:
 
 @dataclass(frozen=True)
 class ServiceTable:
-    """What the template prints of one service."""
+    """Template data of a service."""
 
     name: str
     md5: str
@@ -62,7 +62,7 @@ class ServiceTable:
 
 
 def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
-    """The tables of a genmsg.MsgSpec; kind ("msg" or "srv") keeps the C++ names of both apart."""
+    """Return the tables of a genmsg.MsgSpec; kind is "msg" or "srv" and makes the C++ names unique."""
     return TypeTable(
         label=f"{kind}_{split_name(spec.full_name)[1]}",
         name=rules.cpp_string(spec.full_name),
@@ -75,7 +75,7 @@ def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
 
 
 def service_table(specs: Specs, name: str, spec: Any) -> ServiceTable:
-    """The tables of a genmsg.SrvSpec."""
+    """Return the tables of a genmsg.SrvSpec."""
     return ServiceTable(
         name=rules.cpp_string(name),
         md5=specs.md5(spec),
@@ -85,19 +85,19 @@ def service_table(specs: Specs, name: str, spec: Any) -> ServiceTable:
 
 
 def expand(template: str, context: dict[str, Any]) -> str:
-    """The text of a file from templates/, filled in."""
+    """Expand a template from templates/."""
     return str(em.expand((HERE / "templates" / template).read_text(encoding="utf-8"), context))
 
 
 def write_if_changed(path: Path, text: str) -> None:
-    """Keeps the date of a file whose text stays the same, so that it is not compiled again."""
+    """Write a file only if its text changes, so that it is not compiled again."""
     data = text.encode("utf-8", errors="surrogateescape")
     if not path.is_file() or path.read_bytes() != data:
         path.write_bytes(data)
 
 
 def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
-    """Writes all files and removes those of packages that are no longer needed."""
+    """Write all files and remove the files of packages that are no longer needed."""
     output.mkdir(parents=True, exist_ok=True)
     packages = sorted({split_name(name)[0] for name in [*specs.messages, *specs.services]})
     texts: dict[Path, str] = {}
@@ -120,7 +120,7 @@ def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
 
 
 def parse_arguments(arguments: list[str]) -> argparse.Namespace:
-    """The command line; `paths` options take lists as the environment variables of the same meaning do."""
+    """Parse the command line; options with paths take lists in the format of the corresponding variables."""
 
     def paths(separator: str) -> Any:
         return lambda text: [Path(part) for part in text.split(separator) if part]
@@ -129,22 +129,22 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument("--messages", type=Path, default=HERE / "messages.txt", help="list of message types")
     parser.add_argument("--services", type=Path, default=HERE / "services.txt", help="list of service types")
     parser.add_argument("--output", type=Path, required=True, help="folder for the generated files")
-    parser.add_argument("--project", type=Path, default=HERE.parent, help="root of this project, as the build sees it")
-    parser.add_argument("--build", type=Path, help="build folder, to find the workspace by (default: --output)")
-    parser.add_argument("--prefix-path", type=paths(";"), default=[], help="CMake's CMAKE_PREFIX_PATH, a;b")
+    parser.add_argument("--project", type=Path, default=HERE.parent, help="root of this project in the build")
+    parser.add_argument("--build", type=Path, help="build folder, used to find the workspace (default: --output)")
+    parser.add_argument("--prefix-path", type=paths(";"), default=[], help="CMAKE_PREFIX_PATH of CMake, a;b")
     ros_path = os.environ.get("ROS_PACKAGE_PATH", "")
     parser.add_argument("--ros-package-path", type=paths(":"), default=ros_path, help="default: $ROS_PACKAGE_PATH")
     return parser.parse_args(arguments)
 
 
 def shown_path(path: Path) -> str:
-    """A path as errors show it: from the current folder if it is below."""
+    """Return a path for messages: relative to the current folder if it is inside."""
     path = path.resolve()
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the generator; returns the exit code."""
+    """Run the generator; return the exit code."""
     options = parse_arguments(arguments)
     index = build_index(
         options.project.absolute(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How message specifications become C++ tables: every decision of the generator that a template does not take."""
+"""Convert message specifications to the rows of C++ tables; the templates only print them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FIELD_KINDS = {spelling: f"k{kind.capitalize()}" for spelling, kind in KINDS.ite
 
 @dataclass(frozen=True)
 class FieldRow:
-    """One line of a field table, each part spelled as C++."""
+    """One row of a field table, as C++ code."""
 
     name: str
     kind: str
@@ -24,7 +24,7 @@ class FieldRow:
 
 @dataclass(frozen=True)
 class ConstantRow:
-    """One line of a constant table, each part spelled as C++."""
+    """One row of a constant table, as C++ code."""
 
     name: str
     kind: str
@@ -32,7 +32,7 @@ class ConstantRow:
 
 
 def cpp_string(text: str) -> str:
-    """A C++ string literal, one source line for each line of the text so that tables stay readable."""
+    """Return a C++ string literal, with one source line for each line of the text."""
     lines = text.split("\n")
     pieces = [line + "\n" for line in lines[:-1]] + ([lines[-1]] if lines[-1] else [])
     return "\n    ".join(f'"{"".join(map(_escape, piece))}"' for piece in pieces) or '""'
@@ -42,12 +42,12 @@ def _escape(character: str) -> str:
     named = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
     if character in named:
         return named[character]
-    # Always three octal digits: unlike \x, they end by themselves.
+    # Always three octal digits: unlike \x, the escape sequence has a fixed length.
     return f"\\{ord(character):03o}" if ord(character) < 0x20 or ord(character) == 0x7F else character
 
 
 def field_row(name: str, base_type: str, is_array: bool, array_length: int | None) -> FieldRow:
-    """The table line of a field, for example ("covariance", "float64", True, 36)."""
+    """Return the row of a field, for example ("covariance", "float64", True, 36)."""
     array = "kNone" if not is_array else "kVariable" if array_length is None else "kFixed"
     return FieldRow(
         name=cpp_string(name),
@@ -59,6 +59,6 @@ def field_row(name: str, base_type: str, is_array: bool, array_length: int | Non
 
 
 def constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:
-    """The table line of a constant; the value stays text, which loses nothing of 64-bit integers and doubles."""
+    """Return the row of a constant; the value stays text to keep the precision of 64-bit integers and doubles."""
     text = str(int(value)) if isinstance(value, bool) else repr(value) if isinstance(value, float) else str(value)
     return ConstantRow(name=cpp_string(name.strip()), kind=FIELD_KINDS[base_type], value=cpp_string(text))

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Packages that lie in this tree, because catkin does not look for packages below a package.xml.
+# Packages inside this source tree; catkin does not search for packages below a package.xml.
 #
 #   add_own_packages(RESULT package... [YIELDING package...])
 #
-# Adds those in folders of their names below the current one. A package that the workspace has of its own wins over ours,
-# and so does an installed one over those that yield. RESULT: the folders of ours that are used.
+# Adds the packages from subfolders with their names. A package of the same name in the workspace takes precedence; an
+# installed one takes precedence over YIELDING packages. RESULT: the folders of the added packages.
 set(OWN_PACKAGES_FINDER ${CMAKE_CURRENT_LIST_DIR}/find_workspace_package.py)
 
 function(add_own_packages result)
@@ -20,7 +20,7 @@ function(add_own_packages result)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})  # a package was added or removed
   endif()
 
-  # Only installed packages have their package.xml in share/, so what we built in a devel space before is not found.
+  # Only installed packages have a package.xml in share/: packages built earlier in a devel space are not found.
   set(prefixes ${CMAKE_PREFIX_PATH} /usr)
   list(REMOVE_ITEM prefixes "${CMAKE_INSTALL_PREFIX}")
   set(used "")
@@ -35,8 +35,8 @@ function(add_own_packages result)
       endforeach()
     endif()
     if(users)
-      message(STATUS "${package}: using the workspace's own in ${users} (if bubblesim was built before it was there, clean "
-                     "the workspace once: catkin clean)")
+      message(STATUS "${package}: using the workspace's package in ${users} (if bubblesim was built before it was added, "
+                     "run catkin clean once)")
     elseif(installed)
       message(STATUS "${package}: using the installed ${installed}")
     else()

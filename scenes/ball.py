@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# Publishes the simulation time, listens to itself, and sends the ball's transform.
+# Publishes the simulation time, subscribes to its own topic, and sends the ball's transform.
 
 
 def sysCall_init():
@@ -11,7 +11,7 @@ def sysCall_init():
 
 
 def on_time(message):
-    sim.addLog(sim.verbosity_debug, f"heard the time {message['data']:.2f}")
+    sim.addLog(sim.verbosity_debug, f"received the time {message['data']:.2f}")
 
 
 def sysCall_actuation():

@@ -1,8 +1,8 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# BubbleRob over topics. The robot's handle is part of their names, so that several can drive in one scene:
-# /leftMotorSpeed<handle> and /rightMotorSpeed<handle> [rad/s] in, /sensorTrigger<handle> and /simTime<handle> out.
-# It starts rosBubbleRob, the program that drives it.
+# ROS interface of BubbleRob. The topic names contain the robot's handle, so that several robots can drive in one scene.
+# Subscribes to /leftMotorSpeed<handle> and /rightMotorSpeed<handle> [rad/s]; publishes /sensorTrigger<handle> and
+# /simTime<handle>. Starts rosBubbleRob, the program that controls the robot.
 from bubblesim import ros_messages
 
 
@@ -11,7 +11,7 @@ def sysCall_init():
     self.left_motor = sim.getObject('./rosInterfaceControlledBubbleRobLeftMotor')
     self.right_motor = sim.getObject('./rosInterfaceControlledBubbleRobRightMotor')
     self.nose = sim.getObject('./rosInterfaceControlledBubbleRobSensingNose')
-    # Copies of the robot are called ..._0, ..._1: so are their frames.
+    # Copies of the robot are named ..._0, ..._1; their frames have the same suffix.
     self.frame = 'base_link' + sim.getObjectAlias(self.body).removeprefix('rosInterfaceControlledBubbleRob')
     self.joints_topic = None
     if not simROS:
@@ -23,7 +23,7 @@ def sysCall_init():
     simROS.subscribe(f'/{right}', 'std_msgs/Float32', on_right)
     self.sensor_topic = simROS.advertise(f'/{sensor}', 'std_msgs/Bool')
     self.time_topic = simROS.advertise(f'/{time}', 'std_msgs/Float32')
-    if self.frame == 'base_link':  # robot_state_publisher knows one robot
+    if self.frame == 'base_link':  # robot_state_publisher handles one robot only
         self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
     self.notifications = simROS.advertise('/notifications', 'test_msgs/Notification')
     sim.launchExecutable('rosBubbleRob', f'{left} {right} {sensor} {time}')

@@ -1,7 +1,7 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# A camera on /image, and a panel that shows what comes on that topic: a camera that is given its pictures and measures
-# none. The camera turns, so that there is something to see.
+# Publishes the images of a rotating camera on /image, and shows the received images on a panel. The panel is a camera
+# whose images are set by this script.
 
 
 def sysCall_init():

@@ -1,8 +1,8 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# A Pioneer P3DX over topics: Twist on /cmd_vel in; /odom and its transform from the wheels' encoders, /joint_states and
-# the lidar's points on /lidarPC out; /ground_truth tells where it really is.
-# Parameter odometry_noise: standard deviation of each step that an encoder measures, as a part of that step.
+# ROS interface of a Pioneer P3DX. Subscribes to /cmd_vel (Twist); publishes /odom and its transform from the wheel
+# encoders, /joint_states, the lidar's points on /lidarPC, and the true pose on /ground_truth.
+# Parameter odometry_noise: standard deviation of each encoder increment, as a fraction of that increment.
 import random
 
 from bubblesim import ros_messages
@@ -11,8 +11,8 @@ from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.geometry.frames import into
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33, max_speed=12.5)
-PATIENCE = 0.6  # s without a command, after which it stops
-LIDAR = 'Pioneer_p3dx_lidar'  # also the name of its frame
+PATIENCE = 0.6  # s without a command after which the robot stops
+LIDAR = 'Pioneer_p3dx_lidar'  # also its frame
 
 
 def sysCall_init():
@@ -21,8 +21,8 @@ def sysCall_init():
     joints = [f'Pioneer_p3dx_caster_freeJoint{i}' for i in (1, 2)]
     self.joints = self.motors + [sim.getObject(f'./{name}') for name in joints]
     self.lidar = sim.getObject(f'./{LIDAR}')
-    self.last_scan = None  # when it was measured
-    self.last_command = None  # when it came; None while it stands
+    self.last_scan = None  # time of its measurement
+    self.last_command = None  # its time; None while the robot stands
     noise = 0.0
     if simROS:
         noise = simROS.getParamDouble('odometry_noise')[1]

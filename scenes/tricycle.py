@@ -1,7 +1,8 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# The tricycle over topics: /steering [rad] and /speed [rad/s of the front wheel] in; /front_sonar [m], /odom and its
-# transform, /joint_states, /image with /camera_info, and /fix out. What nobody listens to is not computed.
+# ROS interface of the tricycle. Subscribes to /steering [rad] and /speed [rad/s of the front wheel]; publishes
+# /front_sonar [m], /odom and its transform, /joint_states, /image with /camera_info, and /fix. Sensors measure only
+# while their topics have subscribers.
 import math
 
 from bubblesim import ros_messages
@@ -27,7 +28,7 @@ def find_parts():
     self.sonar = sim.getObject('/FrontSonar')
     self.camera = sim.getObject('/Camera')
     self.gps = sim.getObject('/Gps')
-    self.told = {}  # when what the camera and the GPS receiver told last was measured
+    self.told = {}  # time of the last published measurement of camera and GPS receiver
     start_odometry()
     if simROS:
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
@@ -63,7 +64,7 @@ def sysCall_sensing():
         return
     now = simROS.getTime()
     seen, distance, *_ = sim.readProximitySensor(self.sonar)
-    # No echo is +Inf, as ROS expects of range sensors (REP 117).
+    # +Inf without an echo (REP 117).
     simROS.publish(self.sonar_topic, {'data': distance if seen else math.inf})
     publish_motion(now)
     publish_picture(now)
@@ -71,7 +72,7 @@ def sysCall_sensing():
 
 
 def move_odometry():
-    """Velocity by the front wheel's encoder and angle, with which the pose has moved on."""
+    """Compute the velocity from encoder and angle of the front wheel, and integrate the pose."""
     angle, dt = sim.getJointPosition(self.motor), sim.getSimulationTimeStep()
     wheel_speed = math.remainder(angle - self.wheel_angle, math.tau) / dt
     steered = sim.getJointPosition(self.steering)
@@ -99,7 +100,7 @@ def publish_picture(now):
     if not is_new(self.camera):
         return
     width, height = sim.getVisionSensorRes(self.camera)
-    if picture_is_wanted:  # to render it is what takes time
+    if picture_is_wanted:  # rendering takes most of the time
         picture = sim.getVisionSensorArray(self.camera)
         simROS.imageTransportPublish(self.image_topic, picture[::-1], width, height, CAMERA_FRAME)
     field_of_view = sim.getVisionSensorFieldOfView(self.camera)

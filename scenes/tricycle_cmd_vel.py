@@ -1,19 +1,19 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# The tricycle that takes velocities: Twist on /cmd_vel, as teleoperation and navigation send them. It tells what
-# tricycle.py tells: /front_sonar and tf.
+# ROS interface of the tricycle with velocity commands: subscribes to /cmd_vel (Twist) instead of /steering and /speed;
+# publishes the same topics as tricycle.py.
 include tricycle
 
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.controllers.tricycle_drive import Tricycle, front_wheel
 
-PATIENCE = 0.6  # s without a command, after which it stops
+PATIENCE = 0.6  # s without a command after which the tricycle stops
 
 
 def sysCall_init():
     find_parts()
     self.tricycle = Tricycle()
-    self.last_command = None  # when the last one came
+    self.last_command = None  # its time; None when stopped
     if simROS:
         simROS.subscribe('/cmd_vel', 'geometry_msgs/Twist', on_velocity)
 

@@ -1,14 +1,14 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# The tricycle over TCP. A client sends lines "steering;speed" (rad; rad/s of the front wheel) and gets for each a line
-# "time;distance" (s; m ahead, 0.00 without an echo), or "error: ..." for what it should not have sent.
+# TCP interface of the tricycle. A client sends lines "steering;speed" (rad; rad/s of the front wheel). The answer to
+# each is a line "time;distance" (s; m, 0.00 without an echo), or "error: ..." for an invalid line.
 import math
 import socket
 
 ADDRESS = ('127.0.0.1', 5000)
 MOST_CLIENTS = 32
-LONGEST_LINE = 200  # bytes; a command takes some twenty
-MOST_IN_A_PASS = 1024  # bytes of a client
+LONGEST_LINE = 200  # bytes; a command has about twenty
+MOST_IN_A_PASS = 1024  # bytes per client and simulation step
 
 
 def sysCall_init():
@@ -17,10 +17,10 @@ def sysCall_init():
     self.sonar = sim.getObject('/FrontSonar')
     self.clients = []
     try:
-        # With SO_REUSEADDR, so that the next start need not wait for the connections of this one to be forgotten.
+        # Sets SO_REUSEADDR: the next start need not wait for TIME_WAIT of the connections of this one.
         self.server = socket.create_server(ADDRESS)
     except OSError as error:
-        raise OSError(f'cannot listen on {ADDRESS[0]}:{ADDRESS[1]} ({error}): does another simulation run?') from None
+        raise OSError(f'cannot listen on {ADDRESS[0]}:{ADDRESS[1]} ({error}): is another simulation running?') from None
     self.server.setblocking(False)
 
 
@@ -57,7 +57,7 @@ def accept_clients():
     while True:
         try:
             connection, _ = self.server.accept()
-        except OSError:  # nobody waits, or who waited has gone
+        except OSError:  # no client is waiting, or it has disconnected
             return
         client = Client(connection)
         if len(self.clients) < MOST_CLIENTS:
@@ -67,7 +67,7 @@ def accept_clients():
 
 
 def parse_command(line):
-    """Steering and speed; ValueError for anything else than two finite numbers."""
+    """Return steering and speed; raise ValueError for anything else than two finite numbers."""
     try:
         steering, speed = (float(number) for number in line.decode('ascii').split(';'))
     except ValueError:
@@ -82,21 +82,21 @@ def shown(line):
 
 
 class Client:
-    """A connection that is never waited for."""
+    """A non-blocking connection."""
 
     def __init__(self, connection):
         connection.setblocking(False)
         self.connection = connection
         self.connected = True
-        self.answers = []  # to the lines of this step: an error each, or None for what was measured
-        self.rest = b''  # of a line that has not ended yet
-        self.ends_lines = False  # has sent the end of a line
+        self.answers = []  # to the lines of this step: an error, or None for the measurement
+        self.rest = b''  # incomplete line
+        self.ends_lines = False  # has sent a newline
 
     def lines(self):
-        """What has arrived, line by line.
+        """Return the received lines.
 
-        Many clients send no end of line, but wait for an answer. Of one that never sent any, what lay here alone for
-        a whole step is a line, too.
+        Some clients send no newline and wait for an answer. If a client has never sent a newline, data that stays
+        unchanged for a whole step counts as a line.
         """
         try:
             arrived = self.connection.recv(MOST_IN_A_PASS)
@@ -105,7 +105,7 @@ class Client:
             if lonely:
                 self.rest = b''
             return [lonely] if lonely else []
-        except OSError:  # the client has gone without a word
+        except OSError:  # connection reset
             arrived = b''
         if not arrived:
             self.close()
@@ -118,14 +118,14 @@ class Client:
         return [line for line in lines if line.strip()]
 
     def send(self, measured):
-        """One answer to each line. A client that does not read them is let go."""
+        """Send one answer to each line. Disconnect a client that does not read them."""
         answers = [answer or measured for answer in self.answers]
         self.answers = []
         if answers:
             self._write(answers)
 
     def refuse(self, reason):
-        """Say why, and hang up."""
+        """Send the reason and close the connection."""
         self._write([f'error: {reason}'])
         self.close()
 
@@ -138,5 +138,5 @@ class Client:
         try:
             if self.connection.send(text) < len(text):
                 self.close()
-        except OSError:  # gone, or has not read for long
+        except OSError:  # disconnected, or the send buffer is full
             self.close()

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives a tricycle by velocities: Twist on cmd_vel in; steering, speed and the odometry of what it commands out.
+"""Control a tricycle with velocities.
 
+Subscribes to cmd_vel (Twist); publishes steering, speed and odom (Odometry, integrated from the commands).
 Parameters: ~wheelbase, ~wheel_radius (m), ~max_steering (rad), ~max_speed (rad/s of the front wheel), ~patience (s
-without a command, after which it stops), ~odom_frame, ~base_frame, ~publish_tf.
+without a command after which the tricycle stops), ~odom_frame, ~base_frame, ~publish_tf.
 """
 
 import signal
@@ -29,18 +30,18 @@ RATE = 20.0  # Hz, of the odometry
 
 
 class CmdVelToTricycle:
-    """Answers each Twist with a command for the front wheel, and stops the wheel when none comes any more."""
+    """Converts each Twist to a command for the front wheel; stops the wheel when no Twist arrives."""
 
     def __init__(self, tricycle: Tricycle) -> None:
-        """Connects the topics; the node must be initialised."""
+        """Create publishers and subscribers; the node must be initialised."""
         self._tricycle = tricycle
         self._patience = float(rospy.get_param("~patience", 0.6))
         self._odom_frame = str(rospy.get_param("~odom_frame", "odom"))
         self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
-        self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._lock = threading.Lock()  # callbacks and the timer run in separate threads
         self._wheel = FrontWheel(steering=0.0, speed=0.0)
         self._pose = Pose2D()
-        self._heard_at: float | None = None  # when the last command came, None when it has stopped
+        self._heard_at: float | None = None  # time of the last command, None when stopped
         self._moved_at = rospy.get_time()
         self._steering = rospy.Publisher("steering", Float32, queue_size=1)
         self._speed = rospy.Publisher("speed", Float32, queue_size=1)
@@ -74,9 +75,9 @@ class CmdVelToTricycle:
         self._speed.publish(wheel.speed)
 
     def _move(self) -> None:
-        """Bring the pose up to now."""
+        """Integrate the pose up to the current time."""
         now = rospy.get_time()
-        dt, self._moved_at = max(0.0, now - self._moved_at), now  # simulated time jumps back when it starts anew
+        dt, self._moved_at = max(0.0, now - self._moved_at), now  # simulation time jumps back at a restart
         self._pose = moved(self._pose, velocity(self._tricycle, self._wheel), dt)
 
     def _tell(self) -> None:
@@ -100,13 +101,13 @@ class CmdVelToTricycle:
 
 
 def read_tricycle() -> Tricycle:
-    """The tricycle that the node's parameters describe."""
+    """Read the tricycle from the parameters of the node."""
     defaults = dataclasses.asdict(Tricycle())
     return Tricycle(**{name: float(rospy.get_param(f"~{name}", value)) for name, value in defaults.items()})
 
 
 def main() -> int:
-    """Runs the node until it is told to stop; 2 for parameters that no tricycle can have."""
+    """Run the node until shutdown; return 2 for invalid parameters."""
     return run_node("cmd_vel_to_tricycle", __doc__, lambda: CmdVelToTricycle(read_tricycle()))
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sends a robot to what is still unknown of a map, until there is nothing left: goals for the node go_to.py.
+"""Explore a map: publish goals for the node go_to.py until there are no unknown areas left.
 
-Topics: map and go_to/arrived in; move_base_simple/goal out, ~done (Bool, latched) at the end.
-Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~shortest (m, of a frontier that is worth going to).
+Subscribes to map and go_to/arrived; publishes move_base_simple/goal, and ~done (Bool, latched) at the end.
+Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~shortest (m, minimum length of a frontier).
 """
 
 import signal
@@ -25,25 +25,25 @@ from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, pose_of
 from bubblesim.nodes.run_node import run_node, run_ros_program
 
-SPARE = 0.1  # m: viewpoints are where go_to.py surely finds a way to
-PATIENCE = 5  # maps in a row without a goal, after which all is known
+SPARE = 0.1  # m: margin so that go_to.py can plan a path to each viewpoint
+PATIENCE = 5  # consecutive maps without a goal after which the exploration is complete
 
 
 class Explore:
-    """Chooses a goal when a map comes, or when the robot has arrived."""
+    """Selects a goal for each new map, and when the robot has arrived."""
 
     def __init__(self) -> None:
-        """Connects the topics; the node must be initialised."""
+        """Create publishers and subscribers; the node must be initialised."""
         self._map_frame = str(rospy.get_param("~map_frame", "map"))
         self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
         radius = float(rospy.get_param("~radius", 0.25)) + SPARE
         self._explorer = Explorer(Footprint(radius, radius), float(rospy.get_param("~shortest", 0.2)))
-        self._lock = threading.Lock()  # messages come on threads of their own
-        self._without_goal = 0  # maps in a row
-        self._mapped_at = rospy.Time()  # stamp of the last map
+        self._lock = threading.Lock()  # callbacks run in separate threads
+        self._without_goal = 0  # consecutive maps
+        self._mapped_at = rospy.Time()  # time stamp of the last map
         self._transforms = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._transforms)
-        # Latched: the first goal may be there before go_to.py listens.
+        # Latched: the first goal may be published before go_to.py subscribes.
         self._goal = rospy.Publisher("move_base_simple/goal", PoseStamped, queue_size=1, latch=True)
         self._done = rospy.Publisher("~done", Bool, queue_size=1, latch=True)
         rospy.Subscriber("go_to/arrived", Bool, self._on_arrival, queue_size=10)
@@ -53,11 +53,11 @@ class Explore:
         try:
             found = self._transforms.lookup_transform(self._map_frame, self._base_frame, rospy.Time(0))
         except tf2_ros.TransformException as error:
-            rospy.logwarn_throttle(10.0, f"waiting for tf: {error}")
+            rospy.logwarn_throttle(10.0, f"waiting for a transform: {error}")
             return
         place = pose_of(found.transform)
         with self._lock:
-            if message.header.stamp < self._mapped_at:  # time has started anew
+            if message.header.stamp < self._mapped_at:  # time has restarted
                 self._explorer = Explorer(self._explorer.footprint, self._explorer.shortest)
                 self._without_goal = 0
             self._mapped_at = message.header.stamp
@@ -72,23 +72,23 @@ class Explore:
                 return
             self._without_goal += 1
             if self._without_goal == PATIENCE:
-                rospy.loginfo("all that can be seen from the floor is in the map")
+                rospy.loginfo("exploration complete: no reachable unknown area left")
                 self._done.publish(True)
 
     def _on_arrival(self, arrived: Bool) -> None:
         with self._lock:
-            self._explorer.leave()
+            self._explorer.discard_goal()
 
     def _send(self, point: Point) -> None:
         goal = PoseStamped()
         goal.header.frame_id = self._map_frame
         goal.header.stamp = rospy.Time.now()
-        goal.pose.position.x, goal.pose.position.y = point  # without an orientation: any heading is good
+        goal.pose.position.x, goal.pose.position.y = point  # without an orientation: any heading
         self._goal.publish(goal)
 
 
 def main() -> int:
-    """Runs the node until it is told to stop; 2 for parameters that cannot be."""
+    """Run the node until shutdown; return 2 for invalid parameters."""
     return run_node("explore", __doc__, Explore)
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives to the goals of move_base_simple/goal on a map, and stops before what is in the way.
+"""Drive to the goals of move_base_simple/goal on a map, and stop in front of obstacles.
 
-Topics: map, scan and move_base_simple/goal in; cmd_vel and ~path out, ~arrived (Bool) at the end of each goal.
-Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, that it likes to keep from walls),
+Subscribes to map, scan and move_base_simple/goal; publishes cmd_vel, ~path, ~arrived (Bool) at the end of each goal.
+Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, preferred distance to walls),
 ~max_speed (m/s), ~max_turn (rad/s), ~acceleration (m/s2), ~lookahead (m), ~turning_radius (m, 0 for a robot that
-turns on the spot), ~tolerance (m), ~patience (s before something in the way, after which it gives up).
+turns in place), ~tolerance (m), ~patience (s in front of an obstacle after which the goal is aborted).
 """
 
 import signal
@@ -34,19 +34,19 @@ from bubblesim.nodes.run_node import run_node, run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
 RATE = 10.0  # Hz, of commands
-SPARE = 0.05  # m that paths keep from walls beyond the robot's radius: it does not follow them exactly
+SPARE = 0.05  # m, margin of paths in addition to the robot's radius, for the path following error
 
 
 class GoTo:
-    """Keeps the latest map and scan, and drives while there is a goal."""
+    """Stores the latest map and scan, and drives while there is a goal."""
 
     def __init__(self, driver: Driver, footprint: Footprint) -> None:
-        """Connects the topics; the node must be initialised."""
+        """Create publishers and subscribers; the node must be initialised."""
         self._driving = Driving(driver, footprint, float(rospy.get_param("~patience", 10.0)))
         self._map_frame = str(rospy.get_param("~map_frame", "map"))
         self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
         self._shown: list[Point] = []  # the path that was published last
-        self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._lock = threading.Lock()  # callbacks and the timer run in separate threads
         self._transforms = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._transforms)
         self._commands = TwistCommands()
@@ -71,10 +71,10 @@ class GoTo:
     def _on_goal(self, goal: PoseStamped) -> None:
         frame = self._place_of(goal.header.frame_id, self._map_frame)
         if frame is None:
-            rospy.logwarn(f"the goal's frame {goal.header.frame_id} has no place in {self._map_frame}: ignored")
+            rospy.logwarn(f"goal ignored: no transform from its frame {goal.header.frame_id} to {self._map_frame}")
             return
         place, turn = goal.pose.position, goal.pose.orientation
-        no_heading = turn.x == turn.y == turn.z == turn.w == 0.0  # which is no orientation
+        no_heading = turn.x == turn.y == turn.z == turn.w == 0.0
         heading = None if no_heading else heading_of(turn) + frame.heading
         with self._lock:
             self._driving.start(placed(frame, (place.x, place.y)), rospy.get_time(), heading)
@@ -87,7 +87,7 @@ class GoTo:
             try:
                 command = self._driving.update(Pose2D(place.x, place.y, place.heading), rospy.get_time())
             except GaveUpError as error:
-                rospy.logwarn(f"gave up the goal: {error}")
+                rospy.logwarn(f"goal aborted: {error}")
                 self._end(arrived=False)
                 return
             if command is None:
@@ -118,33 +118,33 @@ class GoTo:
         self._path.publish(path)
 
     def _place_of(self, frame: str, parent: str) -> Pose2D | None:
-        """Where a frame is in another, None while nobody tells."""
+        """Return the pose of a frame in its parent, None without a transform."""
         try:
             return pose_of(self._transforms.lookup_transform(parent, frame, rospy.Time(0)).transform)
         except tf2_ros.TransformException as error:
-            rospy.logwarn_throttle(10.0, f"waiting for tf: {error}")
+            rospy.logwarn_throttle(10.0, f"waiting for a transform: {error}")
             return None
 
 
 def read_driver() -> Driver:
-    """How the node's parameters say that the robot drives."""
+    """Read the driving parameters of the node."""
     defaults = dataclasses.asdict(Driver())
     driver = Driver(**{name: float(rospy.get_param(f"~{name}", value)) for name, value in defaults.items()})
     for name, value in dataclasses.asdict(driver).items():
         if not value >= 0.0 or (value == 0.0 and name != "turning_radius"):
-            raise ValueError(f"{name} is {value}, but must be above 0")
+            raise ValueError(f"{name} is {value}, must be above 0")
     return driver
 
 
 def make() -> GoTo:
-    """The node of the robot that the parameters describe."""
+    """Create the node from its parameters."""
     driver = read_driver()
     comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
     return GoTo(driver, Footprint(driver.radius + SPARE, comfort))
 
 
 def main() -> int:
-    """Runs the node until it is told to stop; 2 for parameters that no robot can have."""
+    """Run the node until shutdown; return 2 for invalid parameters."""
     return run_node("go_to", __doc__, make)
 
 

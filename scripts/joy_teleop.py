@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives by a joystick: Twist on cmd_vel. A joystick that is unplugged stops the robot, and may come back.
+"""Teleoperation with a joystick: Twist on cmd_vel. The robot stops while the joystick is unplugged.
 
-Parameters: ~dev (/dev/input/js0), ~speed (m/s) and ~turn (rad/s) at the stick's ends, ~axis_linear (1), ~axis_angular
-(0), ~enable_button (which has to be held; -1: none), ~dead_zone, ~rate (Hz), ~stamped, ~frame_id.
+Parameters: ~dev (/dev/input/js0), ~speed (m/s) and ~turn (rad/s) at full deflection, ~axis_linear (1), ~axis_angular
+(0), ~enable_button (must be held; -1: none), ~dead_zone, ~rate (Hz), ~stamped, ~frame_id.
 """
 
 import signal
@@ -26,10 +26,10 @@ from bubblesim.nodes.twist_commands import TwistCommands
 
 
 class JoyTeleop:
-    """Reads the joystick while there is one."""
+    """Reads the joystick while it is connected."""
 
     def __init__(self) -> None:
-        """Reads the parameters; the node must be initialised."""
+        """Read the parameters; the node must be initialised."""
         self._device = Path(str(rospy.get_param("~dev", "/dev/input/js0")))
         self._linear = int(rospy.get_param("~axis_linear", 1))
         self._angular = int(rospy.get_param("~axis_angular", 0))
@@ -43,13 +43,13 @@ class JoyTeleop:
         self._commands = TwistCommands()
 
     def run(self) -> None:
-        """Until the node ends: drive, wait for a joystick, drive again."""
+        """Drive while a joystick is connected, wait for it otherwise, until shutdown."""
         while not rospy.is_shutdown():
             try:
                 device = os.open(self._device, os.O_RDONLY | os.O_NONBLOCK)
             except OSError as error:
                 present = ", ".join(map(str, sorted(Path("/dev/input").glob("js*")))) or "none"
-                rospy.logwarn_throttle(30.0, f"waiting for a joystick: {error}; there are: {present}")
+                rospy.logwarn_throttle(30.0, f"waiting for a joystick: {error}; available: {present}")
                 time.sleep(self._period)
                 continue
             try:
@@ -60,8 +60,8 @@ class JoyTeleop:
             time.sleep(self._period)
 
     def _drive(self, device: int) -> None:
-        """Until the joystick is unplugged."""
-        rospy.loginfo(f"driving by {self._device}")
+        """Drive until the joystick is unplugged."""
+        rospy.loginfo(f"driving with {self._device}")
         joystick = Joystick()
         while not rospy.is_shutdown():
             until = time.monotonic() + self._period
@@ -84,7 +84,7 @@ class JoyTeleop:
 
 
 def main() -> int:
-    """Runs the node until it is told to stop; 2 for parameters that cannot be."""
+    """Run the node until shutdown; return 2 for invalid parameters."""
     return run_node("joy_teleop", __doc__, JoyTeleop, JoyTeleop.run)
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives by the mouse: drag in the window to drive, release to stop. Twist on cmd_vel.
+"""Teleoperation with the mouse: drag in the window to drive, release to stop. Twist on cmd_vel.
 
-Parameters: ~speed (m/s) and ~turn (rad/s) at the window's edges, ~dead_zone (share of the way), ~rate (Hz), ~stamped,
-~frame_id.
+Parameters: ~speed (m/s) and ~turn (rad/s) at the window's edges, ~dead_zone (fraction of the way), ~rate (Hz),
+~stamped, ~frame_id.
 """
 
 import signal
@@ -29,7 +29,7 @@ class Window:
     """A knob that follows the mouse while a button is down."""
 
     def __init__(self, root: tkinter.Tk, teleop: StickTeleop, commands: TwistCommands, period: int) -> None:
-        """Draws it; `period` in ms."""
+        """Draw the window; `period` in ms."""
         self._root = root
         self._teleop = teleop
         self._commands = commands
@@ -68,7 +68,7 @@ class Window:
         self._canvas.coords(self._knob, x - KNOB, y - KNOB, x + KNOB, y + KNOB)
 
     def _tick(self) -> None:
-        """Says again what is being driven, for robots that stop when they hear nothing; ends with the node."""
+        """Repeat the last command, for robots with a timeout; close the window when the node ends."""
         if rospy.is_shutdown():
             self._root.destroy()
             return
@@ -77,13 +77,13 @@ class Window:
 
 
 def main() -> int:
-    """Runs the node until its window is closed; 2 without a display, or for parameters that cannot be."""
+    """Run the node until its window is closed; return 2 without a display or for invalid parameters."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.parse_args(rospy.myargv(sys.argv)[1:])
     try:
         root = tkinter.Tk()
     except tkinter.TclError as error:
-        print(f"error: no window can be opened: {error}", file=sys.stderr)
+        print(f"error: cannot open a window: {error}", file=sys.stderr)
         return 2
     rospy.init_node("mouse_teleop")
     try:
@@ -94,7 +94,7 @@ def main() -> int:
         )
         period = round(1000 / float(rospy.get_param("~rate", 10.0)))
     except (TypeError, ValueError, ZeroDivisionError) as error:
-        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        rospy.logfatal(f"invalid parameter of {rospy.get_name()}: {error}")
         return 2
     Window(root, teleop, TwistCommands(), max(period, 1))
     root.mainloop()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives by the keys of a terminal: Twist on cmd_vel.
+"""Teleoperation with the keys of a terminal: Twist on cmd_vel.
 
-Parameters: ~speed (m/s), ~turn (rad/s), ~speed_limit, ~turn_limit, ~rate (Hz of the commands while it drives),
-~key_timeout (s without a key after which it stops), ~stamped (TwistStamped instead), ~frame_id.
+Parameters: ~speed (m/s), ~turn (rad/s), ~speed_limit, ~turn_limit, ~rate (Hz of the commands while driving),
+~key_timeout (s without a key press after which the robot stops), ~stamped (TwistStamped instead), ~frame_id.
 """
 
 import signal
@@ -29,7 +29,7 @@ from bubblesim.nodes.twist_commands import TwistCommands
 
 @contextlib.contextmanager
 def keys_one_by_one() -> Iterator[None]:
-    """Let the terminal hand over each key at once and unseen; afterwards it is as it was."""
+    """Switch the terminal to cbreak mode without echo, and restore it afterwards."""
     before = termios.tcgetattr(sys.stdin)
     try:
         tty.setcbreak(sys.stdin)
@@ -39,14 +39,14 @@ def keys_one_by_one() -> Iterator[None]:
 
 
 def keys_within(seconds: float) -> str:
-    """The keys that are pressed within a time; it ends with the first."""
+    """Return the keys that are pressed within a time; return early with the first key."""
     readable, _, _ = select.select([sys.stdin], [], [], seconds)
-    # Not through sys.stdin.read(), which would take more than it returns, and select() would not see the rest.
+    # Not with sys.stdin.read(): it buffers more than it returns, and select() does not see the rest.
     return os.read(sys.stdin.fileno(), 64).decode(errors="replace") if readable else ""
 
 
 def drive(teleop: KeyboardTeleop, commands: TwistCommands, period: float) -> None:
-    """Until the node ends: commands at a steady rate while it drives, and one more to stop."""
+    """Publish commands at a constant rate while driving, and one to stop, until shutdown."""
     print(f"{HELP}\n{speeds(teleop)}", flush=True)
     while not rospy.is_shutdown():
         keys = keys_within(period)
@@ -61,19 +61,17 @@ def drive(teleop: KeyboardTeleop, commands: TwistCommands, period: float) -> Non
 
 
 def speeds(teleop: KeyboardTeleop) -> str:
-    """The speeds as a line to read."""
+    """Return the speeds as a line of text."""
     return f"speed {teleop.speed:.3g} m/s   turn {teleop.turn:.3g} rad/s"
 
 
 def main() -> int:
-    """Runs the node until it is told to stop; 2 when there is no terminal."""
+    """Run the node until shutdown; return 2 without a terminal."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--latch", action="store_true", help="go on until another key is pressed")
+    parser.add_argument("--latch", action="store_true", help="drive on until another key is pressed")
     options = parser.parse_args(rospy.myargv(sys.argv)[1:])
     if not sys.stdin.isatty():
-        print(
-            "error: keys come from a terminal, and stdin is none: start this by rosrun in a terminal", file=sys.stderr
-        )
+        print("error: stdin is not a terminal: start this node with rosrun in a terminal", file=sys.stderr)
         return 2
     rospy.init_node("teleop_twist_keyboard")
     teleop = KeyboardTeleop(
@@ -81,7 +79,7 @@ def main() -> int:
         turn=float(rospy.get_param("~turn", 1.0)),
         speed_limit=float(rospy.get_param("~speed_limit", 1000.0)),
         turn_limit=float(rospy.get_param("~turn_limit", 1000.0)),
-        patience=None if options.latch else float(rospy.get_param("~key_timeout", 0.6)),
+        timeout=None if options.latch else float(rospy.get_param("~key_timeout", 0.6)),
     )
     with keys_one_by_one():
         drive(teleop, TwistCommands(), 1.0 / float(rospy.get_param("~rate", 10.0)))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives the tricycle around obstacles: /front_sonar in, /steering and /speed out."""
+"""Drive the tricycle around obstacles: subscribes to /front_sonar, publishes /steering and /speed."""
 
 import signal
 
@@ -17,16 +17,16 @@ from std_msgs.msg import Float32
 from bubblesim.controllers.tricycle_avoid import Command, TricycleAvoid, is_reading
 from bubblesim.nodes.run_node import run_ros_program
 
-_PERIOD = 0.2  # s, between looks for the sonar's silence
+_PERIOD = 0.2  # s, between checks for missing sonar messages
 
 
 class TricycleAvoidNode:
-    """Steps the controller once for each sonar message, and watches for the sonar's silence."""
+    """Updates the controller for each sonar message, and detects missing sonar messages."""
 
     def __init__(self) -> None:
-        """Connects the topics; the node must be initialised."""
+        """Create publishers and subscribers; the node must be initialised."""
         self._controller = TricycleAvoid()
-        self._lock = threading.Lock()  # messages and the timer come on threads of their own
+        self._lock = threading.Lock()  # callbacks and the timer run in separate threads
         self._ended = False
         self._last_update = rospy.get_time()
         self._steering = rospy.Publisher("/steering", Float32, queue_size=1)
@@ -37,19 +37,19 @@ class TricycleAvoidNode:
 
     def _on_sonar(self, message: Float32) -> None:
         if not is_reading(message.data):
-            rospy.logwarn_throttle(5.0, f"/front_sonar: {message.data} is no distance, ignored")
+            rospy.logwarn_throttle(5.0, f"/front_sonar: {message.data} is not a distance; ignored")
         self._update(message.data)
 
     def _update(self, distance: float | None) -> None:
         with self._lock:
             now = rospy.get_time()
             dt, self._last_update = now - self._last_update, now
-            # A clock whose messages come late and then all at once jumps: that is no silence of the sonar.
+            # The clock jumps if several of its messages arrive late at once: this is not a timeout of the sonar.
             command = self._controller.update(distance, min(dt, _PERIOD))
             if command is None or self._ended:
                 return
             if self._controller.stopped:
-                rospy.logwarn("/front_sonar is silent: stopping until it is back")
+                rospy.logwarn("no messages on /front_sonar: stopping until the next one")
             self._publish(command)
 
     def _publish(self, command: Command) -> None:
@@ -60,11 +60,11 @@ class TricycleAvoidNode:
         with self._lock:
             self._ended = True
             self._speed.publish(0.0)
-        time.sleep(0.1)  # rospy sends from another thread, which ends with the node
+        time.sleep(0.1)  # rospy publishes in another thread, which ends with the node
 
 
 def main() -> int:
-    """Runs the node until it is told to stop."""
+    """Run the node until shutdown."""
     argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv(sys.argv)[1:])
     rospy.init_node("tricycle_avoid")
     TricycleAvoidNode()

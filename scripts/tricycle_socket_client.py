@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives the tricycle around obstacles over TCP: "steering;speed" out, "time;distance" in. Needs no ROS."""
+"""Drive the tricycle around obstacles over TCP: sends "steering;speed", receives "time;distance". Does not need ROS."""
 
 import signal
 
@@ -16,11 +16,11 @@ from typing import TextIO
 from bubblesim.controllers.tricycle_avoid import TricycleAvoid
 from bubblesim.program import run_program
 
-PATIENCE = 5.0  # s without a listener or an answer, after which there is no simulation
+PATIENCE = 5.0  # s, timeout of the connection and of answers
 
 
 def drive(connection: TextIO) -> None:
-    """Exchange a command for a measurement, again and again, until the simulation hangs up."""
+    """Send commands and receive measurements until the simulation closes the connection."""
     controller = TricycleAvoid()
     steering, speed = 0.0, 0.0
     last_time = None
@@ -38,7 +38,7 @@ def drive(connection: TextIO) -> None:
 
 
 def connect(host: str, port: int) -> socket.socket:
-    """Connect to the simulation, which may still be about to start."""
+    """Connect to the simulation, which may still be starting."""
     deadline = time.monotonic() + PATIENCE
     while True:
         try:
@@ -50,17 +50,17 @@ def connect(host: str, port: int) -> socket.socket:
 
 
 def main() -> int:
-    """Run until Ctrl-C or the end of the simulation; 1 when there is none."""
+    """Run until Ctrl-C or the end of the simulation; return 1 if there is none."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--host", default="127.0.0.1", help="where the simulation runs (default %(default)s)")
-    parser.add_argument("--port", type=int, default=5000, help="where it listens (default %(default)s)")
+    parser.add_argument("--host", default="127.0.0.1", help="host of the simulation (default %(default)s)")
+    parser.add_argument("--port", type=int, default=5000, help="port of the simulation (default %(default)s)")
     options = parser.parse_args()
     address = f"{options.host}:{options.port}"
-    print(f"waiting for the simulation at {address}, {PATIENCE:g} s at most; Ctrl-C ends", flush=True)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # the tricycle shall not drive on
+    print(f"waiting for the simulation at {address}, at most {PATIENCE:g} s; press Ctrl-C to end", flush=True)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # stop the tricycle on Ctrl-C
     try:
         with connect(options.host, options.port) as connection:
-            print(f"driving the tricycle at {address}; Ctrl-C ends", flush=True)
+            print(f"driving the tricycle at {address}; press Ctrl-C to end", flush=True)
             try:
                 drive(connection.makefile("rw", encoding="ascii", newline="\n"))
             except KeyboardInterrupt:
@@ -70,7 +70,7 @@ def main() -> int:
             return 0
     except ConnectionRefusedError:
         print(
-            f"error: nobody has listened at {address} for {PATIENCE:g} s; start `rosrun bubblesim sim tricycle_socket`",
+            f"error: connection refused at {address} for {PATIENCE:g} s; start `rosrun bubblesim sim tricycle_socket`",
             file=sys.stderr,
         )
     except TimeoutError:

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all tests share: the --long option and the roscore fixture."""
+"""Common to all tests: the --long option and the roscore fixture."""
 
 import signal
 
 import pytest
 
-# Background jobs of a shell start with SIGINT ignored, and their children would inherit that: Ctrl-C would go unheard.
+# A shell starts background jobs with SIGINT ignored, and their children inherit that: Ctrl-C would have no effect.
 signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise of nohup
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise for nohup
 
 pytest_plugins = ["ros_support"]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The benchmarks, which the build leaves out, compile."""
+"""The benchmarks, which the default build does not include, compile."""
 
 import os
 import re

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the documentation tells a reader to type works: its bash and python blocks run, its links lead somewhere.
+"""The commands in the documentation work: its bash and python blocks run, its links exist.
 
-A page that needs a simulator says so in a comment, <!-- in another terminal: COMMAND -->, which takes a topic when its
-scene has no /tf: <!-- in another terminal: COMMAND, until there is TOPIC -->. Blocks marked console are for
-the reader only. Python blocks that are parts of a child script are run as one where the page says SCRIPTS_RUN, those of
-ROS nodes beside the simulator.
+A page that needs a simulator has a comment, <!-- in another terminal: COMMAND -->, with a topic if its scene has no
+/tf: <!-- in another terminal: COMMAND, until there is TOPIC -->. Blocks marked console are for the reader only. Python
+blocks that are parts of a child script run as one script on the pages in SCRIPTS_RUN, those of ROS nodes next to the
+simulator.
 """
 
 import re
@@ -22,7 +22,7 @@ PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
-CHILD_SCRIPT = "sysCall_"  # a part of one: there is nothing to run
+CHILD_SCRIPT = "sysCall_"  # part of a child script: not a program
 ROS_NODE = "import rospy"
 SCRIPTS_RUN = re.compile(r"<!-- the child scripts of this page run by themselves(?: in (\w+) for (\S+))? -->")
 
@@ -44,7 +44,7 @@ def name(page: Path) -> str:
 
 @pytest.fixture
 def simulator(request: pytest.FixtureRequest, roscore: RosCore) -> Iterator[RosCore]:
-    """The master with what the page runs in another terminal."""
+    """Run the command that the page runs in another terminal; return the master."""
     command = OTHER_TERMINAL.search(request.param.read_text())
     assert command, "a page with bash blocks names what runs meanwhile"
     process = start(command[1].split(), roscore.env, stdout=subprocess.DEVNULL)

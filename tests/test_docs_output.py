@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the documentation shows as output is what a reader gets.
+"""The output shown in the documentation equals the real output.
 
 In a console block, the lines below a command, up to the next one, are its output. Other blocks of output follow a
 comment, <!-- output of: COMMAND -->. `...` stands for any text in a line, a line `...` for any lines. Files are made
-from the code block that follows <!-- file: NAME -->, or from such a comment itself, the text below its first line. What
-a command needs beside it: <!-- beside: COMMAND -->; <!-- in a terminal --> lets it read keys. /home/me is the reader's
-folder.
+from the code block after <!-- file: NAME -->, or from the text below the first line of that comment. A command that
+must run at the same time: <!-- beside: COMMAND -->; <!-- in a terminal --> lets the command read keys. /home/me is the
+reader's folder.
 """
 
 import os
@@ -34,7 +34,7 @@ MASTER = "http://localhost:11311"
 
 @dataclass
 class Shown:
-    """A command of a page and what the page says that it prints."""
+    """A command of a page and its output on the page."""
 
     page: Path
     line: int
@@ -49,7 +49,7 @@ class Shown:
 
 
 def shown_on(page: Path) -> Iterator[Shown]:
-    """The commands of a page that come with their output."""
+    """Yield the commands of a page that have output."""
     text = page.read_text()
     files: dict[str, str] = {}
     notes: dict[str, list[str]] = {}
@@ -79,7 +79,7 @@ SHOWN = [shown for page in PAGES for shown in shown_on(page)]
 
 
 def pattern(output: str) -> re.Pattern[str]:
-    """What output has to look like to be the one that is shown."""
+    """Return the pattern of the real output for the output on the page."""
     lines = output.rstrip("\n").split("\n")
     anything = [
         r"(?:.*\n)*" if line == "..." else ".*".join(map(re.escape, line.split("..."))) + r"\n" for line in lines
@@ -88,7 +88,7 @@ def pattern(output: str) -> re.Pattern[str]:
 
 
 def run(shown: Shown, folder: Path, env: dict[str, str]) -> str:
-    """What a command prints until it ends by itself or, by Ctrl-C, some time after it has printed what is shown."""
+    """Run a command until it ends or, with Ctrl-C, some time after the expected output; return its output."""
     read, write = pty.openpty() if shown.in_terminal else os.pipe()
     keys = write if shown.in_terminal else subprocess.DEVNULL
     process = start(["bash", "-c", shown.command], env, cwd=folder, stdin=keys, stdout=write, stderr=write)
@@ -100,7 +100,7 @@ def run(shown: Shown, folder: Path, env: dict[str, str]) -> str:
                 continue
             try:
                 piece = os.read(read, 1 << 16)
-            except OSError:  # the end of a terminal
+            except OSError:  # the terminal was closed
                 break
             if not piece:
                 break
@@ -115,7 +115,7 @@ def run(shown: Shown, folder: Path, env: dict[str, str]) -> str:
 
 
 def as_shown(printed: str, folder: Path, env: dict[str, str]) -> str:
-    """Output with the reader's folder and master in the place of a test's."""
+    """Replace the test's folder and master in the output by the reader's."""
     return printed.replace(str(folder), HOME).replace(env["ROS_MASTER_URI"], MASTER)
 
 

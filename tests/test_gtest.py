@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs each case of the C++ tests, the built programs whose names start with test_, as an item of its own."""
+"""Runs each case of the C++ tests, the built programs with names that start with test_, as a separate item."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ from ros_support import REPOSITORY
 
 
 def test_programs() -> list[Path]:
-    """All built C++ tests, in the folder that BUBBLESIM_BUILD_DIR names or else in the workspace."""
+    """Return all built C++ tests, in the folder BUBBLESIM_BUILD_DIR or else in the workspace."""
     folder = Path(os.environ.get("BUBBLESIM_BUILD_DIR", REPOSITORY / ".ws" / "devel" / "lib" / "bubblesim"))
     return sorted(path for path in folder.rglob("test_*") if path.is_file() and is_program(path))
 
@@ -20,13 +20,13 @@ test_programs.__test__ = False  # type: ignore[attr-defined]
 
 
 def is_program(path: Path) -> bool:
-    """Whether a file is a compiled program."""
+    """Return whether a file is a compiled program."""
     with path.open("rb") as file:
         return os.access(path, os.X_OK) and file.read(4) == b"\x7fELF"
 
 
 def cases(program: Path) -> list[str]:
-    """Full names of a program's cases, Suite.Case, as --gtest_list_tests prints them: cases indented below suites."""
+    """Return the full names of a program's cases, Suite.Case, from --gtest_list_tests: cases are indented."""
     listing = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
     names, suite = [], ""
     for line in listing.splitlines():

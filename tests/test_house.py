@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The layers: which part may know which. Debian keeps ROS headers in /usr/include, so no compiler flag holds this."""
+"""The layers: allowed dependencies. Debian keeps ROS headers in /usr/include, so no compiler flag can check this."""
 
 import ast
 import re
@@ -16,7 +16,7 @@ ROS = re.compile(
 )
 PYTHON = re.compile(r"^(pybind11/|Python\.h|numpy/)")
 
-# What each folder must not include.
+# Includes that are forbidden in each folder.
 FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
@@ -74,7 +74,7 @@ def test_core_builds_alone(tmp_path: Path) -> None:
     assert list(tmp_path.rglob("libbubblesim.so"))
 
 
-# What each Python package may import of the others; nothing imports `cli`, `demo` and `testing`.
+# The imports that each Python package may use of the others; nothing imports `cli`, `demo` and `testing`.
 PYTHON_LAYERS = [
     {"program", "output", "geometry", "messages"},
     {"controllers"},
@@ -92,14 +92,14 @@ PYTHON_LAYERS = [
 
 
 def modules() -> dict[str, Path]:
-    """All modules of the package by their names without `bubblesim.`."""
+    """Return all modules of the package by their names without `bubblesim.`."""
     package = REPOSITORY / "python" / "bubblesim"
     files = [file for file in package.rglob("*.py") if file != package / "__init__.py"]
     return {".".join(file.relative_to(package).with_suffix("").parts).removesuffix(".__init__"): file for file in files}
 
 
 def imports(file: Path, known: dict[str, Path]) -> set[str]:
-    """The modules of ours that a file imports, also those that only its annotations need."""
+    """Return our modules that a file imports, including those that only its annotations need."""
     names: set[str] = set()
     for node in ast.walk(ast.parse(file.read_text())):
         if isinstance(node, ast.Import):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The house style, held by the tools that know it."""
+"""The house style, checked by its tools."""
 
 import subprocess
 import sys
@@ -12,7 +12,7 @@ CPP_FOLDERS = ("include", "src", "tests", "benchmarks")
 
 
 def check(*command: str) -> None:
-    """Fails the test with what the tool says."""
+    """Fail the test with the tool's output."""
     run = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
     if run.returncode != 0:
         pytest.fail(f"{' '.join(command)[:200]}\n{run.stdout}{run.stderr}", pytrace=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs each rostest file below tests/ as an item of its own, with a master of its own."""
+"""Runs each rostest file in tests/ as a separate item, with its own master."""
 
 import os
 import subprocess

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package in a user's own catkin workspace: both tools, devel and install spaces, and a test_msgs of the user's.
+"""The package in a user's catkin workspace: both tools, devel and install spaces, and a user's test_msgs.
 
-Each is a full build, some minutes; a link to the clone stands for the clone.
+Each is a full build of some minutes; a link to the clone replaces the clone.
 """
 
 import os
@@ -28,14 +28,14 @@ USERS_MESSAGE = "string messages\nint32 mine\n"
 
 
 def fresh_environment() -> dict[str, str]:
-    """That of a new terminal, in which no workspace has been sourced."""
+    """Return the environment of a new terminal without a sourced workspace."""
     kept = ("HOME", "USER", "LANG", "TERM", "CCACHE_DIR")
     environment = {name: os.environ[name] for name in kept if name in os.environ}
     return environment | {"PATH": "/usr/local/bin:/usr/bin:/bin"}
 
 
 def make_workspace(folder: Path, tool: str) -> Path:
-    """Builds a workspace with the clone in it. Returns the space to source."""
+    """Build a workspace with the clone in it. Return the space to source."""
     (folder / "src" / "bubblesim").parent.mkdir(exist_ok=True)
     (folder / "src" / "bubblesim").symlink_to(REPOSITORY)
     commands, space = TOOLS[tool]
@@ -45,7 +45,7 @@ def make_workspace(folder: Path, tool: str) -> Path:
 
 
 def in_space(space: Path, command: str) -> str:
-    """Output of a command in a terminal that has sourced the space."""
+    """Return the output of a command in a terminal that has sourced the space."""
     return subprocess.run(
         ["bash", "-c", f"source {space}/setup.bash && cd / && {command}"],
         env=fresh_environment(),

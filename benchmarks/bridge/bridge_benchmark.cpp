@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishing a 640x480 image: messages::Bridge on ready wire bytes beside ros::Publisher on a ready sensor_msgs/Image,
-// in turns in one process, to a subscriber in another (the same program with the argument `subscriber`, which
-// throws them away). Prints medians and their ratio. Run it with a roscore at ROS_MASTER_URI.
+// Compares publishing a 640x480 image with messages::Bridge (serialized message) and ros::Publisher
+// (sensor_msgs/Image), alternately in one process, to a subscriber in another process (the same program with the
+// argument `subscriber`). Prints medians and their ratio. Needs a roscore at ROS_MASTER_URI.
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <signal.h>
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kRounds = 400;
 constexpr int kUnheardCalls = 200'000;
-constexpr auto kPause = std::chrono::milliseconds(4);  // lets each message leave, so that none queues behind another
+constexpr auto kPause = std::chrono::milliseconds(4);  // until each message is sent, so that none is queued
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
@@ -52,7 +52,7 @@ sensor_msgs::Image make_image() {
   return image;
 }
 
-/// What a codec does with such a message: one copy of the pixels into the buffer.
+/// Copy the pixels into the buffer, as a codec does.
 WireBuffer to_wire(const std::vector<std::uint8_t>& bytes) {
   WireBuffer message;
   message.put_bytes(bytes.data(), bytes.size());

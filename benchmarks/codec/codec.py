@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures dict <-> wire against roscpp's and rospy's serialization, side by side.
+"""Compare the conversion dict <-> serialized message with roscpp's and rospy's serialization.
 
     PYTHONPATH=BUILD/benchmarks/codec /usr/bin/python3 benchmarks/codec/codec.py [--rounds N] [--processes N]
 
-Configure with -DBUBBLESIM_BUILD_BENCHMARKS=ON. All candidates take turns in every round, so that a busy machine slows
-them alike. Where large buffers lie in memory shifts their copying by some per cent for the life of a process, so
-several processes measure. The table shows medians over the processes of the medians over their rounds, in microseconds
-a message, and of the ratios in each process.
+Configure with -DBUBBLESIM_BUILD_BENCHMARKS=ON. The candidates run alternately in every round, so that other load
+affects them equally. The address of large buffers changes the copying time by a few percent for the lifetime of a
+process, so several processes measure. The table shows medians over the processes of the medians over their rounds, in
+microseconds per message, and medians of the ratios in each process.
 """
 
 from __future__ import annotations
@@ -29,17 +29,17 @@ RNG = np.random.default_rng(1)
 
 
 def stamped(frame: str) -> dict[str, Any]:
-    """A header as scripts write it."""
+    """Return a header in the format of scripts."""
     return {"seq": 1, "stamp": {"secs": 12, "nsecs": 345}, "frame_id": frame}
 
 
 def vector(x: float, y: float, z: float) -> dict[str, float]:
-    """A vector as scripts write it."""
+    """Return a vector in the format of scripts."""
     return {"x": x, "y": y, "z": z}
 
 
 def messages() -> dict[str, dict[str, Any]]:
-    """One dict for each measured type, as a script would have it."""
+    """Return one dict for each measured type, in the format of scripts."""
     twist = {"linear": vector(1.0, 0.0, 0.0), "angular": vector(0.0, 0.0, 0.5)}
     pose = {"position": vector(1.0, 2.0, 0.0), "orientation": {**vector(0.0, 0.0, 0.0), "w": 1.0}}
     names = [f"joint_{i}" for i in range(12)]
@@ -96,14 +96,14 @@ def messages() -> dict[str, dict[str, Any]]:
 
 
 def plain(value: Any) -> Any:
-    """A value in the types that rospy takes: no numpy."""
+    """Convert numpy arrays to types that rospy accepts."""
     if isinstance(value, np.ndarray):
         return value.tobytes() if value.dtype == np.uint8 else value.tolist()
     return {name: plain(part) for name, part in value.items()} if isinstance(value, dict) else value
 
 
 def wire_bytes(type_name: str, message: dict[str, Any]) -> bytes:
-    """The message's bytes by genpy, so that our codec does not vouch for itself."""
+    """Serialize the message with genpy, independently of the measured codec."""
     made = genpy.message.get_message_class(type_name)()
     genpy.message.fill_message_args(made, [plain(message)])
     buffer = io.BytesIO()
@@ -112,14 +112,14 @@ def wire_bytes(type_name: str, message: dict[str, Any]) -> bytes:
 
 
 class Publisher:
-    """What a publisher of rospy does between `publish` and its sockets (rospy/topics.py)."""
+    """The work of a rospy publisher between `publish` and its sockets (rospy/topics.py)."""
 
     def __init__(self) -> None:
-        """Make the buffer that all its messages share."""
+        """Create the buffer that all messages share."""
         self.buffer = io.BytesIO()
 
     def serialize(self, message: genpy.Message) -> bytes:
-        """Turn a message into what is sent."""
+        """Serialize a message as it is sent."""
         rospy.msg.serialize_message(self.buffer, 1, message)
         data = self.buffer.getvalue()
         self.buffer.seek(0)
@@ -128,7 +128,7 @@ class Publisher:
 
 
 def repeated(action: Callable[[], object]) -> Callable[[int], float]:
-    """A timed loop over a Python call."""
+    """Return a timed loop over a Python call."""
 
     def run(count: int) -> float:
         start = time.perf_counter()
@@ -140,7 +140,7 @@ def repeated(action: Callable[[], object]) -> Callable[[int], float]:
 
 
 def candidates(type_name: str, message: dict[str, Any]) -> dict[str, Callable[[int], float]]:
-    """Everything that is measured of one type: name -> seconds for a number of conversions."""
+    """Return all measurements of one type: name -> function from number of conversions to seconds."""
     data = wire_bytes(type_name, message)
     message_class = genpy.message.get_message_class(type_name)
     ready = message_class().deserialize(data)
@@ -157,25 +157,25 @@ def candidates(type_name: str, message: dict[str, Any]) -> dict[str, Callable[[i
 
 
 def measure(type_name: str, rounds: int) -> dict[str, float]:
-    """Median microseconds of one conversion by each candidate, in this process."""
+    """Return the median time of one conversion in microseconds for each candidate, in this process."""
     runs = candidates(type_name, messages()[type_name])
     counts = {name: max(1, int(0.002 / max(run(3) / 3, 1e-8))) for name, run in runs.items()}
     samples: dict[str, list[float]] = {name: [] for name in runs}
     for _ in range(rounds):
         for name, run in runs.items():
-            run(1 + counts[name] // 10)  # what ran before has left other data in the caches
+            run(1 + counts[name] // 10)  # warms up the caches
             samples[name].append(1e6 * run(counts[name]) / counts[name])
     return {name: statistics.median(values) for name, values in samples.items()}
 
 
 def measure_in_processes(type_name: str, rounds: int, processes: int) -> list[dict[str, float]]:
-    """What measure() gives in fresh processes, one after the other."""
+    """Run measure() in new processes, one after the other."""
     with multiprocessing.get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
         return pool.starmap(measure, [(type_name, rounds)] * processes, chunksize=1)
 
 
 def row(type_name: str, measured: list[dict[str, float]]) -> str:
-    """A line of the table."""
+    """Return a line of the table."""
 
     def column(ours: str, peer: str) -> str:
         if peer not in measured[0]:
@@ -191,13 +191,13 @@ def row(type_name: str, measured: list[dict[str, float]]) -> str:
 
 
 def main() -> None:
-    """Prints the table."""
-    parser = argparse.ArgumentParser(description="Measure dict <-> wire against roscpp and rospy.")
-    parser.add_argument("--rounds", type=int, default=41, help="turns of each candidate in a process (default 41)")
-    parser.add_argument("--processes", type=int, default=9, help="processes that measure each type (default 9)")
+    """Print the table."""
+    parser = argparse.ArgumentParser(description="Compare the serialization of dicts with roscpp and rospy.")
+    parser.add_argument("--rounds", type=int, default=41, help="rounds per process (default 41)")
+    parser.add_argument("--processes", type=int, default=9, help="processes per type (default 9)")
     options = parser.parse_args()
     print(
-        f"{'us a message':26}{'encode':>9}{'roscpp':>9}{'ratio':>8}{'rospy':>9}{'ratio':>8}"
+        f"{'us per message':26}{'encode':>9}{'roscpp':>9}{'ratio':>8}{'rospy':>9}{'ratio':>8}"
         f"{'decode':>11}{'rospy':>9}{'ratio':>8}"
     )
     for type_name in messages():

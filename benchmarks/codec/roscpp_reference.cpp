@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timed loops for codec.py: our codec and roscpp's own serialization, both called from C++ so that neither pays for
-// Python calls. Each function returns the seconds that `count` conversions took.
+// Timed loops for codec.py: bubblesim's codec and roscpp's serialization, both called from C++ to exclude the cost of
+// Python calls. Each function returns the time of `count` conversions in seconds.
 #include <nav_msgs/Odometry.h>
 #include <pybind11/pybind11.h>
 #include <ros/serialization.h>
@@ -34,7 +34,7 @@ WireView view_of(const py::bytes& data) {
   return {reinterpret_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(size)};
 }
 
-/// dict -> bytes that roscpp could send: prefix, then the message.
+/// dict -> bytes in roscpp's format: length prefix, then the message.
 double encode_seconds(const std::string& type_name, const py::dict& message, int count) {
   const auto* type = bubblesim::messages::find_message(type_name);
   return timed(count, [&] {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a device's message costs from the sensor's memory to the wire's bytes, beside copying these bytes once.
+"""Compare creating and serializing the message of a Gazebo plugin with copying the serialized bytes once.
 
-The codec's bytes become a Python object here, which is a second copy that the node does not make.
+The codec's bytes are converted to a Python object here, a second copy that the node does not make.
 """
 
 import statistics
@@ -33,7 +33,7 @@ MODEL = """\
 
 
 def microseconds(action: Callable[[], object]) -> float:
-    """The median over rounds of the mean time of a call."""
+    """Return the median over rounds of the mean time of a call."""
     means = []
     for _ in range(ROUNDS):
         start = time.perf_counter()
@@ -55,7 +55,7 @@ def report(name: str, message_type: str, make: Callable[[], dict[str, object]]) 
 
 
 def main() -> None:
-    """Measure them all."""
+    """Measure all messages."""
     simulation = bubblesim.Simulation("ball")
     simulation.add_model(MODEL)
     image, scan, cloud = (simulation.object(f"/post/link/{name}").reading for name in ("camera", "laser", "lidar"))

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures what trouble in the network costs the steps of a simulation.
+"""Measure the effect of network problems on the times of simulation steps.
 
     PYTHONPATH=tests python benchmarks/disturbance/disturbance.py BUILD/devel/lib/bubblesim [--rounds N]
 
-With the workspace sourced; it starts masters of its own. Both kinds of a round load the machine alike and take turns:
+Source the workspace first; the program starts its own masters. The two cases of a comparison run alternately, with the
+same load of the machine:
 
-- master: the 99th percentile of the steps' times (one each 2 ms) while the node's own master is killed and started
-  again, beside that while another master is
-- stopped subscriber: the median at 50 steps a second that send a megabyte each, with one subscriber that listens and
-  one that is stopped, beside that with the former alone
+- master: the 99th percentile of the step times (one step every 2 ms) while the node's own master is killed and started
+  again, compared with that while another master is restarted
+- stopped subscriber: the median at 50 steps per second that send one megabyte each, with one running and one stopped
+  subscriber, compared with that with the running subscriber only
 
-Printed are medians over the rounds, and of the ratios in each round.
+Prints medians over the rounds, and of the ratios in each round.
 """
 
 from __future__ import annotations
@@ -26,22 +27,22 @@ from pathlib import Path
 from ros_support import RestartableCore, RosCore, start, stop
 
 HERE = Path(__file__).parent
-SETTLED = 2.0  # s after which a new master has all registrations, and a new subscriber its connection
-FAST = 2  # ms a step
+SETTLED = 2.0  # s until a new master has all registrations, and a new subscriber is connected
+FAST = 2  # ms per simulation step
 AT_50_HZ = 20
 LOADED = 8.0  # s of sending
 
 
 class Simulator:
-    """A simulation whose steps are timed."""
+    """A simulation that measures its step times."""
 
     def __init__(self, built: Path, core: RosCore, period: int) -> None:
-        """Start it; ``period`` is in milliseconds."""
+        """Start the simulation; ``period`` is in milliseconds."""
         command = [str(built / "pass_times"), str(HERE / "script_talks.py"), str(period)]
         self._process = start(command, core.env, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def times(self) -> tuple[float, float]:
-        """Median and 99th percentile in microseconds of the steps since the last call."""
+        """Return median and 99th percentile of the step times since the last call, in microseconds."""
         assert self._process.stdin
         assert self._process.stdout
         print(file=self._process.stdin, flush=True)
@@ -49,7 +50,7 @@ class Simulator:
         return median, percentile
 
     def end(self) -> None:
-        """End it."""
+        """End the simulation."""
         stop(self._process)
 
 
@@ -61,7 +62,7 @@ def restart(core: RestartableCore) -> None:
 
 
 def master_rounds(built: Path, folder: Path, rounds: int) -> list[tuple[float, float]]:
-    """99th percentiles while another master is restarted, and while the own one is."""
+    """Return 99th percentiles while another master is restarted, and while the own master is restarted."""
     own, other = RestartableCore(folder), RestartableCore(folder)
     simulator = Simulator(built, own.core, FAST)
     time.sleep(SETTLED)
@@ -80,13 +81,13 @@ def master_rounds(built: Path, folder: Path, rounds: int) -> list[tuple[float, f
 
 
 def subscriber(built: Path, core: RosCore, name: str) -> subprocess.Popen[str]:
-    """A node of roscpp that hears the big images."""
+    """Start a roscpp node that subscribes to the large images."""
     remapped = [f"__name:={name}", f"/{name}/image:=/big"]
     return start([str(built / "roscpp_peer"), "listen", *remapped], core.env, stdout=subprocess.DEVNULL)
 
 
 def stopped_rounds(built: Path, folder: Path, rounds: int) -> list[tuple[float, float]]:
-    """Medians with a subscriber that listens, and with another that is stopped beside it."""
+    """Return medians with a running subscriber, and with an additional stopped one."""
     found = []
     with RosCore(folder) as core:
         simulator = Simulator(built, core, AT_50_HZ)
@@ -109,17 +110,17 @@ def stopped_rounds(built: Path, folder: Path, rounds: int) -> list[tuple[float, 
 
 
 def report(what: str, rounds: list[tuple[float, float]]) -> None:
-    """A line of the table."""
+    """Print a line of the table."""
     calm, disturbed = (statistics.median(column) for column in zip(*rounds, strict=True))
     ratio = statistics.median(after / before for before, after in rounds)
     print(f"{what:40}{calm:10.1f}{disturbed:10.1f}{ratio:8.2f}", flush=True)
 
 
 def main() -> None:
-    """Prints the table."""
-    parser = argparse.ArgumentParser(description="Measure what trouble in the network costs a simulation's passes.")
+    """Print the table."""
+    parser = argparse.ArgumentParser(description="Measure the effect of network problems on simulation steps.")
     parser.add_argument("built", type=Path, help="folder of the built programs")
-    parser.add_argument("--rounds", type=int, default=20, help="turns of each candidate (default 20)")
+    parser.add_argument("--rounds", type=int, default=20, help="number of rounds (default 20)")
     options = parser.parse_args()
     print(f"{'us':40}{'without':>10}{'with':>10}{'ratio':>8}")
     with tempfile.TemporaryDirectory() as name:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the scene `tricycle` with a script as the node does, one step a period, for disturbance.py:
+// Runs the scene `tricycle` with a script like the node, one simulation step per period, for disturbance.py:
 //   pass_times SCRIPT PERIOD_IN_MS
-// To each line on standard input it answers with the median and the 99th percentile of the steps' times since the
-// last, in microseconds.
+// For each line on standard input it prints the median and the 99th percentile of the step times since the last line,
+// in microseconds.
 #include <poll.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# Publishes and hears as ordinary scripts do, and sends an image of a megabyte while somebody listens to it.
+# Publishes and subscribes like an ordinary script, and publishes an image of one megabyte.
 
 
 def sysCall_init():

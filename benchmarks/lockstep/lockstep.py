@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures a simulation in step with a controller: the tricycle and its node in rospy.
+"""Measure a simulation in lockstep with a controller: the tricycle and its rospy node.
 
     python benchmarks/lockstep/lockstep.py [--rounds N] [--seconds S]
 
-With the workspace sourced; it starts masters of its own. Printed are medians over the rounds: how long it takes from
-nothing to the first answer of the controller, and how many simulated seconds pass in one after that.
+Source the workspace first; the program starts its own masters. Prints medians over the rounds: the time from the start
+to the first message of the controller, and the real-time factor after that.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from bubblesim.testing.simulator import Simulator
 
 CONTROLLER = ["rosrun", "bubblesim", "tricycle_avoid.py"]
 TOPICS = ["/speed", "/steering"]
-FIRST = 0.15  # s of simulation: three steps, of which the last has waited for the controller
+FIRST = 0.15  # s of simulation time: three steps; the last one has waited for the controller
 
 
 def measure(seconds: float) -> tuple[float, float]:
-    """Seconds to the first answer, and simulated seconds in one of the machine's."""
+    """Return the seconds until the first message of the controller, and the real-time factor."""
     with tempfile.TemporaryDirectory() as folder, Programs(Path(folder)) as programs:
         begin = time.monotonic()
         master = start_master(programs)
@@ -42,14 +42,14 @@ def measure(seconds: float) -> tuple[float, float]:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure and print the results."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--seconds", type=float, default=300.0, help="of simulation in a round")
+    parser.add_argument("--seconds", type=float, default=300.0, help="simulated seconds per round")
     arguments = parser.parse_args()
     starts, rates = zip(*(measure(arguments.seconds) for _ in range(arguments.rounds)), strict=True)
-    print(f"from nothing to the first answer: {statistics.median(starts):.2f} s (best {min(starts):.2f})")
-    print(f"simulated seconds in one: {statistics.median(rates):.0f} (worst {min(rates):.0f})")
+    print(f"start to first message of the controller: {statistics.median(starts):.2f} s (best {min(starts):.2f})")
+    print(f"real-time factor: {statistics.median(rates):.0f} (worst {min(rates):.0f})")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures lidars and a camera among 200 boxes beside PyBullet's and MuJoCo's, side by side.
+"""Compare lidars and a camera among 200 boxes with those of PyBullet and MuJoCo.
 
     python benchmarks/rays/peers.py [--rounds N]
 
-Needs, beside the workspace, `pip install pybullet==3.2.7 mujoco`. The candidates take turns in every round, so that a
-busy machine slows them alike; the table shows medians over the rounds. All see the same scene; before it measures, the
-program says whether they see the same distances.
+Needs the workspace and `pip install pybullet==3.2.7 mujoco`. The candidates run alternately in every round, so that
+other load affects them equally; the table shows medians over the rounds. The scene is the same for all; the program
+first compares the ranges.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Array = np.ndarray[Any, Any]
 
 
 def boxes() -> list[tuple[Array, Array, float]]:
-    """Size, position and heading of each."""
+    """Return the size, position and heading of each box."""
     found: list[tuple[Array, Array, float]] = []
     while len(found) < 200:
         position = np.append(RNG.uniform(-15, 15, 2), 0.5)
@@ -42,7 +42,7 @@ def boxes() -> list[tuple[Array, Array, float]]:
 
 
 def directions(samples: int, rings: int) -> Array:
-    """Of the rays of a lidar, ring by ring."""
+    """Return the directions of the rays of a lidar, ring by ring."""
     left = np.linspace(-np.pi, np.pi, samples)
     up = np.linspace(-0.26, 0.26, rings) if rings > 1 else np.zeros(1)
     up, left = (grid.ravel() for grid in np.meshgrid(up, left, indexing="ij"))
@@ -50,7 +50,7 @@ def directions(samples: int, rings: int) -> Array:
 
 
 def sdf(scene: list[tuple[Array, Array, float]]) -> str:
-    """The scene as SDFormat, with the sensors on a mast."""
+    """Return the scene as SDFormat, with the sensors on a mast."""
 
     def words(values: Any) -> str:
         return " ".join(map(str, values))
@@ -81,7 +81,7 @@ def sdf(scene: list[tuple[Array, Array, float]]) -> str:
 
 
 class Bubblesim:
-    """Through its Python module."""
+    """The Python module of bubblesim."""
 
     def __init__(self, scene: list[tuple[Array, Array, float]]) -> None:
         """Load the scene from a file."""
@@ -92,12 +92,12 @@ class Bubblesim:
         self._world = self._simulation.world
 
     def lidar(self, samples: int) -> Callable[[], Array]:
-        """A call that measures and gives the ranges."""
+        """Return a function that measures and returns the ranges."""
         sensor = self._world.find("/Flat" if samples == 360 else "/Rings")
         return lambda: bubblesim._core.measure_lidar(self._simulation, sensor).ranges.ravel()
 
     def camera(self) -> Callable[[], Array]:
-        """A call that renders."""
+        """Return a function that renders an image."""
         sensor = self._world.find("/Camera")
         return lambda: bubblesim._core.measure_camera(self._simulation, sensor).rgb
 
@@ -106,7 +106,7 @@ class Bullet:
     """PyBullet: rayTestBatch and TinyRenderer."""
 
     def __init__(self, scene: list[tuple[Array, Array, float]]) -> None:
-        """Build the scene call by call."""
+        """Build the scene."""
         self._client = pybullet.connect(pybullet.DIRECT)
         pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE))
         ground = pybullet.createVisualShape(pybullet.GEOM_BOX, halfExtents=[500, 500, 0.5])
@@ -118,11 +118,11 @@ class Bullet:
             pybullet.createMultiBody(0, shape, look, position, turn)
 
     def lidar(self, samples: int) -> Callable[[], Array]:
-        """As Bubblesim.lidar."""
+        """See Bubblesim.lidar."""
         rays = directions(samples, 1 if samples == 360 else 16)
         ends = EYE + rays * REACH
         starts = np.broadcast_to(EYE, ends.shape)
-        # rayTestBatch takes some 16,000 rays at most.
+        # rayTestBatch accepts about 16,000 rays at most.
         parts = [(starts[i : i + 14400], ends[i : i + 14400]) for i in range(0, len(ends), 14400)]
 
         def scan() -> Array:
@@ -132,7 +132,7 @@ class Bullet:
         return scan
 
     def camera(self) -> Callable[[], Array]:
-        """As Bubblesim.camera."""
+        """See Bubblesim.camera."""
         view = pybullet.computeViewMatrix(EYE, EYE + np.array([1, 0, 0]), [0, 0, 1])
         upright = 2 * np.arctan(np.tan(FOV / 2) * HEIGHT / WIDTH)
         projection = pybullet.computeProjectionMatrixFOV(np.rad2deg(upright), WIDTH / HEIGHT, 0.05, 100)
@@ -170,7 +170,7 @@ class MuJoCo:
         mujoco.mj_forward(self._model, self._data)
 
     def lidar(self, samples: int) -> Callable[[], Array]:
-        """As Bubblesim.lidar."""
+        """See Bubblesim.lidar."""
         rays = directions(samples, 1 if samples == 360 else 16)
         flat = rays.ravel()
         hits = np.empty(len(rays), np.int32)
@@ -185,14 +185,14 @@ class MuJoCo:
 
 
 def check(name: str, ours: Array, theirs: Array) -> None:
-    """Say how many of the ranges that both have differ by more than a millimetre."""
+    """Print how many of the common ranges differ by more than one millimetre."""
     both = np.isfinite(ours) & (theirs > 0) & np.isfinite(theirs)
     apart = np.abs(ours[both] - theirs[both]) > 1e-3
     print(f"{name}: of {both.sum()} ranges {apart.sum()} differ by more than 1 mm")
 
 
 def main() -> None:
-    """Measure all, in turns."""
+    """Measure all candidates alternately."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--rounds", type=int, default=11)
     rounds = parser.parse_args().rounds

@@ -9,7 +9,7 @@ namespace bubblesim::benchmarks {
 namespace {
 
 constexpr std::size_t kPacket = 16;
-constexpr float kGround = 1000;  // m, half a side
+constexpr float kGround = 1000;  // m, half the side length
 
 RTCGeometry quads(RTCDevice device, const std::vector<Vector3>& corners, const std::vector<unsigned>& faces) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);

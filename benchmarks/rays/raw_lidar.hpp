@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lidar by hand on Embree, with nothing around it: the limit that a simulator on Embree can reach.
+// A lidar implemented directly with Embree: the upper limit for a simulator based on Embree.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -10,7 +10,7 @@
 
 namespace bubblesim::benchmarks {
 
-/// Boxes that stand still, boxes that move, and ground at z = 0.
+/// Static boxes, moving boxes, and ground at z = 0.
 class RawLidar {
  public:
   struct PlacedBox {
@@ -23,7 +23,7 @@ class RawLidar {
   RawLidar(const RawLidar&) = delete;
   RawLidar& operator=(const RawLidar&) = delete;
 
-  /// Moves the moving boxes, traces a turn from `sensor`; the ranges are of use until the next one.
+  /// Moves the moving boxes and traces a scan from `sensor`; the ranges are valid until the next scan.
   const std::vector<float>& scan(const Pose& sensor, const std::vector<Pose>& moving);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of Embree's own speed is left: scans of a lidar among 200 boxes and 6 that move, beside the same lidar
-// written by hand on Embree. The candidates take turns, so that a busy machine slows them alike.
+// Compares scans of a lidar among 200 static and 6 moving boxes with the same lidar implemented directly with Embree.
+// The candidates run alternately, so that other load affects them equally.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -70,10 +70,10 @@ struct Case {
   const char* name;
   int samples;
   int rings;
-  int scans;  // in a round
+  int scans;  // per round
 };
 
-/// Prints the case's line; false when the two see different things.
+/// Prints the line of a case; returns false if the ranges of both differ.
 bool run(const Case& scans, bool housing, int rounds) {
   LidarDescription lidar;
   lidar.horizontal = {scans.samples, -M_PI, M_PI};
@@ -136,10 +136,10 @@ bool run(const Case& scans, bool housing, int rounds) {
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 41;
   std::printf("%-18s %16s %12s %26s %20s\n", "lidar", "bubblesim, us", "Embree, us", "speed relative to Embree",
-              "most apart, m");
+              "max. difference, m");
   const bool flat = run({"360", 360, 1, 200}, false, rounds);
   const bool rings = run({"16 x 1800", 1800, 16, 10}, false, rounds);
-  // A cylinder around the sensor, which it looks out of: work that Embree alone does not do.
+  // A cylinder around the sensor, from inside which it measures: Embree alone does not handle this.
   const bool flat_inside = run({"360, housed", 360, 1, 200}, true, rounds);
   const bool rings_inside = run({"16 x 1800, housed", 1800, 16, 10}, true, rounds);
   return flat && rings && flat_inside && rings_inside ? 0 : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time to turn a cloud of 11,520 points (16 rings of 720) into a scan of 720 rays, through a transform. Prints the
-// median and the 99th percentile in microseconds.
+// Measures the conversion of a cloud of 11,520 points (16 rings of 720) to a scan of 720 rays, with a transform. Prints
+// the median and the 99th percentile in microseconds.
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr int kRings = 16;
 constexpr int kRays = 720;
 constexpr double kTurn = 2.0 * 3.141592653589793;
 
-/// What a lidar of many rings sees from the middle of a cylinder.
+/// The cloud of a lidar with several rings in the centre of a cylinder.
 sensor_msgs::PointCloud2 make_cloud() {
   sensor_msgs::PointCloud2 cloud;
   sensor_msgs::PointCloud2Modifier modifier(cloud);
@@ -46,7 +46,7 @@ int main() {
   bubblesim::ScanShape shape;
   shape.angle_increment = kTurn / kRays;
   std::vector<double> times;
-  float sum = 0.0F;  // what is computed is used, so that the compiler keeps it
+  float sum = 0.0F;  // use the result, so that the compiler does not remove the computation
   for (int round = 0; round < kRounds; ++round) {
     const auto begin = Clock::now();
     const auto scan = bubblesim::cloud_to_scan(cloud, place, {-1.0, 1.0}, shape);

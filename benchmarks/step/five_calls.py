@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# A controller of ordinary size: five calls into the simulator in every step.
+# A typical controller: five calls of the simulator per simulation step.
 
 
 def sysCall_init():

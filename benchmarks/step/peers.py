@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures physics substeps of tricycles, one alone, one among 200 boxes and many, beside MuJoCo and PyBullet.
+"""Compare physics substeps of one tricycle, one among 200 boxes, and many tricycles with MuJoCo and PyBullet.
 
     python benchmarks/step/peers.py [--rounds N]
 
-Needs, beside the workspace, `pip install -r benchmarks/requirements.txt`. The candidates take turns in every round, so
-that a busy machine slows them alike; the table shows medians over the rounds. All loops run in C or C++. Before it
-measures, the program says how far each tricycle drove in the same time.
+Needs the workspace and `pip install -r benchmarks/requirements.txt`. The candidates run alternately in every round, so
+that other load affects them equally; the table shows medians over the rounds. All loops run in C or C++. The program
+first prints how far each tricycle drives in the same time.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ import pybullet
 
 import bubblesim
 
-STEP = 0.005  # s, of all
+STEP = 0.005  # s, for all candidates
 PASS = 10  # physics substeps in a step of bubblesim
-STEPS = 400  # of a candidate in a round
+STEPS = 400  # physics substeps of a candidate per round
 STEERING, SPEED = 0.6, 1.0  # rad, rad/s
-GROUND, OBSTACLE = 1, 2  # bits of what collides with what
+GROUND, OBSTACLE = 1, 2  # collide bits
 
 
 def boxes(count: int) -> list[tuple[float, float, float]]:
-    """Position and heading of static boxes of 0.4 m, around the circle that the tricycle drives."""
+    """Return position and heading of static boxes of 0.4 m, around the circle that the tricycle drives."""
     rng = np.random.default_rng(3)
     found: list[tuple[float, float, float]] = []
     while len(found) < count:
@@ -47,7 +47,7 @@ class Ours:
     """Tricycles side by side in bubblesim."""
 
     def __init__(self, box_count: int, robots: int = 1) -> None:
-        """Load them, on the circle."""
+        """Load the scene and set the commands for a circle."""
         scene = "".join(
             f"""<model name="Box{i}"><static>true</static><pose>{x} {y} 0.2 0 0 {heading}</pose><link name="l">
             <collision name="c"><geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link></model>"""
@@ -71,19 +71,19 @@ class Ours:
             self.simulation.object(f"/Tricycle{i}/FrontMotor").target_velocity = SPEED
 
     def run(self, steps: int) -> None:
-        """Let so many steps pass."""
+        """Run this number of physics substeps."""
         self.simulation.step(steps // PASS)
 
     def position(self) -> Any:
-        """Of the (first) tricycle."""
+        """Return the position of the (first) tricycle."""
         return self.simulation.object("/Tricycle0").position
 
 
 class MuJoCo:
-    """The same tricycle, with MuJoCo's defaults but for the integrator: Euler's is unstable with these motors."""
+    """The same tricycle with MuJoCo's defaults, except the integrator: Euler is unstable with these motors."""
 
     def __init__(self, box_count: int) -> None:
-        """Build it."""
+        """Build the model."""
         obstacles = "".join(
             f'<geom type="box" size=".2 .2 .2" pos="{x} {y} .2" euler="0 0 {math.degrees(heading)}"'
             f' contype="{OBSTACLE}" conaffinity="{OBSTACLE}"/>'
@@ -114,19 +114,19 @@ class MuJoCo:
         self.data.ctrl[:] = STEERING, SPEED
 
     def run(self, steps: int) -> None:
-        """Let so many steps pass."""
+        """Run this number of physics substeps."""
         mujoco.mj_step(self.model, self.data, steps)
 
     def position(self) -> Any:
-        """Of the (first) tricycle."""
+        """Return the position of the (first) tricycle."""
         return self.data.qpos[:3]
 
 
 class PyBullet:
-    """The same tricycle, without the rims of its wheels: a link has one filter for all its shapes."""
+    """The same tricycle without the cylinders of its wheels: a link has one filter for all its shapes."""
 
     def __init__(self, box_count: int) -> None:
-        """Build it."""
+        """Build the model."""
         self.client = pybullet.connect(pybullet.DIRECT)
         of = {"physicsClientId": self.client}
         pybullet.setPhysicsEngineParameter(fixedTimeStep=STEP, numSolverIterations=50, **of)
@@ -168,24 +168,24 @@ class PyBullet:
         pybullet.setJointMotorControl2(self.robot, 1, pybullet.VELOCITY_CONTROL, targetVelocity=SPEED, force=50, **of)
 
     def run(self, steps: int) -> None:
-        """Let so many steps pass."""
+        """Run this number of physics substeps."""
         for _ in range(steps):
             pybullet.stepSimulation(physicsClientId=self.client)
 
     def position(self) -> Any:
-        """Of the (first) tricycle."""
+        """Return the position of the (first) tricycle."""
         return pybullet.getBasePositionAndOrientation(self.robot, physicsClientId=self.client)[0]
 
 
 def microseconds(run: Callable[[int], None], steps: int) -> float:
-    """For a step, in one go."""
+    """Return the microseconds per physics substep of one round."""
     start = time.perf_counter()
     run(steps)
     return (time.perf_counter() - start) / steps * 1e6
 
 
 def medians(runs: dict[str, Callable[[int], None]], rounds: int, steps: int = STEPS) -> dict[str, float]:
-    """Microseconds for a step of each; they take turns."""
+    """Return the median microseconds per physics substep of each candidate; the candidates run alternately."""
     found: dict[str, list[float]] = {name: [] for name in runs}
     for _ in range(rounds):
         for name, run in runs.items():
@@ -207,10 +207,10 @@ def main() -> None:
             print(f"  {name} moved {np.linalg.norm(np.array(candidate.position()) - before):.2f} m in a second")
         times = medians({name: candidate.run for name, candidate in candidates.items()}, rounds)
         for name, took in times.items():
-            print(f"{count:4} boxes  {name:10} {took:8.2f} us a step, {took / times['bubblesim']:6.2f} x bubblesim's")
+            print(f"{count:4} boxes  {name:10} {took:8.2f} us a substep, {took / times['bubblesim']:6.2f} x bubblesim")
     crowds = {str(robots): Ours(0, robots).run for robots in (1, 10, 100)}
     for robots, took in medians(crowds, max(rounds // 4, 3), 100).items():
-        print(f"{robots:>4} tricycles  {took:10.2f} us a step, {took / int(robots):6.2f} for each")
+        print(f"{robots:>4} tricycles  {took:10.2f} us a substep, {took / int(robots):6.2f} per tricycle")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene `tricycle` by hand on ODE, with nothing around it: the limit that a simulator on ODE can reach.
+// The scene `tricycle` implemented directly with ODE: the upper limit for a simulator based on ODE.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ class RawTricycle {
  public:
   RawTricycle();
   ~RawTricycle();
-  /// One step of 10 substeps of 5 ms.
+  /// One simulation step: 10 physics substeps of 5 ms.
   void step();
   void drive(double steering, double speed);
   double x() const;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of ODE's own speed is left: a step of the tricycle in the simulator, alone and with a Python script of five
-// calls, beside the same scene written by hand on ODE. The candidates take turns, so that a busy machine slows them
-// alike.
+// Compares a simulation step of the tricycle, without a script and with a Python script with five calls, with the same
+// scene implemented directly with ODE. The candidates run alternately, so that other load affects them equally.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,7 +20,7 @@ namespace {
 using namespace bubblesim;
 
 constexpr int kPassesPerRound = 400;
-constexpr double kSteering = 1.0;  // a circle that meets no wall
+constexpr double kSteering = 1.0;  // a circle without contact with walls
 constexpr double kSpeed = 0.5;
 
 double median(std::vector<double> values) {
@@ -32,7 +31,7 @@ double median(std::vector<double> values) {
 struct Candidate {
   const char* name;
   std::function<void()> pass;
-  std::vector<double> rounds;  // us a step
+  std::vector<double> rounds;  // us per step
 
   void run() {
     const auto start = std::chrono::steady_clock::now();
@@ -66,23 +65,23 @@ int main(int argc, char** argv) {
   ChildScripts scripts(scripted, nullptr, options);
   scripted.add(scripts);
 
-  // Both must simulate the same thing, or the comparison means nothing.
+  // Both must simulate the same motion.
   for (int i = 0; i < 100; ++i) {
     raw.step();
     plain.step();
   }
   const auto position = plain.world().pose(plain.world().tree().find("/base_link")).CoordPositionAdd({0.4, 0, 0.4});
   const double apart = std::hypot(position.X() - raw.x(), position.Y() - raw.y());
-  std::printf("after 5 s both tricycles stand %.2g m apart\n", apart);
+  std::printf("after 5 s the tricycles are %.2g m apart\n", apart);
 
-  std::vector<Candidate> candidates = {{"ODE by hand", [&] { raw.step(); }, {}},
+  std::vector<Candidate> candidates = {{"ODE alone", [&] { raw.step(); }, {}},
                                        {"step", [&] { plain.step(); }, {}},
                                        {"step with a 5-call script", [&] { scripted.step(); }, {}}};
   for (int round = 0; round < rounds; ++round) {
     for (Candidate& candidate : candidates) candidate.run();
   }
   const double limit = median(candidates.front().rounds);
-  std::printf("%-28s %12s %24s\n", "median of rounds", "us a step", "speed relative to ODE");
+  std::printf("%-28s %12s %24s\n", "median of rounds", "us per step", "speed relative to ODE");
   for (const Candidate& candidate : candidates) {
     const double time = median(candidate.rounds);
     std::printf("%-28s %12.1f %24.3f\n", candidate.name, time, limit / time);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What traffic.py needs in C++. `listen`: a receiver and echo as one writes them with roscpp, the peer of
-// script_peer.py and rospy_peer.py. `drive`: the node that sends to all of them, told what by lines on its standard
-// input:
-//   send TYPE NODE COUNT RATE   sends COUNT messages a 1/RATE s apart to NODE, answers when they are sent
-//   ping NODE COUNT             answers with the median time of a Twist to NODE and back in microseconds
+// The roscpp nodes of traffic.py. `listen`: a typical subscriber and echo in roscpp, corresponding to script_peer.py
+// and rospy_peer.py. `drive`: the node that publishes to all of them, controlled by lines on its standard input:
+//   send TYPE NODE COUNT RATE   publishes COUNT messages at RATE Hz to NODE, prints a line when they are sent
+//   ping NODE COUNT             prints the median time of a Twist to NODE and back in microseconds
 #include <geometry_msgs/Twist.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>

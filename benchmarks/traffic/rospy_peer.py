@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A receiver and echo as one writes them with rospy, for traffic.py."""
+"""A typical subscriber and echo in rospy, for traffic.py."""
 
 from collections import Counter
 
@@ -14,7 +14,7 @@ counts: Counter[str] = Counter()
 
 
 def count(_: object, name: str) -> None:
-    """A message has come."""
+    """Count a message."""
     counts[name] += 1
 
 

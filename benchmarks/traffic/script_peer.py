@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# A receiver and echo as one writes them in a child script, for traffic.py.
+# A typical subscriber and echo in a child script, for traffic.py.
 
 QUEUE = 1000
 TYPES = {

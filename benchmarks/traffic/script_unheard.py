@@ -1,6 +1,6 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# Measures what it costs a script to publish a Twist while nobody listens, for traffic.py.
+# Measures the cost of publishing a Twist without subscribers in a child script, for traffic.py.
 import statistics
 import time
 import timeit

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures a child script that hears and publishes messages beside nodes of roscpp and rospy that do the same.
+"""Compare subscribing and publishing in a child script with equivalent roscpp and rospy nodes.
 
     python benchmarks/traffic/traffic.py BUILD/devel/lib/bubblesim [--rounds N]
 
-With the workspace sourced and a roscore running. In each round one node of roscpp sends to all of them in turn, and
-the nodes whose turn it is not are stopped. Printed are medians over the rounds, and of the ratios in each round:
+Source the workspace and start a roscore first. In each round a roscpp node publishes to each of the nodes in turn, and
+the other nodes are stopped. Prints medians over the rounds, and of the ratios in each round:
 
-- CPU time of a whole receiving process per message; the simulator runs in real time, with 20 steps a second
-- the round trip of a Twist to the node and back, with a simulator that runs as fast as it can: it delivers messages
-  once a step, so in real time a message waits for the next step
-- one call of a publisher to which nobody listens
+- CPU time of a whole receiving process per message; the simulator runs in real time, with 20 steps per second
+- the round trip of a Twist to the node and back, with a simulator that runs as fast as possible: it delivers messages
+  once per simulation step, so in real time a message waits for the next step
+- one call of a publisher without subscribers
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 TRAFFIC = {"twist": (400, 200.0), "scan": (400, 200.0), "image": (100, 50.0), "cloud": (100, 50.0)}
-"""How many messages of a type are sent to a receiver in a round, and how many a second."""
+"""Number of messages of a type to a receiver per round, and their rate in Hz."""
 PINGS = 300
-SETTLED = 0.2  # s after which a node has worked off what was sent to it
+SETTLED = 0.2  # s after which a node has processed all messages
 
 LIBC = ctypes.CDLL(None)
 
 
 class Peer:
-    """A process that runs only in its turn."""
+    """A process that is stopped except in its turn."""
 
     def __init__(self, *command: object) -> None:
-        """Start it."""
+        """Start the process."""
         self.process = subprocess.Popen(
             [str(word) for word in command], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=1
         )
@@ -45,42 +45,42 @@ class Peer:
         LIBC.clock_getcpuclockid(self.process.pid, ctypes.byref(self._clock))
 
     def cpu_seconds(self) -> float:
-        """CPU time of all its threads so far."""
+        """Return the CPU time of all its threads so far."""
         return time.clock_gettime(self._clock.value)
 
     @contextmanager
     def turn(self) -> Iterator[None]:
-        """Lets it run during the block."""
+        """Let the process run during the block."""
         self.process.send_signal(signal.SIGCONT)
         yield
         self.process.send_signal(signal.SIGSTOP)
 
     def ask(self, *command: object) -> str:
-        """The line with which it answers a line."""
+        """Send a line and return the answer."""
         assert self.process.stdin
         assert self.process.stdout
         print(*command, file=self.process.stdin)
         return self.process.stdout.readline().strip()
 
     def end(self) -> str:
-        """What it has printed when it ended."""
+        """End the process and return its output."""
         self.process.send_signal(signal.SIGCONT)
         self.process.send_signal(signal.SIGINT)
         return self.process.communicate()[0]
 
 
 def simulator(built: Path, script: str) -> list[object]:
-    """The command of a simulator in which nothing happens but in the script."""
+    """Return the command of a simulator with an empty scene and a script."""
     return [built / "sim", HERE / "empty.sdf", "--strict", "--child-script", f"/Peer={HERE / script}"]
 
 
 def receive(driver: Peer, peers: dict[str, Peer], kind: str) -> dict[str, float]:
-    """Microseconds of CPU time that each receiver spends on a message, in one round."""
+    """Return the microseconds of CPU time of each receiver per message, in one round."""
     count, rate = TRAFFIC[kind]
     spent = {}
     for name, peer in peers.items():
         with peer.turn():
-            driver.ask("send", kind, f"/{name}", 1, rate)  # connects, and wakes what has slept
+            driver.ask("send", kind, f"/{name}", 1, rate)  # connects, and wakes up the process
             time.sleep(SETTLED)
             before = peer.cpu_seconds()
             driver.ask("send", kind, f"/{name}", count, rate)
@@ -90,7 +90,7 @@ def receive(driver: Peer, peers: dict[str, Peer], kind: str) -> dict[str, float]
 
 
 def round_trip(driver: Peer, peers: dict[str, Peer]) -> dict[str, float]:
-    """Microseconds from a ping to its echo at each peer, in one round."""
+    """Return the microseconds from a ping to its echo for each node, in one round."""
     took = {}
     for name, peer in peers.items():
         with peer.turn():
@@ -99,7 +99,7 @@ def round_trip(driver: Peer, peers: dict[str, Peer]) -> dict[str, float]:
 
 
 def report(what: str, rounds: list[dict[str, float]]) -> None:
-    """A line of the table."""
+    """Print a line of the table."""
     ours = rounds[0].keys() - {"roscpp", "rospy"}
     assert len(ours) == 1
     name = ours.pop()
@@ -111,7 +111,7 @@ def report(what: str, rounds: list[dict[str, float]]) -> None:
 
 
 def check_counts(peers: dict[str, Peer], rounds: int) -> None:
-    """Ends the receivers, and checks that none has got away with less."""
+    """End the receivers, and check that each has received all messages."""
     expected = {kind: str(rounds * (count + 1)) for kind, (count, _) in TRAFFIC.items()}
     for name, peer in peers.items():
         found = dict(line.split() for line in peer.end().splitlines() if line.split()[0] in TRAFFIC)
@@ -119,10 +119,10 @@ def check_counts(peers: dict[str, Peer], rounds: int) -> None:
 
 
 def main() -> None:
-    """Prints the table."""
-    parser = argparse.ArgumentParser(description="Measure a child script's traffic beside roscpp's and rospy's.")
+    """Print the table."""
+    parser = argparse.ArgumentParser(description="Compare the messages of a child script with roscpp and rospy nodes.")
     parser.add_argument("built", type=Path, help="folder of the built programs")
-    parser.add_argument("--rounds", type=int, default=11, help="turns of each candidate (default 11)")
+    parser.add_argument("--rounds", type=int, default=11, help="number of rounds (default 11)")
     options = parser.parse_args()
 
     driver = Peer(options.built / "roscpp_peer", "drive")
@@ -146,7 +146,7 @@ def main() -> None:
         peer.process.kill()
     command = [*map(str, simulator(options.built, "script_unheard.py")), "--until", "0.1"]
     unheard = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
-    print(f"{'publish to nobody':34}{float(unheard):9.2f}")
+    print(f"{'publish without subscribers':34}{float(unheard):9.2f}")
 
 
 if __name__ == "__main__":

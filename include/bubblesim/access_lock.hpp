@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may read and change a simulation when several threads do.
+// A fair lock for a simulation that several threads read and change.
 #pragma once
 
 #include <atomic>
@@ -10,11 +10,11 @@
 
 namespace bubblesim {
 
-/// Held by one thread at a time, given to waiting threads in the order in which they came: one that steps without end
-/// keeps nobody out.
+/// A lock that one thread holds at a time. Waiting threads get it in the order in which they asked, so a thread that
+/// steps in a loop does not keep the others out.
 class AccessLock {
  public:
-  /// Takes the lock while it lives, unless this thread has it already.
+  /// Holds the lock during its lifetime. Does nothing if this thread already holds it.
   class Hold {
    public:
     explicit Hold(AccessLock& lock) : lock_(lock.is_mine() ? nullptr : &lock) {
@@ -30,7 +30,7 @@ class AccessLock {
     AccessLock* lock_;
   };
 
-  /// Lets others have the lock while it lives, if this thread has it.
+  /// Releases the lock during its lifetime, if this thread holds it.
   class Pause {
    public:
     explicit Pause(AccessLock& lock) : lock_(lock.is_mine() ? &lock : nullptr) {
@@ -48,12 +48,12 @@ class AccessLock {
 
   bool is_mine() const { return owner_ == std::this_thread::get_id(); }
   void take();
-  /// Takes it if nobody has it or waits for it.
+  /// Takes the lock if no thread holds it or waits for it.
   bool try_take();
   void release();
 
  private:
-  // Each thread draws a number, and has the lock when that number is served.
+  // Each thread draws a number and gets the lock when that number is served.
   std::atomic<std::uint64_t> next_{0};
   std::atomic<std::uint64_t> served_{0};
   std::atomic<std::thread::id> owner_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child scripts in an embedded Python, which runs those in Lua too, as systems of a simulation.
+// Child scripts in an embedded Python interpreter, which also runs the Lua scripts, as a system of a simulation.
 #pragma once
 
 #include <atomic>
@@ -15,30 +15,30 @@
 namespace bubblesim {
 
 struct ScriptOptions {
-  /// Pairs of object path and file: the file takes the place of the object's script, or gives it one.
+  /// Pairs of object path and file. The file replaces the object's child script, or becomes its child script.
   std::vector<std::pair<std::string, std::filesystem::path>> replacements;
-  /// Where what a script includes or requires is looked for, after the folder of the script itself.
+  /// Folders that are searched for included and required files, after the folder of the script itself.
   std::vector<std::filesystem::path> search_paths;
-  /// Lets scripts in Lua use os, io, debug and package.
+  /// Lua scripts may use os, io, debug and package.
   bool lua_unsafe = false;
-  /// Programs by name or path, and folders of programs, that scripts in Lua may start beside those of ROS packages.
+  /// Programs (names or paths) and folders of programs that Lua scripts may start, besides those of ROS packages.
   std::vector<std::string> allowed_programs;
-  /// Offers Gazebo's services and topics beside the node's own.
+  /// Advertises Gazebo's services and topics besides the node's own.
   bool gazebo_compat = false;
-  /// Loads a script again as soon as its file changes.
+  /// Reloads a script when its file changes.
   bool watch = false;
-  /// A bag for the messages that scripts publish and hear; empty: none.
+  /// Bag file for the messages that scripts publish and receive; empty: none.
   std::filesystem::path record;
-  /// Topics on which each step waits for messages that answer the last one.
+  /// Lockstep: each step waits for one message on each of these topics.
   std::vector<std::string> lockstep;
 };
 
-/// Runs the scripts that a scene's models name. A script that fails is reported on stderr once, with file:line and
-/// object path, and does not run again; the others go on.
+/// Runs the child scripts of a scene's models. A script that fails is reported on stderr once, with file:line and
+/// object path, and is disabled; the others keep running.
 class ChildScripts : public System {
  public:
-  /// Starts the interpreter, of which there can be one in a process, and loads the scripts; `bridge` may be null,
-  /// then simROS is false in scripts. Throws InvalidInput for files and objects that do not exist.
+  /// Starts the interpreter (at most one per process) and loads the scripts. `bridge` may be null; simROS is then false
+  /// in scripts. Throws InvalidInput for files and objects that do not exist.
   ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
   ~ChildScripts() override;
 
@@ -46,28 +46,28 @@ class ChildScripts : public System {
   void actuate(World& world, double time) override;
   void sense(const World& world, double time) override;
   void publish(const World& world, double time) override;
-  /// finish(), and forgets the scripts.
+  /// Calls finish() and unloads the scripts.
   void stop() override;
-  /// Loads the scripts afresh, from their files.
+  /// Reloads the scripts from their files.
   void start() override;
   /// Calls sysCall_reset of all scripts.
   void reset() override;
-  /// Loads the script of a model that has one: it runs from the next actuation on.
+  /// Loads the model's script, if it has one. The script runs from the next actuation on.
   void model_added(World& world, ObjectId model) override;
-  /// Calls sysCall_cleanup of a model's scripts and ends what they started.
+  /// Calls sysCall_cleanup of the model's scripts and ends the programs they started.
   void model_removing(World& world, ObjectId model) override;
   /// Calls sysCall_cleanup of all scripts and ends the programs they started.
   void finish();
 
-  /// How many scripts failed so far. Any thread may call it.
+  /// Number of script failures so far. Thread-safe.
   int failures() const { return failures_; }
-  /// How many of those that are loaded now have failed. Any thread may call it.
+  /// Number of loaded scripts that are disabled after a failure. Thread-safe.
   int disabled() const { return disabled_; }
-  /// Whether something that a script printed could not be written; known after finish().
+  /// Whether output of a script could not be written; valid after finish().
   bool output_lost() const { return output_lost_; }
 
  private:
-  friend class GazeboPlugins;  // which use the same interpreter and bridge
+  friend class GazeboPlugins;  // uses the same interpreter and bridge
   struct Python;
 
   template <class Action>
@@ -80,9 +80,8 @@ class ChildScripts : public System {
   bool output_lost_ = false;
 };
 
-/// Makes the code of a script that is running raise KeyboardInterrupt, and all scripts be called no more but for
-/// sysCall_cleanup. Does nothing while no script runs. For a signal
-/// handler on the simulation's thread: Python would not notice it from another.
+/// Raises KeyboardInterrupt in the running script; after that, only sysCall_cleanup is called. Does nothing while no
+/// script runs. For a signal handler on the simulation's thread; Python does not react when another thread calls it.
 void interrupt_scripts();
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can go wrong in the core. Every text says what, where, why and what to do.
+// Exceptions of the core. Every text says what is wrong, where, why and what to do.
 #pragma once
 
 #include <stdexcept>
@@ -8,12 +8,12 @@
 
 namespace bubblesim {
 
-/// A value that a caller handed in cannot be used; the world is unchanged.
+/// The caller passed a value that cannot be used; the world is unchanged.
 struct InvalidInput : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A path or handle that names no object.
+/// A path or handle does not refer to an object.
 struct NoSuchObject : InvalidInput {
   using InvalidInput::InvalidInput;
 };
@@ -23,24 +23,24 @@ struct WrongObject : InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// One thing that is wrong with a scene file.
+/// One error in a scene file.
 struct Problem {
   std::string file;
-  int line = 0;        ///< 0 when the parser does not know it
+  int line = 0;        ///< 0 when unknown
   std::string object;  ///< path such as /Tricycle/Steering, or empty
   std::string message;
 
-  /// `file:line: /Object: message`, as editors and compilers write it.
+  /// Returns `file:line: /Object: message`, the format of editors and compilers.
   std::string text() const;
 };
 
-/// A scene that cannot be used, with all its problems at once.
+/// A scene cannot be used. Lists all its problems.
 struct SceneError : std::runtime_error {
   explicit SceneError(std::vector<Problem> found);
   std::vector<Problem> problems;
 };
 
-/// The physics left the finite world; the state can no longer be trusted.
+/// The physics diverged: a body left the finite world. The state can no longer be trusted.
 struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

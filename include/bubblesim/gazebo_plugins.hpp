@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the plugins of Gazebo's robots do, as a system of a simulation.
+// Gazebo plugins of robot models, as a system of a simulation.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,13 @@
 
 namespace bubblesim {
 
-/// Drives models and publishes their sensors as their <plugin> elements ask for. A plugin that is not known, or whose
-/// parameters are wrong, is reported on stderr; its model runs without it.
+/// Implements the Gazebo plugins that are named in <plugin> elements: drives models and publishes their sensors. An
+/// unknown plugin, or one with wrong parameters, is reported on stderr; its model runs without it.
 class GazeboPlugins final : public System {
  public:
-  /// They use the scripts' interpreter and bridge, of which there must be one; the scripts must outlive them. To be
-  /// added before the scripts: these may overrule what a device commands, and hear last of a step.
+  /// Uses the interpreter and bridge of the scripts. The bridge must not be null, and the scripts must outlive this
+  /// object. Add it before the scripts: scripts may then override the plugins' commands, and receive their messages in
+  /// the same step.
   GazeboPlugins(Simulation& simulation, const ChildScripts& scripts);
   ~GazeboPlugins() override;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vectors, quaternions and poses of the core: SI units, x forward, z up (REP 103).
+// Vectors, quaternions and poses. SI units, x forward, z up (REP 103).
 #pragma once
 
 #include <ignition/math/Pose3.hh>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Did you mean ...?": which known names look like the one that somebody typed.
+// "Did you mean ...?": finds the known names that are similar to a given name.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace bubblesim {
 
-/// Levenshtein distance, upper and lower case taken as equal.
+/// Levenshtein distance, ignoring case.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> row(b.size() + 1);
@@ -30,7 +30,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Those of `known` that are close to `name`, best first, at most three.
+/// Returns the names in `known` that are close to `name`: best match first, at most three.
 inline std::vector<std::string> nearest_names(std::string_view name, const std::vector<std::string>& known) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& candidate : known) {
@@ -43,7 +43,7 @@ inline std::vector<std::string> nearest_names(std::string_view name, const std::
   return names;
 }
 
-/// `; did you mean a, b?`, or nothing when no name is close.
+/// Returns `; did you mean a, b?`, or an empty string when no name is close.
 inline std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   std::string hint;
   for (const std::string& candidate : nearest_names(name, known)) hint += (hint.empty() ? "" : ", ") + candidate;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulator as a ROS 1 node: moves the message bytes of child scripts, publishes /clock, tells ROS time.
+// The simulator as a ROS 1 node: transfers the messages of child scripts, publishes /clock, provides ROS time.
 #pragma once
 
 #include <functional>
@@ -12,41 +12,42 @@
 namespace bubblesim {
 
 struct RosBridgeOptions {
-  /// Name of the node unless the command line says `__name:=other`.
+  /// Name of the node, unless the command line has `__name:=other`.
   std::string node_name = "sim_ros_interface";
-  /// Called from process_input() with true when the service ~pause is called, with false for ~unpause (both
-  /// std_srvs/Empty). Without it the services are not offered.
+  /// Called from process_input(): with true when the service ~pause is called, with false for ~unpause (both
+  /// std_srvs/Empty). If empty, the services are not advertised.
   std::function<void(bool paused)> on_pause;
-  /// Takes the name from a node that has it on the master, which ends that node; otherwise such a name is refused.
+  /// If another node on the master has the same name, take over the name, which ends that node. If false, such a name
+  /// is an error.
   bool replace = false;
-  /// Called on a thread of roscpp when somebody wants the node to end: `rosnode kill`, or the master when another node
-  /// takes its name. The text says who and why. Without it roscpp stops and the process goes on.
+  /// Called on a thread of roscpp when the node is asked to shut down: by `rosnode kill`, or by the master when another
+  /// node takes the name. The text says by whom and why. If empty, roscpp shuts down and the process goes on.
   std::function<void(const std::string& why)> on_shutdown;
-  /// Asked while a service call waits; when it says true (the process was told to end), the call is given up.
+  /// Polled while a service call waits; when it returns true (the process is ending), the call is aborted.
   std::function<bool()> is_ending;
-  /// Called on another thread once a second, for what is published on /diagnostics; without it nothing is.
+  /// Called on another thread once a second; the result is published on /diagnostics. If empty, nothing is published
+  /// there.
   std::function<RunReport()> take_report;
 };
 
-/// One per process, for roscpp is global. All calls come from the simulation's thread; what may wait for the master
-/// runs on a thread of the bridge's own, so the simulation never stands still for ROS. When the master is replaced by
-/// another, or forgets the node, everything is registered again within half a second of its first answer (a second,
-/// when it only forgot); messages to and from connected nodes flow all the time.
+/// At most one per process, because roscpp is global. All calls come from the simulation's thread. Calls that may wait
+/// for the master run on a thread of the bridge, so ROS never blocks the simulation. When the master restarts or drops
+/// the node, everything is registered again within half a second of the master's first answer (within a second if it
+/// only dropped the node); messages to and from connected nodes keep flowing.
 class RosBridge final : public messages::Bridge {
  public:
-  /// Takes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) out of the command line. When a
-  /// master answers within a second it returns connected; else after a line on stderr that names the URI tried and the
-  /// cure, and connects as soon as a master appears. Without ROS_MASTER_URI, http://localhost:11311 is used.
-  /// Throws std::invalid_argument for an unusable master URI or node name, and for a name that another node has on that
-  /// master; std::logic_error for a second bridge. When a master appears later on which another node has the name, the
-  /// bridge says so once and connects when that node has ended.
+  /// Removes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) from the command line. If a master answers
+  /// within a second, returns connected. Otherwise prints a line on stderr with the URI and the remedy, and connects as
+  /// soon as a master appears. The default of ROS_MASTER_URI is http://localhost:11311. Throws std::invalid_argument
+  /// for an invalid master URI or node name, and for a name that another node on that master has; std::logic_error for
+  /// a second bridge. If a master appears later and another node on it has the name, the bridge reports this once and
+  /// connects when that node has ended.
   RosBridge(int& argc, char** argv, RosBridgeOptions options = {});
 
-  /// Takes everything off the master; ends within 2 s even if the master is gone or hangs.
+  /// Unregisters everything from the master. Returns within 2 s even if the master is gone or does not respond.
   ~RosBridge() override;
 
-  /// Takes everything off the master, as the destructor does; any thread may call it, before the process is ended by
-  /// force.
+  /// Unregisters everything from the master, as the destructor does. Thread-safe; for use before the process is killed.
   bool leave();
 
   RosBridge(const RosBridge&) = delete;
@@ -81,18 +82,18 @@ class RosBridge final : public messages::Bridge {
   messages::BridgeTime now() const override;
   bool clock_reaches_others() const override;
 
-  /// Sleeps until something has come that process_input() would deliver, or for `timeout` seconds.
+  /// Waits until process_input() has something to deliver, or for `timeout` seconds.
   void wait_for_arrival(double timeout);
 
-  /// To be called once a step: publishes the simulation time [s] on /clock and makes it what now() returns under
-  /// /use_sim_time. While a script advertises /clock itself, only the latter.
+  /// Call once per step. Publishes the simulation time [s] on /clock and makes now() return it under /use_sim_time.
+  /// While a script advertises /clock itself, does not publish.
   void publish_clock(double sim_time);
 
-  /// Publishes on /diagnostics now; for the last words of a simulation. Waits until they are sent, half a second at
-  /// most.
+  /// Publishes on /diagnostics immediately, for the final report of a simulation. Waits until the message is sent, at
+  /// most half a second.
   void publish_diagnostics();
 
-  /// Whether the node is registered at a master that was there when last asked, four times a second.
+  /// Whether the node is registered at a master that responded to the last check (four checks a second).
   bool connected() const;
   std::string master_uri() const;
   /// Full name, such as `/sim_ros_interface`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ROS bridge's place in a step.
+// The ROS bridge as a system of a simulation.
 #pragma once
 
 #include "bubblesim/ros_bridge.hpp"
@@ -7,10 +7,11 @@
 
 namespace bubblesim {
 
-/// Messages come in first, all of them under the step's time. To be added before the scripts that are to hear them.
+/// Delivers messages at the start of a step, all with the step's time stamp. Add it before the scripts that receive the
+/// messages.
 class RosSystem final : public System {
  public:
-  /// Both must outlive it.
+  /// The bridge and the simulation must outlive this object.
   RosSystem(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
 
   void process_input() override {

@@ -6,22 +6,23 @@
 
 namespace bubblesim {
 
-/// How a simulation has been running since the report before, for those who watch over it.
+/// Statistics of a running simulation since the previous report.
 struct RunReport {
-  bool running = false;            ///< or paused, stopped, ended
-  std::string state;               ///< in a word
-  std::string failure;             ///< why it has ended for good; empty while it has not
-  double wanted_speed = 1;         ///< simulated seconds per second; infinity: as fast as it goes
-  double simulation_time = 0;      ///< s
-  std::uint64_t steps = 0;         ///< that ended since the report before
-  double simulated_time = 0;       ///< s, by these steps
-  double wall_time = 0;            ///< s that they took with the waits between them
-  double step_time = 0;            ///< s that they took without
-  double longest_step = 0;         ///< s
-  double since_last_step = 0;      ///< s without the end of a step, while running
-  int disabled_scripts = 0;        ///< that have failed and are not loaded again yet
-  int script_errors = 0;           ///< since the node was started
-  std::uint64_t measurements = 0;  ///< of all sensors, since the node was started; what nobody reads does not measure
+  bool running = false;        ///< false: paused, stopped or ended
+  std::string state;           ///< one word, such as "running"
+  std::string failure;         ///< why the run failed; empty if it did not
+  double wanted_speed = 1;     ///< requested simulated seconds per second; infinity: as fast as possible
+  double simulation_time = 0;  ///< s
+  std::uint64_t steps = 0;     ///< completed since the previous report
+  double simulated_time = 0;   ///< s, simulated by these steps
+  double wall_time = 0;        ///< s, duration of these steps including the waits between them
+  double step_time = 0;        ///< s, duration of these steps without the waits
+  double longest_step = 0;     ///< s
+  double since_last_step = 0;  ///< s since the last step ended, while running
+  int disabled_scripts = 0;    ///< failed and not reloaded yet
+  int script_errors = 0;       ///< since the node was started
+  std::uint64_t measurements =
+      0;  ///< of all sensors since the start of the node; sensors without readers do not measure
 };
 
 }  // namespace bubblesim

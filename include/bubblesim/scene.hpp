@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene consists of, as loaded: it stays constant while the simulation steps, only the state in World changes.
-// SI units, angles in radians, poses in the frame that each comment names.
+// Description of a scene, as loaded. It stays constant while the simulation steps; only the state in World changes. SI
+// units, angles in radians; each comment names the frame of a pose.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace bubblesim {
 
-/// Where in a file something was written, so that errors can point at it.
+/// Location in a file, for error messages.
 struct Source {
   std::string file;
   int line = 0;
@@ -50,27 +50,27 @@ struct Mesh {
 };
 using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
 
-/// How a shape touches another. What the two surfaces in touch make together is in src/sim/surface_pair.hpp.
+/// Contact parameters of a shape. src/sim/physics/surface_pair.hpp combines those of two touching surfaces.
 struct Surface {
-  double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is another
+  double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is set
   std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit
-  std::optional<double> mu2{};           ///< friction across fdir1; as mu when nothing is said
-  Vector3 fdir1{};                       ///< in the shape's frame; zero when any direction will do
-  double slip1 = 0;                      ///< m/s that the surfaces slide along fdir1 for each N of friction
+  std::optional<double> mu2{};           ///< friction across fdir1; equal to mu when not set
+  Vector3 fdir1{};                       ///< in the shape's frame; zero: any direction
+  double slip1 = 0;                      ///< m/s of sliding along fdir1 per N of friction
   double slip2 = 0;                      ///< across fdir1
-  double torsion = 0;                    ///< m; times the normal force, the torque that brakes a spin on the spot
-  /// Stiffness in N/m and damping in N s/m of the contact; rigid when nothing is said.
+  double torsion = 0;                    ///< m; torque against spinning = torsion * normal force
+  /// Contact stiffness in N/m and damping in N s/m; rigid when not set.
   std::optional<double> kp{};
   std::optional<double> kd{};
-  /// ODE's own words for the same, taken when there is neither kp nor kd.
+  /// ODE's equivalents, used when neither kp nor kd is set.
   std::optional<double> soft_erp{};
   std::optional<double> soft_cfm{};
-  double restitution = 0;                ///< speed after a bounce by that before
-  double bounce_threshold = 1e5;         ///< m/s; what comes slower does not bounce
+  double restitution = 0;                ///< speed after a bounce divided by the speed before
+  double bounce_threshold = 1e5;         ///< m/s; no bounce below this speed
   std::optional<double> max_vel{};       ///< m/s at which overlapping shapes are pushed apart
-  std::optional<double> min_depth{};     ///< m that shapes may sink into one another
-  int max_contacts = 8;                  ///< points in which it touches another shape
-  bool collide_without_contact = false;  ///< others pass through it
+  std::optional<double> min_depth{};     ///< m, allowed penetration depth
+  int max_contacts = 8;                  ///< maximum number of contact points with another shape
+  bool collide_without_contact = false;  ///< other shapes pass through this one
 };
 
 struct CollisionDescription {
@@ -92,18 +92,19 @@ struct Texture;  // see triangle_mesh.hpp
 struct Material {
   Color diffuse{0.7F, 0.7F, 0.7F};
   Color emissive;
-  std::shared_ptr<const Texture> texture;  ///< in place of the diffuse colour, where a surface has coordinates for it
-  double checker_size = 0;  ///< m, side of a checkerboard's fields in the shape's frame; 0 for a single colour
-  Color checker_color;      ///< of every other field
+  std::shared_ptr<const Texture> texture;  ///< replaces the diffuse colour where the surface has texture coordinates
+  double checker_size = 0;                 ///< m, side of a checkerboard square, in the shape's frame; 0: single colour
+  Color checker_color;                     ///< of every second square
 };
 
-/// What rays see: cameras, lidars and sonars alike. A model without any shows its collision shapes instead.
+/// A shape that rays hit: those of cameras, lidars and sonars. The collision shapes serve as visuals of a model without
+/// visuals.
 struct VisualDescription {
   std::string name;
   Pose pose;  ///< in the link's frame
   Geometry geometry;
   Material material;
-  bool keeps_mesh_materials = false;  ///< those that the mesh brings count, where it brings any
+  bool keeps_mesh_materials = false;  ///< use the materials of the mesh file, if it has any
   bool cast_shadows = true;
   double laser_retro = 0;  ///< intensity of a lidar's return
   Source source;
@@ -111,41 +112,41 @@ struct VisualDescription {
 
 enum class LightKind {
   kDirectional,  ///< from infinitely far away
-  kPoint,        ///< to all sides
+  kPoint,        ///< in all directions
   kSpot,         ///< in a cone
 };
 
-/// Position and direction are in the world, or in the frame of the link that carries it.
+/// Position and direction are in the world frame, or in the frame of the link that has the light.
 struct Light {
-  Vector3 direction{-0.5, 0.1, -0.9};  ///< in which it shines; of no meaning to a point light
+  Vector3 direction{-0.5, 0.1, -0.9};  ///< of the light; ignored for point lights
   Color diffuse{0.8F, 0.8F, 0.8F};
   bool cast_shadows = true;
   LightKind kind = LightKind::kDirectional;
-  // Of point lights and spotlights:
+  // For point lights and spotlights:
   Vector3 position;
-  double range = 10;                 ///< m, beyond which it does not shine
-  double constant_attenuation = 1;   ///< it shines with 1 / (constant + linear d + quadratic d^2) at a distance of d
+  double range = 10;                 ///< m, no light beyond this distance
+  double constant_attenuation = 1;   ///< intensity is 1 / (constant + linear d + quadratic d^2) at the distance d
   double linear_attenuation = 0;     ///< 1/m
   double quadratic_attenuation = 0;  ///< 1/m^2
-  // Of spotlights:
-  double inner_angle = 0;  ///< rad across, within which it is at its brightest
-  double outer_angle = 0;  ///< rad across, beyond which it does not shine
+  // For spotlights:
+  double inner_angle = 0;  ///< rad, full angle of the cone of full brightness
+  double outer_angle = 0;  ///< rad, full angle of the light cone
   double falloff = 1;      ///< exponent of the brightness between the two
 };
 
-/// Where on Earth the scene's origin lies, on the ellipsoid WGS84.
+/// Geographic coordinates of the scene's origin on the WGS84 ellipsoid.
 struct GeographicOrigin {
-  double latitude = 0;   ///< degrees, to the north
-  double longitude = 0;  ///< degrees, to the east
+  double latitude = 0;   ///< degrees north
+  double longitude = 0;  ///< degrees east
   double elevation = 0;  ///< m above the ellipsoid
-  double heading = 0;    ///< rad, from the east to the scene's x axis, counter-clockwise seen from above
+  double heading = 0;    ///< rad, from east to the scene's x axis, counter-clockwise seen from above
 };
 
-/// What surrounds the models: light and background as cameras see them, and the place on Earth.
+/// Surroundings of the models: light and background for cameras, and the geographic origin.
 struct Environment {
   Color ambient{0.4F, 0.4F, 0.4F};
   Color background{0.7F, 0.7F, 0.7F};
-  bool sky = false;  ///< a gradient from the horizon up in place of the background
+  bool sky = false;  ///< a gradient above the horizon replaces the background
   bool shadows = true;
   std::vector<Light> lights{Light{}};
   GeographicOrigin origin;
@@ -165,20 +166,20 @@ struct NoiseDescription {
 enum class ProximityVolume {
   kRay,       ///< a single ray
   kCone,      ///< round
-  kPyramid,   ///< square, as wide and high as the cone
+  kPyramid,   ///< square cross-section, as wide and high as the cone
   kDisc,      ///< a flat fan to the left and right
-  kCylinder,  ///< parallel rays, all of the radius that the cone has at its end
+  kCylinder,  ///< parallel rays, with the radius of the cone at its end
 };
 
-/// A volume in which the nearest thing is reported.
+/// A sensor that measures the distance to the nearest surface in a volume.
 struct SonarDescription {
-  double min_range = 0;   ///< m, where the rays begin: anything nearer is not seen
+  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
   double max_range = 1;   ///< m
   double half_angle = 0;  ///< rad, between the axis and the volume's side
   ProximityVolume volume = ProximityVolume::kCone;
 };
 
-/// Angles of a scan: `samples` of them evenly from `min` to `max`, both included; one alone lies at `min`.
+/// Angles of a scan: `samples` evenly spaced angles from `min` to `max`, both included; a single sample lies at `min`.
 struct ScanAngles {
   int samples = 1;
   double min = 0;  ///< rad
@@ -190,11 +191,11 @@ struct ScanAngles {
 struct LidarDescription {
   ScanAngles horizontal;  ///< about z, to the left
   ScanAngles vertical;    ///< upwards
-  double min_range = 0;   ///< m, where the rays begin: anything nearer is not seen
+  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
   double max_range = 1;   ///< m
   double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
   NoiseDescription noise;
-  std::string signal;  ///< string signal in which child scripts find the points; empty: none
+  std::string signal;  ///< name of the string signal that holds the points for child scripts; empty: none
 };
 
 /// A pinhole camera that looks along x, with y to the left and z up.
@@ -204,9 +205,9 @@ struct CameraDescription {
   double horizontal_fov = 1.047;  ///< rad
   double near = 0.1;              ///< m along the axis
   double far = 100;               ///< m along the axis
-  bool color = true;              ///< false for a camera that measures depth only
-  bool antialias = false;         ///< four rays a pixel
-  NoiseDescription noise;         ///< of each colour value, from 0 to 1, or of the depth in m when there is no colour
+  bool color = true;              ///< false: depth camera
+  bool antialias = false;         ///< four rays per pixel
+  NoiseDescription noise;         ///< of each colour value (0 to 1), or of the depth in m when color is false
 };
 
 /// An inertial measurement unit; noise along x, y, z.
@@ -215,7 +216,7 @@ struct ImuDescription {
   std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
 };
 
-/// One element in a <plugin>: its name and text, or what stands in it.
+/// An element of a <plugin>: its name and text, or its child elements.
 struct PluginParameter {
   std::string name;
   std::string text;
@@ -223,7 +224,7 @@ struct PluginParameter {
   Source source;
 };
 
-/// What a file asks other simulators to load; the core hands it on as it stands.
+/// A <plugin> of the file; the core passes it on unchanged.
 struct PluginDescription {
   std::string name;
   std::string filename;  ///< of the library, such as libgazebo_ros_diff_drive.so
@@ -231,28 +232,28 @@ struct PluginDescription {
   Source source;
 };
 
-/// A receiver of satellite navigation.
+/// A satellite navigation (GPS) receiver.
 struct NavSatDescription {
-  NoiseDescription horizontal_position_noise;  ///< m, to the east and to the north
+  NoiseDescription horizontal_position_noise;  ///< m, east and north
   NoiseDescription vertical_position_noise;    ///< m
-  NoiseDescription horizontal_velocity_noise;  ///< m/s, to the east and to the north
+  NoiseDescription horizontal_velocity_noise;  ///< m/s, east and north
   NoiseDescription vertical_velocity_noise;    ///< m/s
 };
 
-/// Tells how high it is above where it started.
+/// Measures the height above its start position.
 struct AltimeterDescription {
   NoiseDescription position_noise;  ///< m
   NoiseDescription velocity_noise;  ///< m/s
 };
 
-/// Feels the magnetic field of the Earth; noise along x, y, z.
+/// Measures the magnetic field; noise along x, y, z.
 struct MagnetometerDescription {
   std::array<NoiseDescription, 3> field_noise;  ///< T
 };
 
-/// Feels what its link touches.
+/// Measures the contacts of its link.
 struct ContactDescription {
-  std::vector<std::string> collisions;  ///< of the link; empty for all of them
+  std::vector<std::string> collisions;  ///< names of collisions of the link; empty: all
 };
 
 inline bool watches(const ContactDescription& sensor, const std::string& collision) {
@@ -260,20 +261,20 @@ inline bool watches(const ContactDescription& sensor, const std::string& collisi
          std::find(sensor.collisions.begin(), sensor.collisions.end(), collision) != sensor.collisions.end();
 }
 
-/// Feels what a joint transmits.
+/// Measures the force and torque that a joint transmits.
 struct ForceTorqueDescription {
   enum class Frame { kChild, kParent, kSensor };
 
-  Frame frame = Frame::kChild;  ///< whose axes the readings are in
-  bool of_child = true;         ///< what the child does to the parent; else what the parent does to the child
+  Frame frame = Frame::kChild;  ///< axes of the readings
+  bool of_child = true;         ///< true: wrench of the child on the parent; false: of the parent on the child
   std::array<NoiseDescription, 3> force_noise;   ///< N
   std::array<NoiseDescription, 3> torque_noise;  ///< N m
 };
 
-/// How gz-sim publishes a sensor.
+/// Topics and frame under which gz-sim publishes a sensor.
 struct GzTopic {
-  std::string topic;       ///< its <topic>; empty: named after the sensor's place in the world
-  std::string info_topic;  ///< of a camera's <camera_info_topic>; empty: beside the topic
+  std::string topic;       ///< its <topic>; empty: named after the sensor's path in the world
+  std::string info_topic;  ///< of a camera's <camera_info_topic>; empty: next to the topic
   std::string frame;       ///< its <gz_frame_id>, or a camera's <optical_frame_id>; empty: MODEL/LINK/SENSOR
 };
 
@@ -281,22 +282,22 @@ struct SensorDescription {
   std::string name;
   std::string type;        ///< SDFormat's name, such as gpu_lidar
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
-  double update_rate = 0;  ///< Hz; 0 means every step
+  double update_rate = 0;  ///< Hz; 0: every step
   std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
                AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>
       kind;
   std::vector<PluginDescription> plugins;
-  std::string topic;  ///< on which it is published; empty: its plugins may publish it
-  std::string frame;  ///< of what is published, its link unless given
+  std::string topic;  ///< topic to publish on; empty: its plugins may publish it
+  std::string frame;  ///< frame_id of the messages; default: its link
   GzTopic gz;
   Source source;
 };
 
 struct LinkDescription {
   std::string name;
-  bool gravity_enabled = true;  ///< gravity pulls it
+  bool gravity_enabled = true;  ///< gravity acts on it
   Pose pose;                    ///< in the model's frame
-  std::optional<Pose> start{};  ///< the same when the simulation begins, where joints are not at their zero then
+  std::optional<Pose> start{};  ///< initial pose, if it differs because of initial joint positions
   double mass = 1;
   Vector3 centre_of_mass;  ///< in the link's frame
   /// About the centre of mass, along the link's axes: xx, yy, zz, then xy, xz, yz. kg m^2
@@ -310,12 +311,12 @@ struct LinkDescription {
 };
 
 enum class MotorMode {
-  kNone,      ///< free, but for friction and damping
+  kNone,      ///< no motor; friction and damping act
   kVelocity,  ///< holds a target velocity
-  kPosition,  ///< goes to a target position and holds it
+  kPosition,  ///< moves to a target position and holds it
 };
 
-/// An axis that follows another: position = multiplier * (leader's position - reference) + offset.
+/// An axis that follows another axis: position = multiplier * (leader's position - reference) + offset.
 struct MimicDescription {
   std::string joint;  ///< of the same model
   int axis = 0;       ///< of the leader
@@ -330,34 +331,34 @@ struct AxisDescription {
   double upper = std::numeric_limits<double>::infinity();
   double max_force = std::numeric_limits<double>::infinity();     ///< of the motor; N or N m
   double max_velocity = std::numeric_limits<double>::infinity();  ///< of the motor; m/s or rad/s
-  double friction = 0;                                            ///< N or N m against any motion
+  double friction = 0;                                            ///< N or N m, against any motion
   double damping = 0;                                             ///< N s/m or N m s/rad
   double spring_stiffness = 0;                                    ///< N/m or N m/rad
-  double spring_reference = 0;                                    ///< m or rad, where the spring is at rest
+  double spring_reference = 0;                                    ///< m or rad, rest position of the spring
   MotorMode motor = MotorMode::kNone;
-  std::optional<MimicDescription> mimic;  ///< in place of the motor's targets
+  std::optional<MimicDescription> mimic;  ///< replaces the motor's targets
 };
 
 struct JointDescription {
   std::string name;
-  std::string type;    ///< SDFormat's name: see joint_kinds() in src/sim/joints
+  std::string type;    ///< SDFormat's name: see joint_kinds() in src/sim/physics/joints
   std::string parent;  ///< link of the same model, or "world"
   std::string child;
   Pose pose;  ///< in the model's frame
   std::vector<AxisDescription> axes;
-  std::vector<SensorDescription> sensors;  ///< of force and torque
-  double screw_lead = 1;                   ///< m that a screw's child moves along the axis in a turn about it
-  double gearbox_ratio = 1;  ///< the child of a gearbox turns by -ratio times the parent's angle, both in the reference
-  std::string gearbox_reference;  ///< link that both are held in by hinges, or "world"
+  std::vector<SensorDescription> sensors;  ///< force-torque sensors
+  double screw_lead = 1;                   ///< m per turn, motion of a screw's child along the axis
+  double gearbox_ratio = 1;                ///< child angle = -ratio * parent angle, both relative to the reference link
+  std::string gearbox_reference;           ///< link that both are attached to by hinges, or "world"
   Source source;
 };
 
-/// A model inside another. Its links and joints are among those of the outermost model, named `inner::link`.
+/// A nested model. Its links and joints are in the lists of the outermost model, named `inner::link`.
 struct NestedModelDescription {
-  std::string name;  ///< from the outermost model on: `inner`, `inner::deeper`; outer ones come before inner ones
+  std::string name;  ///< relative to the outermost model: `inner`, `inner::deeper`; outer models come before inner ones
   Pose pose;         ///< in the outermost model's frame
   std::string canonical_link;
-  std::filesystem::path child_script;  ///< empty when it has none
+  std::filesystem::path child_script;  ///< empty: none
   std::vector<PluginDescription> plugins;
   Source source;
 };
@@ -371,21 +372,21 @@ struct ModelDescription {
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
   std::vector<NestedModelDescription> nested;
-  std::filesystem::path child_script;  ///< empty when it has none
+  std::filesystem::path child_script;  ///< empty: none
   std::vector<PluginDescription> plugins;
   Source source;
 };
 
-/// What happens to a model whose motion leaves the finite world.
+/// Reaction to a divergence of the physics.
 enum class OnDivergence {
   kPause,   ///< the simulation pauses
-  kReset,   ///< the world is put back to its start
+  kReset,   ///< world reset
   kRemove,  ///< the model is removed
 };
 
 struct SceneDescription {
   std::string name;
-  std::string world_name;  ///< of the <world>; that of the scene when the file has none
+  std::string world_name;  ///< of the <world>; the scene's name when the file has none
   std::filesystem::path file;
   Vector3 gravity{0, 0, -9.81};  ///< m/s^2
   double time_step = 0.05;       ///< s, of one simulation step
@@ -394,7 +395,7 @@ struct SceneDescription {
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<PluginDescription> plugins;
-  bool is_model_file = false;  ///< the file holds a model and no world: it was put on a ground plane
+  bool is_model_file = false;  ///< the file contains a model and no world; the model stands on a ground plane
   Source source;
 };
 

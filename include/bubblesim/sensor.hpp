@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors measure, and what a sensor is. A sensor returns a struct; who shows or publishes it is not its business.
-// SI units; sensors look along their x axis, y to the left, z up.
+// Sensors and their measurements. A sensor returns a struct; publishing is done elsewhere. SI units; sensors look along
+// their x axis, y to the left, z up.
 #pragma once
 
 #include <array>
@@ -20,78 +20,79 @@ namespace bubblesim {
 
 class RayScene;
 
-/// What a sonar or another proximity sensor saw. Lengths in metres, in the sensor's frame.
+/// Measurement of a sonar or another proximity sensor. Lengths in metres, in the sensor's frame.
 struct ProximityReading {
   bool detected = false;
   double distance = 0;
   Vector3 point;
-  Vector3 normal;               ///< of the surface seen
-  ObjectId object = kNoObject;  ///< the link seen
+  Vector3 normal;               ///< of the detected surface
+  ObjectId object = kNoObject;  ///< the detected link
 };
 
-/// One turn of a lidar. Ring by ring, the lowest first; in each ring from `horizontal.min` on.
+/// One scan of a lidar. Ring by ring, the lowest first; each ring starts at `horizontal.min`.
 struct LidarScan {
   ScanAngles horizontal;
   ScanAngles vertical;
   double min_range = 0;
   double max_range = 0;
-  std::vector<float> ranges;       ///< m, from min_range on; +Inf for nothing within max_range (REP 117)
-  std::vector<float> intensities;  ///< laser_retro of what was hit, 0 for nothing
+  std::vector<float> ranges;       ///< m, at least min_range; +Inf: nothing within max_range (REP 117)
+  std::vector<float> intensities;  ///< laser_retro of the visual that was hit; 0: no hit
 };
 
 /// Metres, in the sensor's frame.
 using Point = std::array<float, 3>;
 
-/// Where a lidar's rays met something, ring by ring; rays that met nothing are left out.
+/// Returns the points that the rays of a lidar hit, ring by ring; rays without a hit are left out.
 std::vector<Point> to_point_cloud(const LidarScan& scan);
 
-/// What a camera saw, row by row, the uppermost first, each from left to right.
+/// Image of a camera, row by row from the top, each row from left to right.
 struct CameraImage {
   int width = 0;
   int height = 0;
   double horizontal_fov = 0;      ///< rad
   double near = 0;                ///< m along the axis
   double far = 0;                 ///< m along the axis
-  std::vector<std::uint8_t> rgb;  ///< three bytes a pixel; empty for a depth camera
-  std::vector<float> depth;       ///< m along the axis, from the near plane on; +Inf beyond the far one (REP 117)
-  std::vector<ObjectId> objects;  ///< the link seen, or kNoObject
+  std::vector<std::uint8_t> rgb;  ///< three bytes per pixel; empty for a depth camera
+  std::vector<float> depth;       ///< m along the axis, at least `near`; +Inf beyond `far` (REP 117)
+  std::vector<ObjectId> objects;  ///< visible link, or kNoObject
 };
 
-/// What an inertial measurement unit felt, in its own frame (REP 145).
+/// Measurement of an inertial measurement unit, in the sensor's frame (REP 145).
 struct ImuReading {
-  Quaternion orientation;       ///< of the sensor in the world, exact
+  Quaternion orientation;       ///< of the sensor in the world, without noise
   Vector3 angular_velocity;     ///< rad/s
-  Vector3 linear_acceleration;  ///< m/s^2, the mean over the last step, with what holds it against gravity: g at rest
+  Vector3 linear_acceleration;  ///< m/s^2, mean over the last step, with the reaction to gravity: +g at rest
 };
 
-/// Where a receiver of satellite navigation is and how it moves.
+/// Measurement of a satellite navigation receiver.
 struct NavSatReading {
   double latitude = 0;   ///< degrees
   double longitude = 0;  ///< degrees
-  double altitude = 0;   ///< m above the ellipsoid WGS84
-  Vector3 velocity;      ///< m/s, to the east, to the north and up
+  double altitude = 0;   ///< m above the WGS84 ellipsoid
+  Vector3 velocity;      ///< m/s, east, north, up
 };
 
-/// How high an altimeter is.
+/// Measurement of an altimeter.
 struct AltimeterReading {
-  double height = 0;    ///< m above where it was when it came into the world
+  double height = 0;    ///< m above its initial position
   double velocity = 0;  ///< m/s upwards
 };
 
-/// What a magnetometer felt, in its own frame.
+/// Measurement of a magnetometer, in the sensor's frame.
 struct MagnetometerReading {
   Vector3 field;  ///< T
 };
 
-/// What a link touches.
+/// Contacts of a link.
 struct ContactReading {
   std::vector<Contact> contacts;
 };
 
-/// What a joint transmits, in the axes and with the sign that the description says; torque about the sensor's origin.
+/// Force and torque that a joint transmits, with the axes and sign of the description; torque about the sensor's
+/// origin.
 struct ForceTorqueReading {
-  Vector3 force;   ///< N, the mean over the last step
-  Vector3 torque;  ///< N m, the mean over the last step
+  Vector3 force;   ///< N, mean over the last step
+  Vector3 torque;  ///< N m, mean over the last step
 };
 
 using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, AltimeterReading,
@@ -102,16 +103,16 @@ using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuRe
 std::string_view kind_name(const Measurement& measurement);
 
 struct Reading {
-  double time = 0;  ///< s of simulation time at which it was measured
+  double time = 0;  ///< s, simulation time of the measurement
   Measurement measurement;
 };
 
-/// What a sensor measures from.
+/// Inputs of a measurement.
 struct MeasurementContext {
   const World& world;
   RayScene& rays;
   double time = 0;         ///< s
-  std::uint64_t seed = 0;  ///< of the simulation; noise follows from it, the sensor and the time alone
+  std::uint64_t seed = 0;  ///< of the simulation; noise depends on it, the sensor and the time only
 };
 
 class Sensor {
@@ -119,24 +120,24 @@ class Sensor {
   virtual ~Sensor() = default;
 
   void update(const MeasurementContext& moment);
-  /// Takes what somebody gives it for what it has measured.
+  /// Replaces the last measurement.
   void replace(double time, Measurement measurement);
-  /// The last measurement. It stays as it is: the next one is written elsewhere as long as anybody holds it.
+  /// The last measurement. It does not change while a caller holds it; the next one is written to another buffer.
   std::shared_ptr<const Reading> reading() const { return reading_; }
 
  protected:
-  /// `empty` tells which kind of measurement it makes.
+  /// `empty` determines the kind of measurement.
   explicit Sensor(Measurement empty);
 
  private:
-  /// Writes into `measurement`, which holds an earlier one of the same kind.
+  /// Measures into `measurement`, which holds an earlier measurement of the same kind.
   virtual void measure(const MeasurementContext& moment, Measurement& measurement) = 0;
 
   Measurement empty_;
   std::shared_ptr<Reading> reading_;
 };
 
-/// Makes the sensor that a scene describes; `id` is its object in the world's tree.
+/// Creates the sensor of a description; `id` is its object in the world's tree.
 std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,
                                     const World& world);
 

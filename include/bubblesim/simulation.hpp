@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that runs: the world, its sensors, the clock, and the step that moves them on.
+// A running scene: the world, its sensors, the clock, and the simulation step.
 #pragma once
 
 #include <atomic>
@@ -16,125 +16,127 @@
 
 namespace bubblesim {
 
-/// Takes part in each step: child scripts, the ROS bridge. Its phases are called in the order in which they stand here.
+/// Extends the simulation step, such as child scripts and the ROS bridge. The phases are called in the order below.
 class System {
  public:
   virtual ~System() = default;
-  /// Takes in what came from outside; also called while the simulation is paused.
+  /// Processes pending input. Also called while the simulation is paused.
   virtual void process_input() {}
-  /// Commands the world before the physics run.
+  /// Commands the world, before the physics.
   virtual void actuate(World& world, double time);
-  /// Looks at the world after physics and sensors.
+  /// Reads the world, after physics and sensors.
   virtual void sense(const World& world, double time);
-  /// Tells the outside.
+  /// Publishes results.
   virtual void publish(const World& world, double time);
-  /// The simulation stops after its last step; then world and time go back to the start.
+  /// Called after the last step of a stopped simulation, before the reset of world and time.
   virtual void stop() {}
-  /// It starts again.
+  /// Called when a stopped simulation starts again.
   virtual void start() {}
-  /// World and sensors were put back to the start.
+  /// Called after world and sensors were reset.
   virtual void reset() {}
-  /// A model has come into the world; between steps, or while others process_input.
+  /// Called after a model was added: between steps, or while another system runs process_input().
   virtual void model_added(World& world, ObjectId model);
-  /// A model is about to leave the world; it is still there.
+  /// Called before a model is removed.
   virtual void model_removing(World& world, ObjectId model);
 };
 
-enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last step of all
+enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last step
 
-/// Who uses a simulation that another thread steps holds world().access() meanwhile. step() has it but for
-/// process_input(), and the functions that change what is simulated take it by themselves; others do not.
+/// A thread that uses a simulation while another thread steps it must hold world().access(). step() holds it except
+/// during process_input(). The functions that change what is simulated take it themselves; the others do not.
 class Simulation {
  public:
   explicit Simulation(SceneDescription scene, std::uint64_t seed = 0);
   ~Simulation();
 
-  /// Systems are not owned and act in the order in which they were added.
+  /// Systems are not owned. They are called in the order in which they were added.
   void add(System& system);
 
-  /// One step of time_step() seconds. When the physics diverge, the last states are written to a file, and the scene's
-  /// on_divergence says what comes of it; to pause throws Diverged. Models that fell off the world are removed. Threads
-  /// that step take turns. Throws std::logic_error in a system.
+  /// Runs one step of time_step() seconds. On divergence, the last states are written to a file and the scene's
+  /// on_divergence is applied; pausing throws Diverged. Models that fell below the scene are removed. Threads that step
+  /// take turns. Throws std::logic_error when a system calls it.
   void step();
-  /// The part of a step that goes on while paused.
+  /// Runs the part of a step that also runs while paused.
   void process_input();
 
-  /// These change what is simulated: between steps, or in a system's process_input(), where they take effect at once.
-  /// They wait for a step that another thread runs. They throw std::logic_error in the other phases of a step, and in
-  /// another thread while systems in Python have the step. The state and the requests stay as they are.
+  /// The following functions change what is simulated. Call them between steps, or in a system's process_input(), where
+  /// they take effect at once. They wait for a step that another thread runs. They throw std::logic_error in the other
+  /// phases of a step, and in another thread while Python systems are in a step. Run state and requests are not
+  /// changed.
 
-  /// Puts the models that are there now, and what the sensors remember, back to the start; time goes on.
+  /// Resets the models that are there now, and the sensors, to the start; time goes on.
   void reset_world();
-  /// The same, and time starts at 0 again: what follows equals a new simulation of these models, bit by bit.
+  /// Like reset_world(), and sets time to 0: from here on the simulation equals a new one of these models, bit by bit.
   void reset();
-  /// Adds a model with its sensors, and tells the systems. Throws as World::add_model does; then nothing changed.
+  /// Adds a model with its sensors, and calls model_added() of the systems. Throws like World::add_model; nothing is
+  /// changed then.
   ObjectId add_model(ModelDescription model);
-  /// Removes a model with its sensors, after the systems were told. Throws as World::remove_model does.
+  /// Calls model_removing() of the systems, and removes a model with its sensors. Throws like World::remove_model.
   void remove_model(ObjectId model);
 
-  /// Seconds of simulation time; 0 in the first step, constant through a step.
+  /// Simulation time in s; 0 in the first step, constant during a step.
   double time() const { return time_before_ + static_cast<double>(steps_ - steps_before_) * scene_.time_step; }
   double time_step() const { return scene_.time_step; }
-  /// Seconds that steps take from now on, the one that is being run included, until reset(). Physics substeps stay as
-  /// long as they are or become shorter. InvalidInput unless it is from 1e-4 to 10.
+  /// Sets the time step in s, from 1e-4 to 10, from the current step on until reset(). Physics substeps keep their
+  /// length or become shorter. Throws InvalidInput for other values.
   void set_time_step(double seconds);
-  /// As it was loaded.
+  /// The scene as it was loaded.
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Requests to whoever runs the steps, who carries them out in their order by carry_out_requests(); step() does not
-  /// look at them. Any thread may make them. What does not fit the state then does nothing: to pause what is stopped.
-  void start();  ///< from the start of the scene; after a pause, where it was
+  /// Requests to the thread that runs the steps, which executes them in order in carry_out_requests(); step() ignores
+  /// them. Thread-safe. A request that does not fit the state, such as a pause of a stopped simulation, does nothing.
+  void start();  ///< from the start of the scene; after a pause: continues
   void pause();
-  void stop();  ///< one more step, then world and time go back to the start
+  void stop();  ///< one more step, then resets world and time
   void end() { ending_ = true; }
-  /// In synchronous mode steps wait to be triggered, each by one trigger; those that came too early are not lost, but
-  /// for a stop. step() does not wait for them. Any thread.
+  /// In synchronous mode each step waits for one trigger. Early triggers are kept until a stop. step() does not wait
+  /// for triggers. Thread-safe.
   void set_synchronous(bool synchronous);
   void trigger_step();
-  /// From now on a stop is an end: after its last step the world stays as it is.
+  /// From now on a stop ends the simulation: the world is not reset after the last step.
   void end_at_stop() { ends_at_stop_ = true; }
   bool ends_at_a_stop() const { return ends_at_stop_; }
 
-  /// Between steps. Throws what step() throws.
+  /// Executes the requests; call it between steps. Throws like step().
   void carry_out_requests();
   bool has_requests() const;
-  /// Whether a stop was asked for and is not done yet. Any thread.
+  /// Whether a requested stop is still pending. Thread-safe.
   bool stop_is_due() const;
-  /// Whether whoever runs the steps should run one.
+  /// Whether the thread that runs the steps should run one now.
   bool step_is_due() const;
-  /// step(), by which a trigger is used up.
+  /// Runs step() and uses up a trigger.
   void run_step();
-  /// Running to begin with.
+  /// Initially kRunning.
   RunState state() const { return state_; }
-  /// Whether no more steps are wanted of whoever runs them.
+  /// Whether the thread that runs the steps should end.
   bool ending() const { return ending_; }
 
   World& world() { return world_; }
   const World& world() const { return world_; }
 
-  /// What the sensor measured in its last due step. A sensor that nobody read for a while measures when it is asked.
-  /// Throws WrongObject when the object is not a sensor.
+  /// The measurement of the sensor's last due step. A sensor without recent readers measures on this call. Throws
+  /// WrongObject when the object is not a sensor.
   std::shared_ptr<const Reading> read(ObjectId sensor);
-  /// Seconds of simulation time at which the sensor was last due, or measured for measure(): another one means another
-  /// reading. It measures nothing. Throws WrongObject when the object is not a sensor.
+  /// Simulation time in s at which the sensor was last due, or of the last measure(). A new time means a new reading.
+  /// Does not measure. Throws WrongObject when the object is not a sensor.
   double reading_time(ObjectId sensor);
-  /// Measures now, whatever the sensor's rate.
+  /// Measures now, regardless of the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
-  /// Makes a camera show a picture: three bytes a pixel, the uppermost row first. It measures no more then, until the
-  /// world or the simulation is reset. Throws WrongObject when it is not a camera, InvalidInput when sizes differ.
+  /// Replaces the image of a camera: three bytes per pixel, the top row first. The camera stops measuring until the
+  /// world or the simulation is reset. Throws WrongObject when the object is not a camera, InvalidInput when the size
+  /// is wrong.
   void override_image(ObjectId camera, const std::vector<std::uint8_t>& rgb);
-  /// How many times sensors have measured so far.
+  /// Number of measurements of all sensors so far.
   std::uint64_t measurements() const { return measurements_; }
-  /// See kind_name(); it measures nothing.
+  /// See kind_name(). Does not measure.
   std::string_view sensor_kind(ObjectId sensor);
-  /// The same for sensors of one kind; WrongObject for sensors of other kinds.
+  /// Like read() and measure() for proximity sensors. Throw WrongObject for other sensors.
   ProximityReading read_proximity(ObjectId sensor);
   ProximityReading measure_proximity(ObjectId sensor);
 
   /// Hash of the number of steps, the seed and World::state_hash(). Equal histories give equal hashes in every process.
-  /// It leaves out what child scripts and plugins keep in their own variables. Noise of sensors depends on the time and
-  /// the seed alone.
+  /// Not covered: variables of child scripts and plugins. The noise of sensors depends on the time and the seed alone.
   std::uint64_t state_hash() const;
 
  private:
@@ -173,10 +175,10 @@ class Simulation {
   std::atomic<RunState> state_{RunState::kRunning};
   std::atomic<bool> ending_{false};
   bool ends_at_stop_ = false;
-  mutable std::mutex requests_mutex_;  // guards what follows
+  mutable std::mutex requests_mutex_;  // guards the members below
   std::vector<Request> requests_;
   bool synchronous_ = false;
-  std::uint64_t triggers_ = 0;  // not used up yet
+  std::uint64_t triggers_ = 0;  // not used yet
 };
 
 }  // namespace bubblesim

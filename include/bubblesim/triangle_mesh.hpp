@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces made of triangles: meshes from files, extruded polylines and heightmaps.
+// Triangle meshes: from files, extruded polylines and heightmaps.
 #pragma once
 
 #include <array>
@@ -10,27 +10,27 @@
 
 namespace bubblesim {
 
-/// A picture that covers a surface.
+/// An image on a surface.
 struct Texture {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  ///< three bytes a pixel, row by row, the uppermost first
+  std::vector<std::uint8_t> rgb;  ///< three bytes per pixel, row by row from the top
 };
 
-/// Never changes once it is made, so that shapes share it. A triangle is seen, and hit, from the side from which its
-/// corners run counter-clockwise.
+/// Immutable once it is made, so shapes share it. A triangle is visible, and hit, from the side on which its corners
+/// run counter-clockwise.
 struct TriangleMesh {
   using Point = std::array<float, 3>;
   using Triangle = std::array<std::uint32_t, 3>;  ///< indices of its corners
 
   std::vector<Point> vertices;  ///< m
   std::vector<Triangle> triangles;
-  std::vector<Point> normals;  ///< by vertex, of a smooth surface; empty: each triangle is flat
-  std::vector<std::array<float, 2>> texture_coordinates;  ///< by vertex, from the picture's lower left corner; or empty
-  std::vector<Material> materials;                        ///< that the mesh brings; empty when it brings none
-  std::vector<std::uint16_t> material_of;                 ///< by triangle, index into materials; empty like these
-  Vector3 low;                                            ///< corner of the box around it
-  Vector3 high;
+  std::vector<Point> normals;                             ///< per vertex, of a smooth surface; empty: flat triangles
+  std::vector<std::array<float, 2>> texture_coordinates;  ///< per vertex, from the image's lower left corner, or empty
+  std::vector<Material> materials;                        ///< of the mesh file; empty: none
+  std::vector<std::uint16_t> material_of;                 ///< per triangle, index into materials; empty if materials is
+  Vector3 low;                                            ///< lower corner of the bounding box
+  Vector3 high;                                           ///< upper corner of the bounding box
 
   Vector3 corner(const Triangle& triangle, std::size_t i) const {
     const Point& point = vertices[triangle[i]];

@@ -1,9 +1,9 @@
 @# Context:
 @#   package   name of the message package, such as "geometry_msgs"
-@#   types     list of generate.TypeTable: its messages, then the halves of its services
-@#   messages  those of `types` that are messages
+@#   types     list of generate.TypeTable: its messages, then the requests and responses of its services
+@#   messages  the messages in `types`
 @#   services  list of generate.ServiceTable
-// generated from the definitions of @package that meta/messages.txt and meta/services.txt ask for, do not edit
+// generated from the definitions of @package listed in meta/messages.txt and meta/services.txt, do not edit
 #include "message_tables.hpp"
 
 namespace bubblesim::messages::tables {

@@ -61,7 +61,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load the core when something of it is used: not every command of `bubblesim` does, and it takes 0.1 s."""
+    """Load the core on first use: some commands of `bubblesim` do not need it, and loading takes 0.1 s."""
     if name not in __all__:
         raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     from bubblesim import _core

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether scenes and models can be used: what is wrong with a file, all at once."""
+"""Validate scenes and models: report all problems of a file at once."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import bubblesim
 from bubblesim.gazebo_plugins.unknown_plugins import report_unknown_plugins
 
 DESCRIPTION = """\
-Loads scenes and models (SDFormat, URDF, xacro), runs each for a second of simulated time and prints all that is wrong,
+Loads scenes and models (SDFormat, URDF, xacro), runs each for one second of simulated time and prints all problems
 as FILE:LINE: OBJECT: PROBLEM."""
-EPILOG = "exit codes: 0 all are fine, 2 there is a problem"
+EPILOG = "exit codes: 0 no problems, 2 problems found"
 
-_SECONDS = 1.0  # of simulated time in which a scene has to hold
+_SECONDS = 1.0  # simulated time for which each scene is run
 
 
 def problems_of(scene: str, arguments: Mapping[str, str] | None = None) -> list[str]:
-    """All that is wrong with a scene or model, by path or name: a line each, with file:line and object where known.
+    """Return the problems of a scene or model, given by path or name: one line each, with file:line and object.
 
-    A .xacro file is expanded with the ``arguments``. What is left out is written to stderr.
+    A .xacro file is expanded with the ``arguments``. Warnings about ignored elements are written to stderr.
     """
     try:
         simulation = bubblesim.Simulation(scene, arguments=dict(arguments or {}))
@@ -35,14 +35,14 @@ def problems_of(scene: str, arguments: Mapping[str, str] | None = None) -> list[
 
 
 def check(scenes: Sequence[str]) -> int:
-    """Print what is wrong with each scene, or that it is fine; the exit code: 2 when there is a problem, else 0.
+    """Print the problems of each scene, or that it has none; return the exit code: 2 if there are problems, else 0.
 
-    NAME:=VALUE among them is an argument of the .xacro files.
+    Items of the form NAME:=VALUE are arguments of the .xacro files.
     """
     arguments = dict(scene.split(":=", 1) for scene in scenes if ":=" in scene)
     scenes = [scene for scene in scenes if ":=" not in scene]
     if arguments and not any(scene.endswith(".xacro") for scene in scenes):
-        raise ValueError(f"{next(iter(arguments))}:= is an argument of .xacro files, and none is given")
+        raise ValueError(f"{next(iter(arguments))}:= is an argument of .xacro files, but no .xacro file is given")
     code = 0
     for scene in scenes:
         problems = problems_of(scene, arguments)
@@ -54,17 +54,17 @@ def check(scenes: Sequence[str]) -> int:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What the program takes."""
+    """Add the arguments of the command."""
     parser.add_argument(
         "scenes",
         nargs="+",
         metavar="FILE",
-        help="a file, or the name of a scene; NAME:=VALUE is an argument of .xacro files",
+        help="an SDFormat, URDF or .xacro file, or the name of a scene; NAME:=VALUE is an argument of .xacro files",
     )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the program check; returns the exit code."""
+    """Run the program check; return the exit code."""
     parser = argparse.ArgumentParser(prog="check", description=DESCRIPTION, epilog=EPILOG)
     add_arguments(parser)
     try:

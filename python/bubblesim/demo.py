@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a scene with its controller, shows how it is going, and leaves a picture and no process behind."""
+"""Runs a scene with its controller, prints the progress and writes a plot at the end."""
 
 from __future__ import annotations
 
 import signal
 
-signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while modules are loaded
 
 import argparse
 import os
@@ -20,12 +20,12 @@ from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.recording import Recording
 from bubblesim.running.stop import Stop, wait_for
 
-_CONTROLLERS = {"tricycle": "tricycle_avoid.py"}  # the other scenes start their own, or need none
-_LEAST_DISTANCE = 0.01  # m: less is standing still
+_CONTROLLERS = {"tricycle": "tricycle_avoid.py"}  # the other scenes start their controller or need none
+_MIN_DISTANCE = 0.01  # m: a shorter path counts as no motion
 
 
 def watch(recording: Recording, seconds: float, programs: Programs, stop: Stop) -> None:
-    """Prints how it is going until the time is over or a stop is requested: on a terminal in one line, updated."""
+    """Print the progress until the time is over or a stop is requested: on a terminal in one updated line."""
     on_terminal = sys.stdout.isatty()
     end = time.monotonic() + seconds
     next_line = 0.0
@@ -41,7 +41,7 @@ def watch(recording: Recording, seconds: float, programs: Programs, stop: Stop) 
 
 
 def run(scene: str, seconds: float, picture: Path) -> None:
-    """The whole demonstration."""
+    """Run the whole demonstration."""
     stop = Stop()
     recording = Recording()
     with tempfile.TemporaryDirectory(prefix="bubblesim-demo-") as logs, Programs(Path(logs)) as programs:
@@ -49,7 +49,7 @@ def run(scene: str, seconds: float, picture: Path) -> None:
         if stop.requested:
             return
         with simulated_time():
-            from bubblesim.running.observer import Observer  # a ROS node: only once there is a master
+            from bubblesim.running.observer import Observer  # a ROS node: it needs a master
 
             observer = Observer(recording)
             programs.start("simulator", "rosrun", "bubblesim", "sim", scene)
@@ -62,21 +62,21 @@ def run(scene: str, seconds: float, picture: Path) -> None:
             observer.close()
     if len(recording.samples) < 2:
         raise RunError("stopped before the robot's pose was known")
-    from bubblesim.running.picture import draw  # matplotlib takes its time: not while something is to be seen
+    from bubblesim.running.picture import draw  # matplotlib loads slowly: not before the run
 
     draw(scene, recording, picture)
     print(f"{recording.summary()}\npicture            {picture}", flush=True)
-    if recording.distance() < _LEAST_DISTANCE and not stop.requested:
+    if recording.distance() < _MIN_DISTANCE and not stop.requested:
         raise RunError("nothing moved")
 
 
 def main() -> int:
-    """Runs the demonstration; 0 when it went well, 1 when not."""
+    """Run the demonstration; return 0 on success, 1 on failure."""
     parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__)
     parser.add_argument("scene", nargs="?", default="tricycle", help="name of a scene or path of an .sdf file")
-    parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so many seconds")
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="end after this many seconds")
     arguments = parser.parse_args()
-    os.environ.setdefault("ROS_HOSTNAME", "localhost")  # a machine's own name need not resolve
+    os.environ.setdefault("ROS_HOSTNAME", "localhost")  # the machine's host name may not resolve
     try:
         run(arguments.scene, arguments.seconds, Path.cwd() / f"demo-{Path(arguments.scene).stem}.png")
     except RunError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines of text to the outside, whatever they hold and whoever listens."""
+"""Robust output of lines of text."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import TextIO
 
 
 def write_line(stream: TextIO, text: object) -> None:
-    """Write a line of the simulator's own at once; a closed stream is no error."""
-    plain = getattr(stream, "plain", stream)  # scripts write with a prefix
+    """Write a line of the simulator and flush; ignore a closed stream."""
+    plain = getattr(stream, "plain", stream)  # streams of scripts add a prefix
     with contextlib.suppress(OSError, ValueError):
         print(encodable(plain, str(text)), file=plain, flush=True)
 
 
 def encodable(stream: TextIO, text: str) -> str:
-    """The text, with escapes for what the stream cannot encode."""
+    """Return the text with escapes for characters that the stream cannot encode."""
     encoding = getattr(stream, "encoding", None) or "utf-8"
     return text.encode(encoding, errors="backslashreplace").decode(encoding)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the programs of bubblesim end: by Ctrl-C without a traceback, and not well when their output is lost."""
+"""Exit codes of the programs of bubblesim: no traceback on Ctrl-C, failure if the output cannot be written."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ import sys
 from collections.abc import Callable
 
 FAILED = 1
-BY_CTRL_C = 130  # as a shell calls a program that SIGINT has ended
-BY_CLOSED_PIPE = 141  # and SIGPIPE
+BY_CTRL_C = 130  # exit code of a shell for a process ended by SIGINT
+BY_CLOSED_PIPE = 141  # and by SIGPIPE
 
 
 def run_program(main: Callable[[], int]) -> int:
-    """Run a program; its exit code: that of ``main``, unless what it printed could not be written."""
+    """Run a program; return the exit code of ``main``, or a failure if its output could not be written."""
     _replace_closed_output()
     try:
         code = _exit_code(main)
         sys.stdout.flush()
     except KeyboardInterrupt:
         return BY_CTRL_C
-    except BrokenPipeError:  # the reader has seen enough, as `head` does
+    except BrokenPipeError:  # the reader ended, as `head` does
         _discard_output()
         return BY_CLOSED_PIPE
     except OSError as error:
@@ -33,7 +33,7 @@ def run_program(main: Callable[[], int]) -> int:
 def _exit_code(main: Callable[[], int]) -> int:
     try:
         return main()
-    except SystemExit as end:  # argparse's, after the help
+    except SystemExit as end:  # raised by argparse, e.g. after the help
         if isinstance(end.code, str):
             print(end.code, file=sys.stderr)
             return FAILED
@@ -41,11 +41,11 @@ def _exit_code(main: Callable[[], int]) -> int:
 
 
 def _replace_closed_output() -> None:
-    """Without stdout, print() does nothing; what is printed here fails."""
+    """Replace a missing stdout by one that fails; otherwise print() would do nothing."""
     if sys.stdout is None:
         sys.stdout = os.fdopen(os.open(os.devnull, os.O_RDONLY), "w")
 
 
 def _discard_output() -> None:
-    """What is still to be written when the interpreter ends goes nowhere."""
+    """Redirect stdout to /dev/null, for the output flushed at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

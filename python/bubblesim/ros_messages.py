@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ROS messages as the dicts that `simROS.publish` takes, from what robots and their sensors tell.
+"""ROS messages as dicts for `simROS.publish`, created from states and readings.
 
 Stamps are ROS time in seconds, positions metres, quaternions x, y, z, w.
 """
@@ -20,16 +20,16 @@ Message = dict[str, Any]
 _FLOAT32 = 7  # sensor_msgs/PointField.FLOAT32
 _FIX, _GPS = 0, 1  # sensor_msgs/NavSatStatus.STATUS_FIX, SERVICE_GPS
 _DIAGONAL_KNOWN = 2  # sensor_msgs/NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
-_UNKNOWN = 1e6  # variance of what is not measured: large, for a zero would mean that it is certain
+_UNKNOWN = 1e6  # variance of unmeasured values: large, because zero would mean certain
 
 
 def pose_values(message: Message) -> list[float]:
-    """A geometry_msgs/Pose as seven numbers."""
+    """Convert a geometry_msgs/Pose to seven numbers."""
     return [*vector_values(message["position"]), *(message["orientation"][axis] for axis in "xyzw")]
 
 
 def pose_message(pose: Sequence[float]) -> Message:
-    """Seven numbers as a geometry_msgs/Pose."""
+    """Convert seven numbers to a geometry_msgs/Pose."""
     return {
         "position": vector_message(pose[:3]),
         "orientation": dict(zip("xyzw", pose[3:], strict=True)),
@@ -37,27 +37,27 @@ def pose_message(pose: Sequence[float]) -> Message:
 
 
 def vector_values(message: Message) -> list[float]:
-    """A geometry_msgs/Vector3 or Point as three numbers."""
+    """Convert a geometry_msgs/Vector3 or Point to three numbers."""
     return [message[axis] for axis in "xyz"]
 
 
 def vector_message(vector: Sequence[float]) -> dict[str, float]:
-    """Three numbers as a geometry_msgs/Vector3 or Point."""
+    """Convert three numbers to a geometry_msgs/Vector3 or Point."""
     return dict(zip("xyz", vector, strict=True))
 
 
 def twist_message(linear: Sequence[float], angular: Sequence[float]) -> Message:
-    """geometry_msgs/Twist, from m/s and rad/s."""
+    """Return a geometry_msgs/Twist, from m/s and rad/s."""
     return {"linear": vector_message(linear), "angular": vector_message(angular)}
 
 
 def header(stamp: float, frame: str) -> Message:
-    """std_msgs/Header."""
+    """Return a std_msgs/Header."""
     return {"stamp": stamp, "frame_id": frame}
 
 
 def transform(stamp: float, frame: str, child: str, pose: Sequence[float]) -> Message:
-    """geometry_msgs/TransformStamped, from [x, y, z, qx, qy, qz, qw]."""
+    """Return a geometry_msgs/TransformStamped, from [x, y, z, qx, qy, qz, qw]."""
     placed = pose_message(pose)
     return {
         "header": header(stamp, frame),
@@ -67,14 +67,14 @@ def transform(stamp: float, frame: str, child: str, pose: Sequence[float]) -> Me
 
 
 def planar_transform(stamp: float, frame: str, child: str, pose: Pose2D) -> Message:
-    """geometry_msgs/TransformStamped of what stands on the floor."""
+    """Return a geometry_msgs/TransformStamped of a pose in the plane."""
     return transform(stamp, frame, child, [pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)])
 
 
 def planar_odometry(
     stamp: float, frame: str, child: str, pose: Pose2D, velocity: Velocity, variance: float = 1e-3
 ) -> Message:
-    """nav_msgs/Odometry of what stands on the floor.
+    """Return a nav_msgs/Odometry of a pose in the plane.
 
     :param variance: of x and y in m^2 and of the heading in rad^2, and of their rates.
     """
@@ -99,9 +99,9 @@ def odometry(
     angular: Sequence[float],
     variances: Sequence[float] = (0.0,) * 6,
 ) -> Message:
-    """nav_msgs/Odometry, from [x, y, z, qx, qy, qz, qw] in ``frame`` and velocities in the axes of ``child``.
+    """Return a nav_msgs/Odometry, from [x, y, z, qx, qy, qz, qw] in ``frame`` and velocities in the axes of ``child``.
 
-    :param variances: of x, y, z and of the turns about them, for the pose as for the velocities.
+    :param variances: of x, y, z and of the rotations about them, for both pose and velocities.
     """
     covariance = np.diag(variances).ravel()
     return {
@@ -116,7 +116,7 @@ def odometry(
 
 
 def joint_state(stamp: float, joints: Mapping[str, tuple[float, float]]) -> Message:
-    """sensor_msgs/JointState, from positions and velocities by name; rad and rad/s, or m and m/s."""
+    """Return a sensor_msgs/JointState, from positions and velocities by name; rad and rad/s, or m and m/s."""
     return {
         "header": header(stamp, ""),
         "name": list(joints),
@@ -126,7 +126,7 @@ def joint_state(stamp: float, joints: Mapping[str, tuple[float, float]]) -> Mess
 
 
 def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.float32]]) -> Message:
-    """sensor_msgs/PointCloud2 of the fields x, y, z, from an array of count x 3."""
+    """Return a sensor_msgs/PointCloud2 with the fields x, y, z, from an array of count x 3."""
     size = points.itemsize
     return {
         "header": header(stamp, frame),
@@ -144,7 +144,7 @@ def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.fl
 
 
 def pinhole(focal: float, x: float, y: float, baseline: float = 0.0) -> Message:
-    """The matrices of a sensor_msgs/CameraInfo: focal length and centre in pixels, m to the left camera of a pair."""
+    """Return the matrices of a sensor_msgs/CameraInfo: focal length and centre in pixels, stereo baseline in m."""
     return {
         "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
         "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
@@ -153,12 +153,12 @@ def pinhole(focal: float, x: float, y: float, baseline: float = 0.0) -> Message:
 
 
 def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fov: float) -> Message:
-    """sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
+    """Return a sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
 
-    ``frame`` is the optical one: z forward, x to the right (REP 103).
+    ``frame`` is the optical frame: z forward, x to the right (REP 103).
     """
     focal = width / (2.0 * math.tan(horizontal_fov / 2.0))
-    # Pixel (0, 0) has its centre there, half a pixel from the corner.
+    # The centre of pixel (0, 0) is half a pixel from the corner.
     x, y = (width - 1) / 2.0, (height - 1) / 2.0
     return {
         "header": header(stamp, frame),
@@ -173,9 +173,9 @@ def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fo
 def nav_sat_fix(
     stamp: float, frame: str, latitude: float, longitude: float, altitude: float, variances: Sequence[float]
 ) -> Message:
-    """sensor_msgs/NavSatFix; degrees, m above WGS84.
+    """Return a sensor_msgs/NavSatFix; degrees, m above WGS84.
 
-    :param variances: m^2 to the east, to the north and up.
+    :param variances: m^2 east, north and up.
     """
     return {
         "header": header(stamp, frame),

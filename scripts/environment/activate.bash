@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# To be sourced: makes this shell use the workspace and the virtual environment that scripts/setup made.
-# What the caller's own environment says about Python and ROS workspaces is left behind; the master's address stays.
+# Source this file to use the workspace and the virtual environment that scripts/setup created.
+# Unsets the caller's variables for Python and ROS workspaces; keeps the address of the ROS master.
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_ROOT
 _bubblesim_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 set +u  # catkin's setup files read variables that may not be set

@@ -3,7 +3,7 @@
 
 namespace bubblesim::app {
 
-/// Sends a signal to the programs that this process has started, and to the process groups that they lead.
+/// Sends a signal to the child processes of this process and to the process groups that they lead.
 void signal_child_processes(int signal);
 
 }  // namespace bubblesim::app

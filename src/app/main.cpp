@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node: a scene, its child scripts and the ROS bridge, run at the wanted pace until the time is up or someone ends
-// it.
+// The node: runs a scene, its child scripts and the ROS bridge at the requested speed, until the time limit or a stop.
 #include <malloc.h>
 #include <unistd.h>
 
@@ -29,10 +28,10 @@
 namespace bubblesim::app {
 namespace {
 
-constexpr double kIdlePeriod = 0.02;  // s, after which the loop looks around when nothing comes
+constexpr double kIdlePeriod = 0.02;  // s, longest wait for input
 
-/// Images and point clouds come and go in every step: their memory stays with the process, for getting it from the
-/// kernel page by page costs more than copying the message.
+/// Every step allocates and frees images and point clouds. Keep that memory in the process: getting it from the kernel
+/// page by page costs more than copying the message.
 void keep_freed_memory() {
   constexpr int kMegabyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
@@ -40,7 +39,7 @@ void keep_freed_memory() {
 }
 
 bool time_is_up(const Options& options, const Simulation& simulation) {
-  // With a little tolerance, so that rounding does not add a step.
+  // The tolerance keeps rounding from adding a step.
   return options.until && simulation.time() > *options.until - 1e-6 * simulation.time_step();
 }
 
@@ -49,7 +48,7 @@ void wait(RosBridge* bridge) {
   std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
 }
 
-/// For whoever watches the run; not for programs, which have /diagnostics.
+/// For people who watch the run; programs use /diagnostics.
 void summarize(RunMeter& meter) {
   if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s\n", meter.summary().c_str());
 }
@@ -69,12 +68,12 @@ void run(const Options& options, Simulation& simulation, RosBridge* bridge, cons
       try {
         meter.run_step(simulation);
       } catch (const Diverged& error) {
-        if (simulation.ends_at_a_stop()) throw;  // there is nobody to reset it
-        std::fprintf(stderr, "error: %s; paused until it is reset or stopped\n", error.what());
+        if (simulation.ends_at_a_stop()) throw;  // nothing can reset it
+        std::fprintf(stderr, "error: %s; paused until reset or stopped\n", error.what());
         meter.fail(error.what());
       }
     } else {
-      simulation.process_input();  // a slow simulation hears what it is asked
+      simulation.process_input();  // also in a slow simulation
     }
     if (options.strict && scripts.failures() > 0) return;
   }
@@ -92,9 +91,9 @@ bool has_plugins(const SceneDescription& scene) {
 
 int run_scene(const Options& options, int& argc, char** argv) {
   Simulation simulation(load_scene(options.scene, options.arguments), options.seed);
-  watch_stop_signals();  // before, there was nothing to take down
+  watch_stop_signals();  // before this there is nothing to shut down
   if (options.paused) simulation.pause();
-  if (!options.ros || options.until) simulation.end_at_stop();  // there is nobody to start it again, or no wish to
+  if (!options.ros || options.until) simulation.end_at_stop();  // nothing can or should start it again
 
   const auto meter = std::make_shared<RunMeter>(simulation, options.speed);
   std::unique_ptr<RosBridge> bridge;
@@ -105,7 +104,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
     ros_options.is_ending = stop_requested;
     ros_options.replace = options.replace;
     ros_options.on_shutdown = [](const std::string& why) {
-      std::fprintf(stderr, "info: the node was told to shut down: %s\n", why.c_str());
+      std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
       request_stop();
     };
     ros_options.take_report = [meter] { return meter->take(); };
@@ -121,7 +120,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
                        {options.child_scripts, options.script_paths, options.lua_unsafe, options.allowed_programs,
                         options.gazebo_compat, options.watch, options.record, options.lockstep});
   std::unique_ptr<GazeboPlugins> devices;
-  if (bridge || has_plugins(simulation.scene())) {  // without ROS, those that are left out are reported
+  if (bridge || has_plugins(simulation.scene())) {  // without ROS, the skipped plugins are reported
     devices = std::make_unique<GazeboPlugins>(simulation, scripts);
     simulation.add(*devices);
   }
@@ -139,7 +138,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
   guard.reset();
   summarize(*meter);
   if (options.state_hash) std::printf("%016" PRIx64 "\n", simulation.state_hash());
-  // With --watch, a script that was mended has not failed.
+  // With --watch, a script that was repaired does not count as failed.
   if ((options.watch ? scripts.disabled() : scripts.failures()) > 0) return kScriptFailed;
   return scripts.output_lost() ? kOutputLost : kFine;
 }
@@ -151,8 +150,8 @@ int main(int argc, char** argv) {
   using namespace bubblesim::app;
   keep_freed_memory();
   occupy_closed_descriptors();
-  std::signal(SIGPIPE, SIG_IGN);  // who reads our output or a script's socket may go when he likes
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of whoever writes it
+  std::signal(SIGPIPE, SIG_IGN);  // readers of stdout or of a script's socket may close it
+  std::signal(SIGXFSZ, SIG_IGN);  // the write to a file at its size limit fails instead
   try {
     const ParsedOptions parsed = parse_options(argc, argv);
     if (parsed.options) remove_xacro_arguments(*parsed.options, argc, argv);

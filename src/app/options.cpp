@@ -19,7 +19,7 @@ double parse_speed(const std::string& text) {
   double speed = 0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), speed);
   if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || !(speed > 0)) {
-    throw CLI::ValidationError("--speed", "takes a number above 0 or 'max', found '" + text + "'");
+    throw CLI::ValidationError("--speed", "expected a number above 0 or 'max', found '" + text + "'");
   }
   return speed;
 }
@@ -27,13 +27,13 @@ double parse_speed(const std::string& text) {
 std::pair<std::string, std::filesystem::path> parse_child_script(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw CLI::ValidationError("--child-script", "takes OBJECT=FILE such as /Tricycle=my.py, found '" + text + "'");
+    throw CLI::ValidationError("--child-script", "expected OBJECT=FILE such as /Tricycle=my.py, found '" + text + "'");
   }
   const std::string object = text.substr(0, equals);
   return {object.front() == '/' ? object : "/" + object, text.substr(equals + 1)};
 }
 
-/// The arguments without ROS remappings, last one first as CLI11 takes them.
+/// The arguments without ROS remappings, in reverse order as CLI11 expects them.
 std::vector<std::string> own_arguments(int argc, char** argv) {
   std::vector<std::string> own;
   for (int i = argc - 1; i > 0; --i) {
@@ -42,7 +42,7 @@ std::vector<std::string> own_arguments(int argc, char** argv) {
   return own;
 }
 
-/// What to say of arguments that fit nowhere.
+/// The error message for unexpected arguments.
 std::string unexpected(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::Option* option : app.get_options()) {
@@ -56,14 +56,14 @@ std::string unexpected(const CLI::App& app) {
     if (is_option) {
       text += "error: unknown option " + name + did_you_mean(name, known) + "\n";
     } else if (!after_option) {
-      text += "error: unexpected argument '" + argument + "': there is one SCENE\n";
+      text += "error: unexpected argument '" + argument + "': expected one SCENE\n";
     }
-    after_option = is_option;  // what follows may be its value
+    after_option = is_option;  // the next argument may be its value
   }
   return text + "Run with --help for more information.\n";
 }
 
-/// Those that may be meant for xacro: ROS has the names that begin with an underscore for itself.
+/// The arguments that may be for xacro. Names that begin with an underscore are reserved by ROS.
 std::vector<std::string> xacro_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
@@ -103,37 +103,36 @@ ParsedOptions parse_options(int argc, char** argv) {
   options.arguments = xacro_arguments(argc, argv);
   CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
   app.footer(
-      "Exit codes: 0 fine, 1 stdout is full or closed, 2 bad input, 3 a script failed, 4 the physics diverged.\n"
-      "ROS remappings (name:=value) are taken as usual; a scene in xacro is expanded with them as its arguments.");
+      "Exit codes: 0 success, 1 stdout is full or closed, 2 bad input, 3 a script failed, 4 the physics diverged.\n"
+      "ROS remappings (name:=value) are accepted; in a xacro scene they are also arguments of xacro.");
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
-  app.add_option("SCENE", options.scene, "name of a scene, or path of an .sdf file");
-  app.add_option("--seed", options.seed, "of everything random (default 0)");
+  app.add_option("SCENE", options.scene, "scene name, or path of an .sdf file");
+  app.add_option("--seed", options.seed, "random seed (default 0)");
   CLI::Option* until_option =
-      app.add_option("--until", until, "end at this simulation time, seconds, or when it is stopped");
+      app.add_option("--until", until, "end at this simulation time in seconds, or when stopped");
   until_option->check([](const std::string& text) {
     return CLI::NonNegativeNumber(text).empty() && text != "nan" ? ""
-                                                                 : "takes seconds, 0 or more, found '" + text + "'";
+                                                                 : "expected seconds, 0 or more, found '" + text + "'";
   });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
   app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts");
   app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
       ->allow_extra_args(false);
-  app.add_option("--script-path", script_paths, "DIR in which scripts find what they include (repeatable)")
+  app.add_option("--script-path", script_paths, "DIR to search for files that scripts include (repeatable)")
       ->allow_extra_args(false);
-  app.add_flag("--gazebo-compat", options.gazebo_compat, "offer Gazebo's services and topics below /gazebo, too");
-  app.add_flag("--lua-unsafe", options.lua_unsafe, "let scripts in Lua use os, io, debug and package");
+  app.add_flag("--gazebo-compat", options.gazebo_compat, "also provide Gazebo's services and topics in /gazebo");
+  app.add_flag("--lua-unsafe", options.lua_unsafe, "allow Lua scripts to use os, io, debug and package");
   app.add_option("--allow-programs", options.allowed_programs,
-                 "PROGRAM or folder that scripts in Lua may start programs from, beside those of ROS packages "
+                 "PROGRAM or folder of programs that Lua scripts may start, besides those of ROS packages "
                  "(repeatable)")
       ->allow_extra_args(false);
-  app.add_flag("--watch", options.watch, "load a script again as soon as its file changes");
-  app.add_option("--record", options.record, "FILE: write what scripts publish and hear into a bag");
-  app.add_option("--lockstep", options.lockstep,
-                 "TOPIC: let each step wait for a message on it that answers the last one (repeatable)")
+  app.add_flag("--watch", options.watch, "reload a script when its file changes");
+  app.add_option("--record", options.record, "FILE: record the messages that scripts publish and receive in a bag");
+  app.add_option("--lockstep", options.lockstep, "TOPIC: in each step, wait for one message on it (repeatable)")
       ->allow_extra_args(false);
-  app.add_flag("--replace", options.replace, "end the node of the same name that is on the ROS master");
-  app.add_flag("--strict", options.strict, "end as soon as a script has failed, with exit code 3");
+  app.add_flag("--replace", options.replace, "shut down a running node of the same name");
+  app.add_flag("--strict", options.strict, "end with exit code 3 when a script fails");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
   app.add_flag("--list-scenes", list_scenes, "print the names of the scenes and exit");
   try {

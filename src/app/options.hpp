@@ -11,7 +11,7 @@
 
 namespace bubblesim::app {
 
-/// What the process returns to its caller.
+/// The exit code of the process.
 enum ExitCode {
   kFine = 0,
   kOutputLost = 1,  ///< stdout is full or closed
@@ -24,10 +24,10 @@ struct Options {
   std::string scene;
   std::uint64_t seed = 0;
   std::optional<double> until;  ///< s of simulation time
-  double speed = 1;             ///< simulated seconds per second; infinity: as fast as it can
+  double speed = 1;             ///< simulated seconds per second; infinity: as fast as possible
   bool paused = false;
   bool ros = true;
-  bool replace = false;  ///< a node of the same name
+  bool replace = false;  ///< shut down a node of the same name
   bool strict = false;
   bool state_hash = false;
   std::vector<std::pair<std::string, std::filesystem::path>> child_scripts;
@@ -38,18 +38,18 @@ struct Options {
   bool watch = false;
   std::filesystem::path record;
   std::vector<std::string> lockstep;   ///< topics
-  std::vector<std::string> arguments;  ///< NAME:=VALUE, for a scene in xacro
+  std::vector<std::string> arguments;  ///< NAME:=VALUE, for a xacro scene
 };
 
-/// Reads the command line. When it asks for nothing but a text (--help, --list-scenes) or cannot be used, the text is
-/// printed and the exit code is returned in its place.
+/// Parses the command line. On --help, --list-scenes, --version or an error, prints the text and returns the exit code
+/// instead of options.
 struct ParsedOptions {
   std::optional<Options> options;
   int exit_code = kFine;
 };
 ParsedOptions parse_options(int argc, char** argv);
 
-/// Takes the arguments of a scene in xacro that are no remappings of ROS out of the command line: roscpp refuses those.
+/// Removes the xacro arguments that are not ROS remappings from the command line, because roscpp rejects them.
 void remove_xacro_arguments(const Options& options, int& argc, char** argv);
 
 }  // namespace bubblesim::app

@@ -14,7 +14,7 @@ namespace bubblesim::app {
 void occupy_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(descriptor, F_GETFD) >= 0) continue;
-    // The lowest free number is this one's.
+    // open() returns the lowest free number: this one.
     [[maybe_unused]] const int occupied = open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the process prints to stdout, and whether it arrived.
+// Checks the process's output to stdout.
 #pragma once
 
 namespace bubblesim::app {
 
-/// Occupies the standard descriptors that are closed, so that no file or socket gets their numbers, and with them what
-/// is printed. Writing to stdout fails then as it did before. To be called before anything is opened.
+/// Opens the closed standard descriptors, so that no file or socket gets their numbers and receives the printed output.
+/// Writing to stdout still fails. Call it before anything is opened.
 void occupy_closed_descriptors();
 
-/// Writes out what stdout holds. False, and a line on stderr, when it is full or closed.
+/// Flushes stdout. Returns false and prints an error to stderr if it is full or closed.
 bool flush_output();
 
 }  // namespace bubblesim::app

@@ -28,7 +28,7 @@ bool Pacer::wait_for(double simulated) {
     std::this_thread::sleep_for(kLongestWait);
     return false;
   }
-  // Until a point in time, for the sum of many waits for a duration drifts.
+  // Wait until a point in time: the sum of many waits for a duration drifts.
   std::this_thread::sleep_until(start_ + std::chrono::duration_cast<Clock::duration>(due));
   return true;
 }

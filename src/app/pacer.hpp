@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the simulation's time in step with the clock on the wall.
+// Keeps the simulation time in step with wall time.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,11 @@ class Pacer {
   /// `speed`: simulated seconds per second; infinity never waits.
   explicit Pacer(double speed) : speed_(speed) {}
 
-  /// Waits until `simulated` seconds since the first call are due, though never longer than a moment, so that the
-  /// caller can look for signals; returns whether they are due. A simulation that fell far behind goes on from where it
-  /// is instead of rushing after the time it lost.
+  /// Waits until `simulated` seconds since the first call are due, but only for a short time, so that the caller can
+  /// check for signals. Returns whether they are due. A simulation that fell far behind continues at its speed instead
+  /// of catching up.
   bool wait_for(double simulated);
-  /// Counts anew from the next call: after a pause.
+  /// Restarts the count at the next call: after a pause.
   void restart() { started_ = false; }
 
  private:

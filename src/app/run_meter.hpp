@@ -13,21 +13,21 @@
 
 namespace bubblesim::app {
 
-/// Measures how the steps of a simulation go; another thread may take the reports.
+/// Measures the steps of a simulation; another thread may take the reports.
 class RunMeter {
  public:
   RunMeter(const Simulation& simulation, double wanted_speed);
 
-  /// One step.
+  /// Runs and measures one step.
   void run_step(Simulation& simulation);
-  /// To be called in each round of the loop that runs the steps, whether it runs one or not.
+  /// Call it in each round of the main loop, whether the round runs a step or not.
   void note(const Simulation& simulation, const ChildScripts& scripts);
-  /// The simulation has ended for good.
+  /// Records that the simulation failed for good.
   void fail(const std::string& why);
 
-  /// What has happened since the last call. Any thread may call it.
+  /// Returns the report since the last call. Thread-safe.
   RunReport take();
-  /// What was simulated so far, in one line: seconds, real-time factor, steps.
+  /// Returns the totals in one line: simulated seconds, real-time factor, steps.
   std::string summary();
 
  private:
@@ -36,9 +36,9 @@ class RunMeter {
   std::mutex mutex_;
   RunReport report_;
   double simulated_time_ = 0;  // s, of all steps
-  double wall_time_ = 0;       // s, that they took
+  double wall_time_ = 0;       // s, of all steps
   std::uint64_t steps_ = 0;
-  std::optional<Clock::time_point> last_end_;  // of a step; none: the time until the next one does not count
+  std::optional<Clock::time_point> last_end_;  // of a step; empty: the time until the next step is not counted
 };
 
 }  // namespace bubblesim::app

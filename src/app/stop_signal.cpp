@@ -18,7 +18,7 @@ namespace bubblesim::app {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenInterrupts{250};
-constexpr int kInterrupts = 4;  // before the process is ended by force
+constexpr int kInterrupts = 4;  // before the process is killed
 
 volatile std::sig_atomic_t requested = 0;
 volatile std::sig_atomic_t last_signal = SIGTERM;
@@ -28,7 +28,7 @@ sem_t signalled;
 
 void request(int signal) {
   requested = 1;
-  if (const auto interrupt = interrupt_now.load()) {  // a wake-up of our own
+  if (const auto interrupt = interrupt_now.load()) {  // the signal came from this guard
     interrupt();
     return;
   }
@@ -46,7 +46,7 @@ void watch_stop_signals() {
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
   struct sigaction at_hang_up {};
   sigaction(SIGHUP, nullptr, &at_hang_up);
-  if (at_hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored: the user wants nohup
+  if (at_hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored under nohup
 }
 
 void request_stop() { kill(getpid(), SIGTERM); }
@@ -58,7 +58,7 @@ StopGuard::StopGuard(void (*interrupt)(), std::function<void()> leave)
   sigset_t all;
   sigset_t previous;
   sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &previous);  // signals are for the guarded thread, to wake it
+  pthread_sigmask(SIG_SETMASK, &all, &previous);  // the guarded thread handles the signals, which wake it
   thread_ = std::thread([this] { watch(); });
   pthread_sigmask(SIG_SETMASK, &previous, nullptr);
 }
@@ -89,7 +89,7 @@ void StopGuard::watch() {
     pthread_kill(guarded_, SIGINT);  // wakes it from a system call, such as a sleep
   }
   if (done_within(kBetweenInterrupts)) return;
-  std::fputs("error: a script does not return: the simulator ends without it\n", stderr);
+  std::fputs("error: a script does not return; ending the simulator\n", stderr);
   signal_child_processes(SIGTERM);
   leave_();
   done_within(kBetweenInterrupts);
@@ -97,7 +97,7 @@ void StopGuard::watch() {
   const int signal = last_signal;
   std::signal(signal, SIG_DFL);
   kill(getpid(), signal);
-  // All other threads may block it: this one takes it.
+  // All other threads may block the signal, so this one handles it.
   sigset_t one;
   sigemptyset(&one);
   sigaddset(&one, signal);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIGINT, SIGTERM and SIGHUP as a flag that the main loop reads, and what happens when a script keeps the loop from
-// reading it.
+// Handles SIGINT, SIGTERM and SIGHUP: a flag that the main loop reads, and a guard for when a script blocks the loop.
 #pragma once
 
 #include <pthread.h>
@@ -13,15 +12,15 @@
 
 namespace bubblesim::app {
 
-/// From now on SIGINT, SIGTERM and SIGHUP set stop_requested(); SIGHUP unless it is ignored, as nohup has it.
+/// Makes SIGINT, SIGTERM and SIGHUP set stop_requested(); SIGHUP unless it is ignored, as under nohup.
 void watch_stop_signals();
 bool stop_requested();
-/// What SIGTERM does. Any thread may call it.
+/// Does the same as SIGTERM. Thread-safe.
 void request_stop();
 
-/// Sees to it that the thread that made it comes to the guard's end about a second after a signal. While it does not,
-/// `interrupt` is called four times a second, by a signal handler on that thread, which also ends a sleep; at last
-/// `leave` is, on a thread of the guard, the programs that were started are ended, and the process dies of the signal.
+/// Ensures that the thread that made it reaches the guard's destructor about a second after a signal. Until then, a
+/// signal handler on that thread calls `interrupt` four times a second, which also ends a sleep. Finally a thread of
+/// the guard calls `leave`, ends the child processes, and kills the process with the signal.
 class StopGuard {
  public:
   StopGuard(void (*interrupt)(), std::function<void()> leave);

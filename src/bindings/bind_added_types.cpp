@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim._core.messages: how python/bubblesim/messages hands over types that are not listed.
+// bubblesim._core.messages: functions by which python/bubblesim/messages adds types that are not listed.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -25,9 +25,9 @@ using messages::Field;
 using messages::FieldKind;
 using messages::MessageType;
 
-/// name; kind or name of a message; whether it is an array; length if that is fixed
+/// name; kind or name of a message; whether it is an array; its length if fixed
 using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>>;
-/// name, kind, value; texts are bytes
+/// name, kind, value; strings are bytes
 using ConstantTuple = std::tuple<std::string, std::string, py::object>;
 /// name, md5, definition, has_header, fields, constants
 using MessageTuple =
@@ -45,7 +45,7 @@ Field make_field(const FieldTuple& tuple) {
   }
   field.kind = FieldKind::kMessage;
   field.message = messages::find_message(type);
-  if (field.message == nullptr) throw std::invalid_argument(type + " must be added before what contains it");
+  if (field.message == nullptr) throw std::invalid_argument(type + " must be added before the types that contain it");
   return field;
 }
 
@@ -85,11 +85,11 @@ void add_service(const std::string& name, const std::string& md5, const MessageT
 
 void bind_added_types(py::module_& m) {
   m.def("add_message", &add_message, py::arg("message"),
-        "Makes a type known that is not listed, after the types that it contains. The message is a tuple (name, md5, "
+        "Add a message type that is not listed, after the types that it contains. The message is a tuple (name, md5, "
         "definition as bytes, has_header, fields, constants), with fields (name, kind or package/Type, is_array, "
-        "length or None) and constants (name, kind, value). ValueError when another type of that name is known.");
+        "length or None) and constants (name, kind, value). Raise ValueError if another type has that name.");
   m.def("add_service", &add_service, py::arg("name"), py::arg("md5"), py::arg("request"), py::arg("response"),
-        "The same for a service; its halves are tuples as in add_message.");
+        "Add a service type; its request and response are tuples as in add_message.");
 }
 
 }  // namespace bubblesim::bindings

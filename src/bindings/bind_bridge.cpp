@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim._core.Bridge: topics and services as child scripts use them, with messages as dicts.
+// bubblesim._core.Bridge: topics and services for child scripts, with messages as dicts.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -34,7 +34,7 @@ py::object publish(Bridge& bridge, EndpointId publisher, const py::object& messa
   return to_python(truncations);
 }
 
-/// Throws what publish() would throw while somebody listens.
+/// Throws what publish() would throw with a subscriber.
 py::object check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
   messages::WireBuffer bytes;
   return to_python(encode(bridge.message_type(publisher), message.ptr(), bytes));
@@ -47,12 +47,12 @@ EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string
   return bridge.advertise(topic, listed, queue_size, latch);
 }
 
-/// A Python function that may be dropped by a thread that does not hold the GIL.
+/// A Python function that a thread without the GIL may release.
 using SharedFunction = std::shared_ptr<py::function>;
 
 SharedFunction share(py::function function) {
   return {new py::function(std::move(function)), [](py::function* dropped) {
-            if (Py_IsInitialized() == 0) return;  // Python is gone, and the function with it
+            if (Py_IsInitialized() == 0) return;  // Python has been finalized, and the function with it
             const py::gil_scoped_acquire gil;
             delete dropped;
           }};
@@ -67,8 +67,8 @@ EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string
     try {
       message = decode(listed, bytes, {time});
     } catch (const py::error_already_set& error) {
-      // The fault of whoever sent it: no reason to end the script or the simulation.
-      std::fputs(("warning: a message on '" + topic + "' is left out: " + error.what() + "\n").c_str(), stderr);
+      // The sender's error: it must not end the script or the simulation.
+      std::fputs(("warning: dropped a message on '" + topic + "': " + error.what() + "\n").c_str(), stderr);
       return;
     }
     (*function)(message);
@@ -88,7 +88,7 @@ py::object decode_request(const messages::ServiceType& type, messages::WireView 
   try {
     return decode(*type.request, bytes, {time});
   } catch (const py::error_already_set& error) {
-    throw messages::ServiceError(error.what());  // the fault of whoever sent it
+    throw messages::ServiceError(error.what());  // the caller's error
   }
 }
 
@@ -144,59 +144,59 @@ void bind_bridge(py::module_& core) {
   py::register_exception<messages::ServiceError>(core, "ServiceError", PyExc_RuntimeError);
   py::register_exception<messages::NoMaster>(core, "NoMaster", PyExc_RuntimeError);
   py::class_<Bridge>(core, "Bridge",
-                     "Topics and services of a message bridge. Handles are integers; ValueError for stale ones.")
+                     "Topics and services of a message bridge. Handles are integers; stale ones raise ValueError.")
       .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("queue_size"), py::arg("latch"))
       .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"),
            py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
-           "`callback` gets each message as a dict.")
+           "Subscribe; `callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
-           "Converts and sends a dict; does nothing when nobody listens. Returns None, or [(field, value)] of the "
-           "floats "
+           "Convert and send a dict; do nothing without subscribers. Return None, or [(field, value)] of the floats "
            "that lost more than a thousandth in integer fields.")
       .def("check", &check, py::arg("publisher"), py::arg("message"),
-           "Converts a dict without sending it; returns what publish() returns.")
+           "Convert a dict without sending it; return what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
-           "Whether publish() would send anything: somebody listens, or the topic is latched.")
+           "Return whether publish() would send anything: the topic has subscribers or is latched.")
       .def("yield_topic", &Bridge::yield_topic, py::arg("endpoint"), without_gil,
-           "Leaves the topic of a publisher or subscriber to others of this bridge, while there are any.")
+           "Make an endpoint inactive while other endpoints of this bridge use its topic.")
       .def("set_priority", &Bridge::set_priority, py::arg("endpoint"),
-           "Has urgent_waits() look at a subscriber or service.")
-      .def("urgent_waits", &Bridge::urgent_waits,
-           "Whether something has come to an urgent endpoint and not been delivered yet. From any thread.")
+           "Include a subscriber or service in urgent_waits().")
+      .def("urgent_waits", &Bridge::urgent_waits, "Return whether a priority endpoint has pending input. Thread-safe.")
       .def("has_publisher", &Bridge::has_publisher, py::arg("subscriber"),
-           "Whether anybody publishes to a subscriber, as it was a quarter of a second ago.")
+           "Return whether a subscriber was connected to a publisher a quarter of a second ago.")
       .def("shutdown_publisher", &Bridge::shutdown_publisher, without_gil)
       .def("shutdown_subscriber", &Bridge::shutdown_subscriber, without_gil)
       .def("advertise_service", &advertise_service, py::arg("name"), py::arg("service_type"), py::arg("callback"),
            py::arg("time"),
-           "`callback` gets each request as a dict and returns the response as one; None stands for a response of "
-           "defaults. When it raises, the caller gets the text, and process_input() the exception unless it is a "
-           "ServiceError.")
+           "Advertise a service. `callback` gets each request as a dict and returns the response as one; None means a "
+           "default response. If it raises, the caller gets the text, and process_input() raises the exception unless "
+           "it is a ServiceError.")
       .def("service_client", &service_client, py::arg("name"), py::arg("service_type"))
       .def("call", &call, py::arg("client"), py::arg("request"), py::arg("timeout"), py::arg("time"),
-           "The response to a dict as a dict, within `timeout` seconds; meanwhile services offered here are answered. "
-           "ServiceError when there is no such service, it is of another type, fails, or does not answer in time.")
+           "Call a service with a dict and return the response as a dict, within `timeout` seconds; meanwhile answer "
+           "calls of the services advertised here. Raise ServiceError if the service does not exist, has another type, "
+           "fails or times out.")
       .def("wait_for_service", &Bridge::wait_for_service, py::arg("name"), py::arg("timeout"), without_gil,
-           "Whether somebody offers the service; waits `timeout` seconds at most, looks once when that is 0.")
+           "Wait at most `timeout` seconds for a service and return whether it exists; check once if `timeout` is 0.")
       .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
       .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
       .def("get_parameter", &get_parameter, py::arg("name"), without_gil,
-           "(exists, value) of the master's parameter; None for lists and dictionaries. NoMaster when none answers.")
+           "Return (exists, value) of a parameter of the master; None for lists and dictionaries. Raise NoMaster "
+           "without master.")
       .def("set_parameter", &Bridge::set_parameter, py::arg("name"), py::arg("value"), without_gil)
       .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)
       .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,
-           "The parameter's full name in the nearest namespace that has it, or None.")
+           "Return the parameter's full name in the nearest namespace that has it, or None.")
       .def("process_input", &Bridge::process_input, without_gil,
-           "Delivers what has arrived; from within a service's callback only.")
+           "Deliver pending input; only within a service's callback.")
       .def("clock_reaches_others", &Bridge::clock_reaches_others,
-           "Whether another node is connected to /clock; true when nodes take the wall clock's time.")
+           "Return whether another node is connected to /clock; True if nodes use wall time.")
       .def(
           "now",
           [](const Bridge& bridge) {
             const messages::BridgeTime now = bridge.now();
             return std::make_pair(now.sec, now.nanosec);
           },
-          "(sec, nanosec) to stamp messages with.");
+          "Return the current time for message stamps as (sec, nanosec).");
 }
 
 }  // namespace bubblesim::bindings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim._core.messages: what message types there are, and their bytes.
+// bubblesim._core.messages: the message types and their bytes.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -33,14 +33,14 @@ py::object decode_buffer(const std::string& name, const py::buffer& data, TimeFo
   const MessageType& type = listed_message(name);
   const py::buffer_info info = data.request();
   if (PyBuffer_IsContiguous(info.view(), 'C') == 0) {
-    PyErr_SetString(message_error(), (name + ": the bytes of a message must lie in one piece").c_str());
+    PyErr_SetString(message_error(), (name + ": the bytes of a message must be contiguous").c_str());
     throw py::error_already_set();
   }
   const auto size = static_cast<std::size_t>(info.size * info.itemsize);
   return decode(type, messages::WireView(static_cast<const std::uint8_t*>(info.ptr), size), {time});
 }
 
-/// What is no UTF-8, as in comments of old definitions, becomes surrogates.
+/// Bytes that are not UTF-8, as in comments of old definitions, become surrogates.
 py::str text_of(const std::string& bytes) {
   PyObject* text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape");
   if (text == nullptr) throw py::error_already_set();
@@ -90,25 +90,27 @@ void bind_messages(py::module_& core) {
 
   py::module_ m = core.def_submodule("messages", "The message types of this build, and their bytes on the wire.");
   m.attr("MessageError") = core.attr("MessageError");
-  py::enum_<TimeForm>(m, "TimeForm", "What decode() makes of times and durations.")
+  py::enum_<TimeForm>(m, "TimeForm", "Form of times and durations from decode().")
       .value("SECS_NSECS", TimeForm::kSecsNsecs, "{'secs': int, 'nsecs': int}")
       .value("SEC_NANOSEC", TimeForm::kSecNanosec, "{'sec': int, 'nanosec': int}")
-      .value("FLOAT", TimeForm::kFloat, "seconds; a double has no room for the nanoseconds of today's date");
+      .value("FLOAT", TimeForm::kFloat, "seconds; a double cannot hold today's date in nanoseconds");
 
-  m.def("encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
-        "Wire bytes of a dict. Missing fields get their default; anything that does not fit raises MessageError.");
+  m.def(
+      "encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
+      "Encode a dict to wire bytes. Missing fields get their default; a value that does not fit raises MessageError.");
   m.def("truncations", &truncations, py::arg("type_name"), py::arg("message"),
-        "As encode(), and returns None, or [(field, value)] of the floats that lost more than a thousandth in integer "
+        "Like encode(), but return None, or [(field, value)] of the floats that lost more than a thousandth in integer "
         "fields.");
   m.def("decode", &decode_buffer, py::arg("type_name"), py::arg("data"), py::arg("time_form") = TimeForm::kSecsNsecs,
-        "The dict of wire bytes. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
+        "Decode wire bytes to a dict. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
   m.def(
       "default", [](const std::string& name, TimeForm time) { return default_message(listed_message(name), {time}); },
-      py::arg("type_name"), py::arg("time_form") = TimeForm::kSecsNsecs, "A dict with all fields at their defaults.");
+      py::arg("type_name"), py::arg("time_form") = TimeForm::kSecsNsecs,
+      "Return a dict with all fields at their defaults.");
 
   m.def("message_names", &messages::message_names,
-        "All listed types, sorted; those that only occur in others are included.");
-  m.def("service_names", &messages::service_names, "All listed service types, sorted.");
+        "Return all listed types, sorted, including those that only occur in others.");
+  m.def("service_names", &messages::service_names, "Return all listed service types, sorted.");
   m.def(
       "md5", [](const std::string& name) { return listed_message(name).md5; }, py::arg("type_name"));
   m.def(
@@ -119,12 +121,12 @@ void bind_messages(py::module_& core) {
         const ServiceType& type = listed_service(name);
         return py::make_tuple(type.request->name, type.response->name);
       },
-      py::arg("type_name"), "Names of the request's and the response's type, which encode() and decode() take.");
+      py::arg("type_name"), "Return the names of the request and response types, for encode() and decode().");
   m.def(
       "definition", [](const std::string& name) { return text_of(listed_message(name).definition); },
-      py::arg("type_name"), "The .msg text, followed by those of nested types.");
-  m.def("fields", &fields, py::arg("type_name"), "Field name -> type, in the order of the message.");
-  m.def("constants", &constants, py::arg("type_name"), "Constant name -> value.");
+      py::arg("type_name"), "Return the .msg text, followed by those of nested types.");
+  m.def("fields", &fields, py::arg("type_name"), "Return a dict of field name -> type, in the order of the message.");
+  m.def("constants", &constants, py::arg("type_name"), "Return a dict of constant name -> value.");
   bind_added_types(m);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim.Object: one object of a running scene, with what can be read and set on it.
+// bubblesim.Object: one object of a running scene, with its properties.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -53,7 +53,7 @@ void bind_objects(py::module_& module) {
           "kind", [](const View& v) { return std::string(kind_name(v.object().kind)); },
           "'model', 'link', 'joint' or 'sensor'.")
       .def_property_readonly("path", [](const View& v) { return v.tree().path(v.id()); })
-      .def_property_readonly("parent", &parent, "The object above, None at the top.")
+      .def_property_readonly("parent", &parent, "The parent object, None at the top.")
       .def_property(
           "position", [](const View& v) { return to_numpy(v.world().pose(v.id()).Pos()); }, &set_position,
           "Metres, array of 3.")
@@ -62,7 +62,7 @@ void bind_objects(py::module_& module) {
           "Quaternion x, y, z, w, array of 4.")
       .def_property(
           "linear_velocity", [](const View& v) { return to_numpy(v.world().velocity(v.id()).linear); },
-          &set_linear_velocity, "m/s of the object's origin, array of 3.")
+          &set_linear_velocity, "Velocity of the object's origin, m/s, array of 3.")
       .def_property(
           "angular_velocity", [](const View& v) { return to_numpy(v.world().velocity(v.id()).angular); },
           &set_angular_velocity, "rad/s, array of 3.")
@@ -73,23 +73,23 @@ void bind_objects(py::module_& module) {
       .def_property(
           "target_position", [](const View& v) { return v.world().target_position(v.id()); },
           [](const View& v, double target) { v.world().set_target_position(v.id(), target); },
-          "Of a position-controlled joint, radians or metres.")
+          "Target of a position-controlled joint, radians or metres.")
       .def_property(
           "target_velocity", [](const View& v) { return v.world().target_velocity(v.id()); },
           [](const View& v, double target) { v.world().set_target_velocity(v.id(), target); },
-          "Of a velocity-controlled joint, rad/s or m/s.")
+          "Target of a velocity-controlled joint, rad/s or m/s.")
       .def_property(
           "max_force", [](const View& v) { return v.world().max_force(v.id()); },
           [](const View& v, double force) { v.world().set_max_force(v.id(), force); },
-          "Of the joint's motor, N m or N.")
+          "Largest effort of the joint's motor, N m or N.")
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
-          "What a sensor measured last: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"
+          "A sensor's last reading: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"
           "NavSatReading, AltimeterReading, MagnetometerReading, ContactReading or ForceTorqueReading.")
       .def_property_readonly(
           "urdf", [](const View& v) { return to_urdf(v.world().description(v.id())); },
-          "The model that the object belongs to as the text of a URDF file, for robot_state_publisher and RViz; each\n"
-          "sensor is a link of its own. ValueError for what URDF cannot tell.")
+          "Return the URDF of the object's model, for robot_state_publisher and RViz; each sensor is a separate link.\n"
+          "Raise ValueError for models that URDF cannot describe.")
       .def("__repr__", [](const View& v) {
         if (v.tree().objects().count(v.id()) == 0) {
           return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";

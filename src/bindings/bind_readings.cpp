@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors measured, as numpy arrays that look into the measurement itself.
+// Sensor readings; their numpy arrays are views of the measurement.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// An array that cannot be written, on memory that `owner` keeps.
+/// A read-only array on memory that `owner` keeps alive.
 template <class Value>
 py::array view(const std::vector<Value>& values, std::vector<py::ssize_t> shape, const py::object& owner) {
   py::array array(py::dtype::of<Value>(), std::move(shape), values.data(), owner);
@@ -44,25 +44,25 @@ py::array in_pixels(const std::vector<Value>& values, const py::object& image) {
 
 void bind_proximity(py::module_& module) {
   py::class_<ProximityReading>(module, "ProximityReading",
-                               "What a proximity sensor saw, in its own frame: it looks along x.")
+                               "Reading of a proximity sensor, in its own frame: it measures along x.")
       .def_readonly("detected", &ProximityReading::detected)
-      .def_readonly("distance", &ProximityReading::distance, "Metres; 0 when nothing was detected.")
+      .def_readonly("distance", &ProximityReading::distance, "Metres; 0 if nothing was detected.")
       .def_property_readonly("point", [](const ProximityReading& r) { return to_numpy(r.point); })
       .def_property_readonly("normal", [](const ProximityReading& r) { return to_numpy(r.normal); })
-      .def_readonly("handle", &ProximityReading::object, "Handle of the link seen, or -1.");
+      .def_readonly("handle", &ProximityReading::object, "Handle of the detected link, or -1.");
 }
 
 void bind_scan(py::module_& module) {
   py::class_<HeldScan>(module, "LidarScan",
-                       "One turn of a lidar, ring by ring from the lowest up. Its arrays cannot be written.")
+                       "One turn of a lidar, ring by ring from the lowest up. Its arrays are read-only.")
       .def_property_readonly(
           "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
           "ranges", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->ranges, s); },
-          "Metres, rings x samples of float32: from min_range on; inf for nothing in range.")
+          "Metres, rings x samples of float32: at least min_range; inf if nothing is in range.")
       .def_property_readonly(
           "intensities", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->intensities, s); },
-          "The laser_retro of what was hit, 0 for nothing; rings x samples of float32.")
+          "The laser_retro of the hit shape, 0 for none; rings x samples of float32.")
       .def_property_readonly(
           "points",
           [](const HeldScan& s) {
@@ -71,22 +71,26 @@ void bind_scan(py::module_& module) {
             std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
             return array;
           },
-          "What was met: x, y, z in metres in the sensor's frame; count x 3 of float32, ring by ring. A new array.")
+          "The hit points: x, y, z in metres in the sensor's frame; count x 3 of float32, ring by ring. A new array.")
       .def_property_readonly(
-          "angles", [](const HeldScan& s) { return angles(s->horizontal); }, "Of the samples, radians to the left.")
+          "angles", [](const HeldScan& s) { return angles(s->horizontal); },
+          "Angles of the samples, radians to the left.")
       .def_property_readonly(
-          "angle_min", [](const HeldScan& s) { return s->horizontal.min; }, "Of the first sample, radians to the left.")
+          "angle_min", [](const HeldScan& s) { return s->horizontal.min; },
+          "Angle of the first sample, radians to the left.")
       .def_property_readonly(
-          "angle_max", [](const HeldScan& s) { return s->horizontal.max; }, "Of the last sample.")
+          "angle_max", [](const HeldScan& s) { return s->horizontal.max; },
+          "Angle of the last sample, radians to the left.")
       .def_property_readonly(
           "angle_increment",
           [](const HeldScan& s) {
             const ScanAngles& angles = s->horizontal;
             return angles.samples > 1 ? (angles.max - angles.min) / (angles.samples - 1) : 0.0;
           },
-          "Between samples, radians.")
+          "Angle between samples, radians.")
       .def_property_readonly(
-          "elevations", [](const HeldScan& s) { return angles(s->vertical); }, "Of the rings, radians upwards.")
+          "elevations", [](const HeldScan& s) { return angles(s->vertical); },
+          "Elevations of the rings, radians upwards.")
       .def_property_readonly(
           "min_range", [](const HeldScan& s) { return s->min_range; }, "Metres.")
       .def_property_readonly(
@@ -94,8 +98,7 @@ void bind_scan(py::module_& module) {
 }
 
 void bind_image(py::module_& module) {
-  py::class_<HeldImage>(module, "CameraImage",
-                        "What a camera saw, the uppermost row first. Its arrays cannot be written.")
+  py::class_<HeldImage>(module, "CameraImage", "Image of a camera, top row first. Its arrays are read-only.")
       .def_property_readonly(
           "time", [](const HeldImage& i) { return i.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
@@ -105,37 +108,38 @@ void bind_image(py::module_& module) {
             if (held->rgb.empty()) return py::none();
             return view(held->rgb, {held->height, held->width, 3}, image);
           },
-          "height x width x 3 of uint8; None from a depth camera.")
+          "height x width x 3 of uint8; None for a depth camera.")
       .def_property_readonly(
           "depth", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->depth, i); },
-          "Metres along the axis, height x width of float32: from the near plane on; inf beyond the far one.")
+          "Metres along the optical axis, height x width of float32: at least the near plane; inf beyond the far "
+          "plane.")
       .def_property_readonly(
           "objects", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->objects, i); },
-          "Handles of the links seen, -1 for none; height x width of int32.")
+          "Handles of the visible links, -1 for none; height x width of int32.")
       .def_property_readonly(
           "horizontal_fov", [](const HeldImage& i) { return i->horizontal_fov; }, "Radians.")
       .def_property_readonly(
-          "near", [](const HeldImage& i) { return i->near; }, "Metres along the axis.")
+          "near", [](const HeldImage& i) { return i->near; }, "Near plane, metres along the optical axis.")
       .def_property_readonly(
-          "far", [](const HeldImage& i) { return i->far; }, "Metres along the axis.");
+          "far", [](const HeldImage& i) { return i->far; }, "Far plane, metres along the optical axis.");
 }
 
 void bind_imu(py::module_& module) {
-  py::class_<HeldImu>(module, "ImuReading", "What an inertial measurement unit felt, in its own frame (REP 145).")
+  py::class_<HeldImu>(module, "ImuReading", "Reading of an IMU, in its own frame (REP 145).")
       .def_property_readonly(
           "time", [](const HeldImu& i) { return i.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
           "orientation", [](const HeldImu& i) { return to_numpy(i->orientation); },
-          "Of the sensor in the world, exact; quaternion x, y, z, w.")
+          "Orientation of the sensor in the world, exact; quaternion x, y, z, w.")
       .def_property_readonly(
           "angular_velocity", [](const HeldImu& i) { return to_numpy(i->angular_velocity); }, "rad/s.")
       .def_property_readonly(
           "linear_acceleration", [](const HeldImu& i) { return to_numpy(i->linear_acceleration); },
-          "m/s^2, the mean over the last step; at rest what holds it against gravity, upwards.");
+          "Proper acceleration, m/s^2, the mean over the last step; at rest, gravity's magnitude upwards.");
 }
 
 void bind_navsat(py::module_& module) {
-  py::class_<HeldNavSat>(module, "NavSatReading", "What a receiver of satellite navigation told.")
+  py::class_<HeldNavSat>(module, "NavSatReading", "Reading of a GPS receiver.")
       .def_property_readonly(
           "time", [](const HeldNavSat& n) { return n.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
@@ -143,25 +147,23 @@ void bind_navsat(py::module_& module) {
       .def_property_readonly(
           "longitude", [](const HeldNavSat& n) { return n->longitude; }, "Degrees.")
       .def_property_readonly(
-          "altitude", [](const HeldNavSat& n) { return n->altitude; }, "Metres above the ellipsoid WGS84.")
+          "altitude", [](const HeldNavSat& n) { return n->altitude; }, "Metres above the WGS84 ellipsoid.")
       .def_property_readonly(
-          "velocity", [](const HeldNavSat& n) { return to_numpy(n->velocity); },
-          "m/s to the east, to the north and up.");
+          "velocity", [](const HeldNavSat& n) { return to_numpy(n->velocity); }, "m/s east, north and up.");
 }
 
 void bind_altimeter(py::module_& module) {
-  py::class_<HeldAltimeter>(module, "AltimeterReading", "How high an altimeter is.")
+  py::class_<HeldAltimeter>(module, "AltimeterReading", "Reading of an altimeter.")
       .def_property_readonly(
           "time", [](const HeldAltimeter& a) { return a.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
-          "height", [](const HeldAltimeter& a) { return a->height; },
-          "Metres above where it was when it came into the world.")
+          "height", [](const HeldAltimeter& a) { return a->height; }, "Metres above the sensor's initial position.")
       .def_property_readonly(
           "velocity", [](const HeldAltimeter& a) { return a->velocity; }, "m/s upwards.");
 }
 
 void bind_magnetometer(py::module_& module) {
-  py::class_<HeldMagnetometer>(module, "MagnetometerReading", "What a magnetometer felt, in its own frame.")
+  py::class_<HeldMagnetometer>(module, "MagnetometerReading", "Reading of a magnetometer, in its own frame.")
       .def_property_readonly(
           "time", [](const HeldMagnetometer& m) { return m.reading->time; }, "Simulated seconds.")
       .def_property_readonly(
@@ -169,32 +171,34 @@ void bind_magnetometer(py::module_& module) {
 }
 
 void bind_contacts(py::module_& module) {
-  py::class_<ContactPoint>(module, "ContactPoint", "Where two shapes touch; world axes.")
+  py::class_<ContactPoint>(module, "ContactPoint", "Contact point of two shapes; world axes.")
       .def_property_readonly(
           "position", [](const ContactPoint& p) { return to_numpy(p.position); }, "Metres.")
       .def_property_readonly(
-          "normal", [](const ContactPoint& p) { return to_numpy(p.normal); }, "In which the other shape pushes.")
+          "normal", [](const ContactPoint& p) { return to_numpy(p.normal); },
+          "Direction in which the other shape pushes.")
       .def_property_readonly(
           "force", [](const ContactPoint& p) { return to_numpy(p.force); },
-          "N, in the physics substep in which they last touched.")
-      .def_readonly("depth", &ContactPoint::depth, "Metres.");
+          "N, in the physics substep of their last contact.")
+      .def_readonly("depth", &ContactPoint::depth, "Penetration depth, metres.");
   py::class_<Contact>(module, "Contact",
-                      "A shape of the sensor's link that touched another one while the last step went by.")
+                      "A contact of one of the link's shapes with another shape during the last step.")
       .def_readonly("collision", &Contact::collision, "Name of the link's shape.")
-      .def_readonly("other", &Contact::other_link, "Handle of the link that was touched.")
+      .def_readonly("other", &Contact::other_link, "Handle of the other link.")
       .def_readonly("other_collision", &Contact::other_collision, "Name of that link's shape.")
       .def_property_readonly(
           "force", [](const Contact& c) { return to_numpy(c.force); },
-          "N on the sensor's link in world axes, the mean over the step.")
-      .def_readonly("points", &Contact::points, "Of the physics substep in which they last touched.");
-  py::class_<HeldContacts>(module, "ContactReading", "What a link touched.")
+          "Force on the sensor's link, N in world axes, the mean over the step.")
+      .def_readonly("points", &Contact::points, "Contact points in the physics substep of their last contact.");
+  py::class_<HeldContacts>(module, "ContactReading", "Contacts of a link.")
       .def_property_readonly(
           "time", [](const HeldContacts& c) { return c.reading->time; }, "Simulated seconds.")
       .def_property_readonly("contacts", [](const HeldContacts& c) { return c->contacts; });
 }
 
 void bind_force_torque(py::module_& module) {
-  py::class_<HeldForceTorque>(module, "ForceTorqueReading", "What a joint transmits, the mean over the last step.")
+  py::class_<HeldForceTorque>(module, "ForceTorqueReading",
+                              "Force and torque that a joint transmits, the mean over the last step.")
       .def_property_readonly(
           "time", [](const HeldForceTorque& f) { return f.reading->time; }, "Simulated seconds.")
       .def_property_readonly(

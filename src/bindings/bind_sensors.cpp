@@ -18,13 +18,13 @@ namespace {
 
 namespace py = pybind11;
 
-/// Throws WrongObject when the sensor measures something else.
+/// Throws WrongObject if the sensor is of another kind.
 template <class Kind>
 Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading,
                 const char* wanted) {
   if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
   throw WrongObject(simulation.world().tree().short_path(sensor) + " is a " +
-                     std::string(kind_name(reading->measurement)) + ", not a " + wanted);
+                    std::string(kind_name(reading->measurement)) + ", not a " + wanted);
 }
 
 struct ToPython {
@@ -70,71 +70,71 @@ void bind_sensors(py::module_& core) {
         const std::shared_ptr<const Reading> reading = s.read(sensor);
         return std::make_pair(reading->time, std::visit(ToPython{reading}, reading->measurement));
       },
-      "What a sensor of any kind measured last: the simulated time, s, and the reading.");
+      "Return the last reading of a sensor of any kind: (simulated seconds, reading).");
   module.def(
       "read_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.read_proximity(sensor)); },
-      "(detected, distance, point, handle, normal) as last measured.");
+      "Return the last reading as (detected, distance, point, handle, normal).");
   module.def(
       "measure_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.measure_proximity(sensor)); },
-      "The same, measured now.");
+      "Measure now; return the same as read_proximity().");
   module.def(
       "reading_time", [](Simulation& s, ObjectId sensor) { return s.reading_time(sensor); },
-      "Simulated seconds at which the sensor was last due; it measures nothing.");
+      "Return the simulated seconds at which the sensor was last due; do not measure.");
   module.def(
       "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor), "lidar"); },
-      "The lidar's last scan.");
+      "Return the lidar's last scan.");
   module.def(
       "measure_lidar",
       [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.measure(sensor), "lidar"); },
-      "The lidar's scan of now.");
+      "Measure now and return the lidar's scan.");
   module.def(
       "read_imu", [](Simulation& s, ObjectId sensor) { return hold<ImuReading>(s, sensor, s.read(sensor), "IMU"); },
-      "The IMU's last reading.");
+      "Return the IMU's last reading.");
   module.def(
       "read_navsat",
       [](Simulation& s, ObjectId sensor) { return hold<NavSatReading>(s, sensor, s.read(sensor), "GPS receiver"); },
-      "The receiver's last reading.");
+      "Return the receiver's last reading.");
   module.def(
       "read_altimeter",
       [](Simulation& s, ObjectId sensor) { return hold<AltimeterReading>(s, sensor, s.read(sensor), "altimeter"); },
-      "The altimeter's last reading.");
+      "Return the altimeter's last reading.");
   module.def(
       "read_magnetometer",
       [](Simulation& s, ObjectId sensor) {
         return hold<MagnetometerReading>(s, sensor, s.read(sensor), "magnetometer");
       },
-      "The magnetometer's last reading.");
+      "Return the magnetometer's last reading.");
   module.def(
       "read_contacts",
       [](Simulation& s, ObjectId sensor) { return hold<ContactReading>(s, sensor, s.read(sensor), "contact sensor"); },
-      "What the sensor's link last touched.");
+      "Return the last contacts of the sensor's link.");
   module.def(
       "read_force_torque",
       [](Simulation& s, ObjectId sensor) {
         return hold<ForceTorqueReading>(s, sensor, s.read(sensor), "force-torque sensor");
       },
-      "What the sensor's joint last transmitted.");
+      "Return the last force and torque of the sensor's joint.");
   module.def(
       "override_image",
       [](Simulation& s, ObjectId camera, const py::bytes& rgb) {
         const std::string_view bytes = rgb;
         s.override_image(camera, {bytes.begin(), bytes.end()});
       },
-      "Makes a camera show a picture, three bytes a pixel from the top row down, in place of what it sees.");
+      "Replace a camera's image by a picture, three bytes per pixel from the top row down.");
   module.def(
       "sensor_kind", [](Simulation& s, ObjectId sensor) { return std::string(s.sensor_kind(sensor)); },
-      "'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'altimeter', 'magnetometer', 'contact sensor' or "
-      "'force-torque sensor'.");
+      "Return 'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'altimeter', 'magnetometer', 'contact "
+      "sensor' or 'force-torque sensor'.");
   module.def(
       "read_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },
-      "The camera's last image.");
+      "Return the camera's last image.");
   module.def("camera_optics", &camera_optics,
-             "A camera's width and height in pixels, and its horizontal field of view, rad; it measures nothing.");
+             "Return a camera's width and height in pixels and its horizontal field of view, rad; do not measure.");
   module.def(
       "measure_camera",
       [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.measure(sensor), "camera"); },
-      "The camera's image of now.");
+      "Measure now and return the camera's image.");
 }
 
 }  // namespace bubblesim::bindings

@@ -22,7 +22,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// A shape with its place, as tools that draw a scene want it.
+/// A shape with its pose, for tools that draw a scene.
 struct CollisionShape {
   std::string object_path;
   std::string kind;
@@ -72,7 +72,7 @@ py::array_t<float> vertices(const CollisionShape& shape) {
   return py::array_t<float>(size, reinterpret_cast<const float*>(points.data()));
 }
 
-/// Steps without the GIL, but looks at Python's signals now and then so that Ctrl-C ends a long call.
+/// Steps without the GIL, but checks Python's signals regularly so that Ctrl-C ends a long call.
 void step(Simulation& simulation, std::uint64_t steps) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kBetweenSignals{50};
@@ -98,7 +98,7 @@ std::vector<ObjectView> all_objects(const py::object& simulation) {
   return views;
 }
 
-/// Adds parameters to a plugin, but those that it has.
+/// Adds the parameters that a plugin does not have yet.
 void complete(PluginDescription& plugin, const std::map<std::string, std::string>& parameters) {
   for (const auto& [name, text] : parameters) {
     const auto is_it = [&name = name](const PluginParameter& parameter) { return parameter.name == name; };
@@ -138,11 +138,11 @@ void bind_errors(py::module_& module) {
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
   static py::exception<WrongObject> wrong_object(module, "WrongObject", PyExc_ValueError);
   static py::exception<Diverged> diverged(module, "Diverged", PyExc_RuntimeError);
-  for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(wrong_object),
-                                 py::handle(diverged)}) {
+  for (const py::handle error :
+       {py::handle(scene_error), py::handle(no_such_object), py::handle(wrong_object), py::handle(diverged)}) {
     error.attr("__module__") = "bubblesim";  // where users import it from
   }
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 requires this signature
   py::register_exception_translator([](std::exception_ptr raised) {
     try {
       if (raised) std::rethrow_exception(raised);
@@ -163,12 +163,12 @@ void bind_errors(py::module_& module) {
 void bind_simulation(py::module_& module) {
   bind_errors(module);
 
-  py::class_<CollisionShape>(module, "CollisionShape", "A collision shape and where it stands.")
-      .def_readonly("object_path", &CollisionShape::object_path, "Path of the link that it belongs to.")
+  py::class_<CollisionShape>(module, "CollisionShape", "A collision shape and its pose.")
+      .def_readonly("object_path", &CollisionShape::object_path, "Path of its link.")
       .def_readonly("kind", &CollisionShape::kind,
                     "'box', 'sphere', 'cylinder', 'capsule', 'ellipsoid', 'mesh' or 'plane'.")
       .def_property_readonly("vertices", &vertices,
-                             "Corners of a mesh in the shape's frame, n x 3; none of other kinds.")
+                             "Vertices of a mesh in the shape's frame, n x 3; empty for other kinds.")
       .def_readonly("size", &CollisionShape::size,
                     "Metres. box: x, y, z; sphere: radius; cylinder: radius, length; plane: its normal.")
       .def_property_readonly("position", [](const CollisionShape& s) { return to_numpy(s.pose.Pos()); })
@@ -176,21 +176,21 @@ void bind_simulation(py::module_& module) {
           "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
       .def_readonly("is_static", &CollisionShape::is_static);
 
-  py::enum_<RunState>(module, "RunState", "What whoever runs the steps of a simulation does.")
+  py::enum_<RunState>(module, "RunState", "Run state of a simulation.")
       .value("STOPPED", RunState::kStopped)
       .value("PAUSED", RunState::kPaused)
       .value("RUNNING", RunState::kRunning)
-      .value("STOPPING", RunState::kStopping, "The last step.");
+      .value("STOPPING", RunState::kStopping, "In the last step.");
 
-  py::class_<Simulation> simulation(module, "Simulation", R"(A scene that runs.
+  py::class_<Simulation> simulation(module, "Simulation", R"(A running scene.
 
-Equal seeds and equal commands give equal states, bit by bit, in every process.
+Equal seeds and equal commands give bitwise equal states in every process.
 
-:param scene: name of a scene ("tricycle") or path of an .sdf file.
-:param seed: of everything random in the simulation.
-:param arguments: what a .xacro file is expanded with, by name.
-:raises SceneError: with all problems of the file, each with file:line and object.)");
-  // These take the simulation by themselves, or are made for any thread.
+:param scene: scene name ("tricycle") or path of an .sdf file.
+:param seed: random seed of the simulation.
+:param arguments: xacro arguments by name, for a .xacro file.
+:raises SceneError: lists all problems of the file, each with file:line and object.)");
+  // These lock the simulation themselves, or are thread-safe.
   simulation
       .def(py::init([](const std::string& scene, std::uint64_t seed, const std::map<std::string, std::string>& named) {
              XacroArguments arguments;
@@ -199,68 +199,70 @@ Equal seeds and equal commands give equal states, bit by bit, in every process.
            }),
            py::arg("scene"), py::kw_only(), py::arg("seed") = 0,
            py::arg("arguments") = std::map<std::string, std::string>())
-      .def("step", &step, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
-           "Simulates `steps` steps of `time_step` seconds, without holding the GIL.\n\n"
-           ":raises Diverged: when a body leaves the finite world; reset it or load the scene again then.")
+      .def(
+          "step", &step, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
+          "Run `steps` simulation steps of `time_step` seconds, without holding the GIL.\n\n"
+          ":raises Diverged: if a body's state is no longer finite; then reset the simulation or load the scene again.")
       .def("reset_world", &Simulation::reset_world, py::call_guard<py::gil_scoped_release>(),
-           "Puts the models that are there now back to where they came into the world; time goes on, handles stay.\n\n"
-           "Call it between steps, or in a callback that brings messages or service calls: there it takes effect at\n"
-           "once. A diverged simulation is of use again.\n\n"
+           "Move all current models back to their initial poses; time continues, handles stay valid.\n\n"
+           "Call it between steps, or in a callback for messages or service calls: there it takes effect at\n"
+           "once. It also makes a diverged simulation usable again.\n\n"
            ":raises RuntimeError: in sysCall_actuation and sysCall_sensing. It waits for a step that another thread "
            "runs.")
       .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
-           "As `reset_world`, and time starts at 0 again: what follows equals a new simulation of these models, bit\n"
-           "by bit.")
+           "Like `reset_world`, and time starts at 0 again: the following steps bitwise equal those of a\n"
+           "new simulation of these models.")
       .def("add_model", &add_model, py::arg("text"), py::kw_only(), py::arg("name") = "",
            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("orientation") = py::make_tuple(0, 0, 0, 1),
            py::arg("plugin_parameters") = py::dict(),
-           R"(Adds a model, when `reset_world` may be called, and returns it.
+           R"(Add a model and return it. Call it where `reset_world` may be called.
 
-:param text: of an SDFormat or URDF file with one model. Its child script lies in the folder of the scene.
-:param name: instead of the one in the text.
+:param text: content of an SDFormat or URDF file with one model. Its child script is in the folder of the scene.
+:param name: replaces the name in the text.
 :param position: m, of the frame in which the text places the model.
 :param orientation: quaternion x, y, z, w of that frame.
-:param plugin_parameters: for its <plugin> elements that do not have them.
-:raises SceneError: with all that is wrong with the model, also when its name is taken.)")
+:param plugin_parameters: defaults for the parameters of its <plugin> elements.
+:raises SceneError: lists all problems of the model, including a name that is in use.)")
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
-           "Removes a model with all that belongs to it, when `reset_world` may be called.\n\n"
-           "Handles of its objects name nothing from now on, and are not used again.")
+           "Remove a model and all its objects. Call it where `reset_world` may be called.\n\n"
+           "Handles of its objects become invalid and are not used again.")
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
       .def_property_readonly("world_name", [](const Simulation& s) { return s.scene().world_name; })
       .def_property_readonly(
           "is_model_file", [](const Simulation& s) { return s.scene().is_model_file; },
-          "Whether the scene is a single model, put on a ground plane.")
+          "Whether the scene is a single model, placed on a ground plane.")
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
-      .def("start", &Simulation::start, "Asks whoever runs the steps to start, or to go on after a pause.")
-      .def("pause", &Simulation::pause, "Asks whoever runs the steps to pause.")
-      .def("stop", &Simulation::stop, "Asks whoever runs the steps to stop: back to the start of the scene.")
-      .def("end", &Simulation::end, "Asks whoever runs the steps to end.")
+      .def("start", &Simulation::start, "Request to start, or to resume after a pause.")
+      .def("pause", &Simulation::pause, "Request to pause.")
+      .def("stop", &Simulation::stop, "Request to stop and go back to the start of the scene.")
+      .def("end", &Simulation::end, "Request to end the simulation.")
       .def("set_synchronous", &Simulation::set_synchronous, py::arg("synchronous"),
-           "Asks whoever runs the steps to run one for each trigger_step(), none else.")
+           "Request to run one step per trigger_step(), and no others.")
       .def("trigger_step", &Simulation::trigger_step)
       .def_property_readonly("state", &Simulation::state)
-      .def_property_readonly("has_requests", &Simulation::has_requests, "Some that were not carried out yet.")
-      .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "A stop was asked for and is not done yet.")
+      .def_property_readonly("has_requests", &Simulation::has_requests, "Whether there are pending requests.")
+      .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "Whether a requested stop is pending.")
       .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
                              "The same objects by handle, as child scripts use them.");
   Guarded(simulation)
       .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
-      .def_property_readonly("time_step", &Simulation::time_step, "Seconds that one step takes.")
+      .def_property_readonly("time_step", &Simulation::time_step, "Seconds per step.")
       .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
-           "Lets steps take so long from now on, 1e-4 to 10 s, until `reset`.")
+           "Set the seconds per step, 1e-4 to 10, until `reset`.")
       .def_property_readonly(
           "plugins", [](const Simulation& s) { return s.scene().plugins; },
-          "The PluginDescriptions that stand directly in the world.")
-      .def("state_hash", &Simulation::state_hash, "64 bit hash of the physical state; see World::state_hash in world.hpp for what it covers.")
-      .def_property_readonly("collisions", &collisions, "All collision shapes as they stand now.")
+          "The PluginDescriptions of the world itself.")
+      .def("state_hash", &Simulation::state_hash,
+           "Return a 64 bit hash of the physical state; world.hpp lists what it covers.")
+      .def_property_readonly("collisions", &collisions, "All collision shapes with their current poses.")
       .def("object", &find_object, py::arg("path"),
-           "The object at a path such as /Tricycle/FrontMotor, or /FrontMotor when that is the only one.\n\n"
-           ":raises NoSuchObject: naming similar objects.")
+           "Return the object at a path such as /Tricycle/FrontMotor, or /FrontMotor if the name is unique.\n\n"
+           ":raises NoSuchObject: with a list of similar objects.")
       .def_property_readonly("objects", &all_objects, "All objects of the scene.");
 
-  module.def("scene_names", &scene_names, "Names of all scenes that are found.");
-  module.def("scene_folders", &scene_folders, "Folders that are searched for scenes.");
+  module.def("scene_names", &scene_names, "Return the names of all scenes.");
+  module.def("scene_folders", &scene_folders, "Return the folders that are searched for scenes.");
 }
 
 }  // namespace bubblesim::bindings

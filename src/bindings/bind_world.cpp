@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bubblesim._core.World: objects by handle, on plain lists and numbers: what the `sim` functions of child scripts are
-// made of.
+// bubblesim._core.World: objects by handle, with plain lists and numbers, for the `sim` functions of child scripts.
 #include <pybind11/stl.h>
 
 #include <array>
@@ -44,7 +43,7 @@ std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
   }
 }
 
-/// The frame that positions relative to an object refer to: a joint's is the one that moves.
+/// The frame for positions relative to an object; for a joint, its moving frame.
 Pose frame_of(const World& world, ObjectId object) {
   return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_child_pose(object) : world.pose(object);
 }
@@ -52,8 +51,8 @@ Pose frame_of(const World& world, ObjectId object) {
 }  // namespace
 
 void bind_world(py::module_& module) {
-  py::enum_<MotorMode>(module, "MotorMode", "What the motor of a joint's axis does.")
-      .value("NONE", MotorMode::kNone, "Nothing: the axis is free, but for friction and damping.")
+  py::enum_<MotorMode>(module, "MotorMode", "Mode of the motor of a joint's axis.")
+      .value("NONE", MotorMode::kNone, "No motor: the axis moves freely, with friction and damping.")
       .value("VELOCITY", MotorMode::kVelocity)
       .value("POSITION", MotorMode::kPosition);
   py::class_<World> world(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.");
@@ -79,7 +78,8 @@ void bind_world(py::module_& module) {
             const SensorDescription& sensor = w.sensor_description(id);
             return py::make_tuple(sensor.topic, sensor.frame, sensor.update_rate);
           },
-          py::arg("sensor"), "Its <bubblesim:topic>, its <bubblesim:frame>, both may be empty, and its rate in Hz.")
+          py::arg("sensor"),
+          "Return its <bubblesim:topic> and <bubblesim:frame>, which may be empty, and its rate in Hz.")
       .def(
           "gz_topic",
           [](const World& w, ObjectId id) {
@@ -87,7 +87,7 @@ void bind_world(py::module_& module) {
             return py::make_tuple(sensor.type, sensor.gz.topic, sensor.gz.info_topic, sensor.gz.frame);
           },
           py::arg("sensor"),
-          "SDFormat's name of the sensor's type; its <topic>, its <camera_info_topic> and its frame, which may be "
+          "Return SDFormat's name of the sensor's type; its <topic>, <camera_info_topic> and frame, which may be "
           "empty.")
       .def(
           "find_signal",
@@ -99,7 +99,8 @@ void bind_world(py::module_& module) {
             }
             return kNoObject;
           },
-          py::arg("signal"), "Handle of the lidar whose <bubblesim:signal> this is, or -1; `signal` is not empty.")
+          py::arg("signal"),
+          "Return the handle of the lidar with this <bubblesim:signal>, or -1; `signal` must not be empty.")
       .def(
           "sonar_limits",
           [](const World& w, ObjectId id) {
@@ -107,30 +108,30 @@ void bind_world(py::module_& module) {
             if (sonar == nullptr) throw WrongObject(w.tree().short_path(id) + " is not a proximity sensor");
             return py::make_tuple(sonar->min_range, sonar->max_range, sonar->half_angle);
           },
-          py::arg("sensor"), "Of a proximity sensor: the least and the greatest range, m, and half its angle, rad.")
-      .def("plugins", &plugins, py::arg("handle"), "The PluginDescriptions that stand directly in a model or sensor.")
+          py::arg("sensor"),
+          "Return a proximity sensor's minimum and maximum range, m, and half its opening angle, rad.")
+      .def("plugins", &plugins, py::arg("handle"), "Return the PluginDescriptions of a model or sensor itself.")
       .def("pose", [](const World& w, ObjectId id) { return to_list(w.pose(id)); })
       .def(
           "pose_in", [](const World& w, ObjectId id, ObjectId frame) { return pose_in(w, id, frame_of(w, frame)); },
-          "Pose in the frame of another object; relative to a joint, in the frame that moves with its child.")
+          "Return the pose in the frame of another object; relative to a joint, in its moving frame.")
       .def("set_pose", [](World& w, ObjectId id, const Pose7& pose) { w.set_pose(id, to_pose(pose)); })
       .def("set_pose_in", [](World& w, ObjectId id, const Pose7& pose,
                              ObjectId frame) { w.set_pose(id, frame_of(w, frame) * to_pose(pose)); })
       .def(
           "pose_from",
           [](const World& w, const Pose7& pose, ObjectId frame) { return to_list(frame_of(w, frame) * to_pose(pose)); },
-          "Pose in the world of what has this pose in the frame of an object; see `pose_in`.")
+          "Return the world pose of a pose in the frame of an object; see `pose_in`.")
       .def(
           "set_state",
           [](World& w, ObjectId id, const Pose7& pose, const std::array<double, 3>& linear,
              const std::array<double, 3>& angular) {
             w.set_state(id, to_pose(pose), {to_vector(linear), to_vector(angular)});
           },
-          "Pose, linear and angular velocity at once.")
-      .def(
-          "set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
-          py::arg("turning"),
-          "Has a model move as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
+          "Set the pose, linear and angular velocity at once.")
+      .def("set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
+           py::arg("turning"),
+           "Move a model as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
       .def("velocity",
            [](const World& w, ObjectId id) {
              const Twist v = w.velocity(id);
@@ -138,21 +139,21 @@ void bind_world(py::module_& module) {
            })
       .def(
           "acceleration", [](const World& w, ObjectId id) { return to_list(w.acceleration(id)); },
-          "Of the object's origin, world axes: the mean over the last step.")
+          "Return the velocity of the object's origin, world axes: the mean over the last step.")
       .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
       .def("motor_effort", &World::motor_effort, py::arg("joint"), py::arg("axis") = 0,
-           "What its motor did to the child, the mean over the last step; measured from the first call on, which "
-           "returns 0.")
+           "Return the effort of the motor on the child, the mean over the last step. Measuring starts with the first "
+           "call, which returns 0.")
       .def("joint_links", &World::joint_links, py::arg("joint"),
-           "Handles of the links that it connects, the parent first; -1 is the world.")
-      .def("joint_axes", &World::joint_axes, py::arg("joint"), "How many it has.")
+           "Return the handles of the parent link and the child link; -1 is the world.")
+      .def("joint_axes", &World::joint_axes, py::arg("joint"), "Return the number of axes.")
       .def("target_position", &World::target_position, py::arg("joint"), py::arg("axis") = 0)
       .def("target_velocity", &World::target_velocity, py::arg("joint"), py::arg("axis") = 0)
       .def("max_force", &World::max_force, py::arg("joint"), py::arg("axis") = 0)
       .def("set_motor_mode", &World::set_motor_mode, py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
-           "A MotorMode, until the world is reset.")
+           "Set the MotorMode, until the world is reset.")
       .def("set_target_position", &World::set_target_position, py::arg("joint"), py::arg("position"),
            py::arg("axis") = 0)
       .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
@@ -165,7 +166,7 @@ void bind_world(py::module_& module) {
             if (description.axes.empty()) return std::make_pair(0.0, 0.0);
             return std::make_pair(description.axes.front().lower, description.axes.front().upper);
           },
-          "Lowest and highest position of a joint's first axis; infinite without limits.")
+          "Return the lower and upper limit of a joint's first axis; infinite without limits.")
       .def("set_joint_position", &World::set_joint_position, py::arg("joint"), py::arg("position"))
       .def("set_max_force", &World::set_max_force, py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
 }

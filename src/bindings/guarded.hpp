@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bound functions that have their simulation to themselves while they run: Python threads may call them beside step().
+// Bound functions that lock their simulation while they run, so that Python threads may call them during step().
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -17,8 +17,8 @@ inline AccessLock& lock_of(const Simulation& simulation) { return simulation.wor
 inline AccessLock& lock_of(const ObjectView& view) { return view.world().access(); }
 inline AccessLock& lock_of(const pybind11::object& simulation) { return lock_of(simulation.cast<Simulation&>()); }
 
-/// AccessLock::Hold for a thread that has the GIL. While it waits it lets go of the GIL, which the thread that has the
-/// simulation may need.
+/// AccessLock::Hold for a thread that holds the GIL. Releases the GIL while it waits, because the thread that has the
+/// lock may need it.
 class HoldWithGil {
  public:
   explicit HoldWithGil(AccessLock& lock) : lock_(lock.is_mine() ? nullptr : &lock) {
@@ -36,7 +36,7 @@ class HoldWithGil {
   AccessLock* lock_;
 };
 
-/// A function whose first parameter leads to a simulation, made one that holds it.
+/// Wraps a function whose first parameter refers to a simulation so that it locks the simulation.
 template <class Function, class Return, class First, class... Rest>
 auto holding(Function function, Return (*)(First, Rest...)) {
   return [function](First first, Rest... rest) -> Return {
@@ -61,7 +61,7 @@ auto holding(Return (Class::*method)(Rest...) const) {
       [method](const Class& self, Rest... rest) -> Return { return (self.*method)(std::forward<Rest>(rest)...); });
 }
 
-/// Adds functions to a class or module of pybind11, each of which holds its simulation.
+/// Adds functions to a pybind11 class or module, each of which locks its simulation.
 template <class Scope>
 class Guarded {
  public:

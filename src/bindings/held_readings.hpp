@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readings of sensors as Python holds them.
+// Sensor readings that Python objects keep alive.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace bubblesim::bindings {
 
-/// A measurement of one kind, kept as it is as long as Python holds it or an array of it.
+/// A measurement of one kind, kept unchanged as long as Python holds it or one of its arrays.
 template <class Kind>
 struct Held {
   std::shared_ptr<const Reading> reading;

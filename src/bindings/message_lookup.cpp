@@ -15,8 +15,8 @@ namespace py = pybind11;
 using messages::MessageType;
 using messages::ServiceType;
 
-/// Lets python/bubblesim/messages/runtime.py add the type from its definition on this machine. Returns without it when
-/// what reads definitions is not installed; raises MessageError when it fails.
+/// Makes python/bubblesim/messages/runtime.py add the type from its definition on this machine. Does nothing if the
+/// parser of definitions is not installed; raises MessageError if it fails.
 void add_from_definition(const char* function, const std::string& name) {
   try {
     py::module_::import("bubblesim.messages.runtime").attr(function)(name);

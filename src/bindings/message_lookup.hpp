@@ -8,8 +8,8 @@
 
 namespace bubblesim::bindings {
 
-/// The type of that name; one that is not listed is added from its definition on this machine. Raises MessageError (as
-/// pybind11::error_already_set) that names similar types and tells how to add one.
+/// Returns the type of that name. Adds an unlisted type from its definition on this machine. Raises MessageError (as
+/// pybind11::error_already_set) that suggests similar types and how to add one.
 const messages::MessageType& listed_message(const std::string& name);
 const messages::ServiceType& listed_service(const std::string& name);
 

@@ -24,14 +24,14 @@ inline NumpyArray to_numpy(const Quaternion& q) {
   return NumpyArray(values.size(), values.data());
 }
 
-/// `values` as a flat array of `size` numbers; `what` names it in the error.
+/// Checks that `values` is a flat array of `size` numbers; `what` names it in the error.
 inline const double* checked(const NumpyArray& values, pybind11::ssize_t size, const char* what) {
   if (values.ndim() == 1 && values.shape(0) == size) return values.data();
   std::string shape;
   for (pybind11::ssize_t axis = 0; axis < values.ndim(); ++axis) {
     shape += (axis == 0 ? "" : " x ") + std::to_string(values.shape(axis));
   }
-  throw InvalidInput(std::string(what) + " takes " + std::to_string(size) + " numbers, found " +
+  throw InvalidInput(std::string(what) + ": expected " + std::to_string(size) + " numbers, found " +
                      (values.ndim() == 0 ? "a single value" : shape));
 }
 

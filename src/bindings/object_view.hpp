@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One object of a simulation as Python holds it.
+// One object of a simulation, for Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -27,7 +27,7 @@ class ObjectView {
   ObjectId id_;
 };
 
-/// What a sensor measured last, as Python knows it.
+/// The last reading of a sensor as a Python object.
 pybind11::object last_reading(Simulation& simulation, ObjectId sensor);
 
 }  // namespace bubblesim::bindings

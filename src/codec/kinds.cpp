@@ -42,7 +42,7 @@ std::string_view kind_name(FieldKind kind) { return kKinds[static_cast<std::size
 
 FieldKind kind_of(std::string_view name) {
   const auto found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindRow& row) { return row.name == name; });
-  if (found == kKinds.end()) throw std::invalid_argument("'" + std::string(name) + "' is no kind of field");
+  if (found == kKinds.end()) throw std::invalid_argument("'" + std::string(name) + "' is not a kind of field");
   return static_cast<FieldKind>(found - kKinds.begin());
 }
 

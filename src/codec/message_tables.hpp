@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The form in which meta/generate.py writes message types: constant tables that cost nothing until the registry turns
+// The form in which meta/generate.py writes message types: constant tables without initialization. The registry turns
 // them into MessageType objects.
 #pragma once
 
@@ -18,7 +18,7 @@ struct Rows {
   std::size_t count = 0;
 
   constexpr Rows() = default;
-  template <std::size_t N>  // NOLINTNEXTLINE(google-explicit-constructor): a list of rows is one
+  template <std::size_t N>  // NOLINTNEXTLINE(google-explicit-constructor): implicit from a list of rows
   constexpr Rows(const T (&rows)[N]) : first(rows), count(N) {}
 
   constexpr const T* begin() const { return first; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns the generated tables into MessageType objects, at the first question about any of them, and keeps those that
-// are added later.
+// Turns the generated tables into MessageType objects at the first query, and holds the types that are added later.
 #include "bubblesim/messages/registry.hpp"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ T number(std::string_view text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw std::logic_error("generated message tables: '" + std::string(text) + "' is no number");
+    throw std::logic_error("generated message tables: '" + std::string(text) + "' is not a number");
   }
   return value;
 }
@@ -46,7 +45,7 @@ Constant make_constant(const tables::ConstantRow& row) {
   }
 }
 
-/// `pkg/msg/Type` -> `pkg/Type`; other names stay as they are.
+/// `pkg/msg/Type` -> `pkg/Type`; other names stay unchanged.
 std::string without_folder(std::string_view name, std::string_view folder) {
   const std::size_t slash = name.find('/');
   const bool has_folder = slash != name.npos && name.substr(slash + 1, folder.size()) == folder;
@@ -133,13 +132,13 @@ class Registry {
     return kept;
   }
 
-  /// The known type of that name, nullptr when there is none.
+  /// The known type of that name, or nullptr.
   template <class T>
   static const T* same(const ByName<T>& types, const std::string& name, const std::string& md5) {
     const auto found = types.find(name);
     if (found == types.end()) return nullptr;
     if (found->second->md5 == md5) return found->second;
-    throw std::invalid_argument(name + " is known with md5 " + found->second->md5 + " and cannot become " + md5);
+    throw std::invalid_argument(name + " is known with md5 " + found->second->md5 + ": cannot add it with md5 " + md5);
   }
 
   const MessageType* find(std::string_view name) const {
@@ -158,10 +157,10 @@ class Registry {
     return found == types.end() ? nullptr : found->second;
   }
 
-  mutable std::shared_mutex mutex_;  // for what is added after the construction: all but messages_ and services_
-  // Deques: their elements stay where they are.
+  mutable std::shared_mutex mutex_;  // guards all members except messages_ and services_, which stay constant
+  // Deques keep references to their elements valid.
   std::deque<MessageType> messages_;        // listed
-  std::deque<MessageType> others_;          // halves of services, added types
+  std::deque<MessageType> others_;          // requests, responses, added types
   std::deque<ServiceType> services_;        // listed
   std::deque<ServiceType> other_services_;  // added
   ByName<MessageType> message_by_name_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which listed types a misspelt type name may have meant.
+// Finds listed types with names similar to a misspelt type name.
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -10,7 +10,7 @@
 namespace bubblesim::messages {
 namespace {
 
-constexpr std::size_t kWrongPackage = 100;  // ranks behind every name with mere typing errors
+constexpr std::size_t kWrongPackage = 100;  // ranks behind every name that only has typing errors
 constexpr std::size_t kAtMost = 3;
 
 struct NameParts {
@@ -28,7 +28,7 @@ NameParts split(std::string_view name) {
 bool close(std::size_t edits, std::string_view name) { return edits <= std::max<std::size_t>(2, name.size() / 3); }
 
 std::vector<std::string> similar_names(std::string_view name, const std::vector<std::string>& known) {
-  // Package and type are compared apart: a long package name alone must not make two types alike.
+  // Compare package and type separately: a long package name alone must not make two types similar.
   const NameParts wanted = split(name);
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& candidate : known) {
@@ -45,7 +45,7 @@ std::vector<std::string> similar_names(std::string_view name, const std::vector<
   std::sort(ranked.begin(), ranked.end());
   std::vector<std::string> names;
   for (auto& [edits, candidate] : ranked) {
-    // Once there is a likely name, far-off ones only distract.
+    // After a likely name, distant ones only distract.
     if (names.size() == kAtMost || edits > 2 * ranked.front().first + 2) break;
     names.push_back(std::move(candidate));
   }

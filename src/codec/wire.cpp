@@ -20,17 +20,17 @@ WireBuffer& WireBuffer::operator=(WireBuffer&& other) noexcept {
 }
 
 std::unique_ptr<std::uint8_t[]> WireBuffer::release() {
-  if (!storage_) grow(0);  // an empty message has a prefix, too
+  if (!storage_) grow(0);  // an empty message also has a prefix
   size_ = kPrefix;
   capacity_ = 0;
   return std::move(storage_);
 }
 
 void WireBuffer::grow(std::size_t extra) {
-  // Some bytes usually follow a large array (PointCloud2: is_dense); they must not make it move once more.
+  // Some bytes usually follow a large array (PointCloud2: is_dense); they must not cause another reallocation.
   const std::size_t needed = size_ + extra;
   const std::size_t capacity = std::max(2 * capacity_, needed + needed / 8 + 120);
-  // Not make_unique: that would fill the memory with zeros first.
+  // Not make_unique: it would zero the memory first.
   std::unique_ptr<std::uint8_t[]> storage(new std::uint8_t[capacity]);
   if (storage_) std::memcpy(storage.get(), storage_.get(), size_);
   storage_ = std::move(storage);
@@ -38,8 +38,8 @@ void WireBuffer::grow(std::size_t extra) {
 }
 
 void WireView::throw_truncated(std::size_t wanted) const {
-  throw WireError("the message ends early: " + std::to_string(wanted) + " more bytes expected, " +
-                  std::to_string(left()) + " left");
+  throw WireError("the message is truncated: expected " + std::to_string(wanted) + " more bytes, found " +
+                  std::to_string(left()));
 }
 
 }  // namespace bubblesim::messages

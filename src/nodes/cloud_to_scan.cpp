@@ -18,7 +18,7 @@ std::size_t offset_of(const sensor_msgs::PointCloud2& cloud, const std::string& 
     if (field.datatype != sensor_msgs::PointField::FLOAT32)
       throw std::invalid_argument("the cloud's field " + name + " is not FLOAT32");
     if (field.offset + sizeof(float) > cloud.point_step)
-      throw std::invalid_argument("the cloud's field " + name + " lies outside of a point");
+      throw std::invalid_argument("the cloud's field " + name + " exceeds point_step");
     return field.offset;
   }
   throw std::invalid_argument("the cloud has no field " + name);
@@ -31,7 +31,7 @@ void check_sizes(const sensor_msgs::PointCloud2& cloud) {
     throw std::invalid_argument("the cloud's rows are longer than row_step");
   if (cloud.height == 0 || cloud.width == 0) return;
   if (cloud.data.size() < std::uint64_t{cloud.height - 1} * cloud.row_step + row)
-    throw std::invalid_argument("the cloud has less data than height, row_step and width tell");
+    throw std::invalid_argument("the cloud has less data than height, row_step and width require");
 }
 
 float float_at(const std::uint8_t* bytes) {

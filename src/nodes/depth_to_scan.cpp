@@ -13,7 +13,7 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// Depth of one pixel in m, NaN where nothing was measured.
+/// Depth of one pixel in m, NaN without a measurement.
 float metres(const std::uint8_t* pixel, float) {
   float value = 0.0F;
   std::memcpy(&value, pixel, sizeof value);
@@ -30,13 +30,13 @@ template <typename Pixel>
 void fill(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& camera, const DepthBand& band,
           sensor_msgs::LaserScan& scan) {
   if (image.step < image.width * sizeof(Pixel) || image.data.size() < std::size_t{image.step} * image.height)
-    throw std::invalid_argument("the image has less data than its width, height and step tell");
+    throw std::invalid_argument("the image has less data than its width, height and step require");
   const double focal_length = camera.K[0];
   const int rows = static_cast<int>(image.height);
   const int middle = static_cast<int>(camera.K[5]);
   const int first = std::min(std::max(middle - band.scan_height / 2, 0), rows - band.scan_height);
   for (std::uint32_t column = 0; column < image.width; ++column) {
-    const double sideways = (column - camera.K[2]) / focal_length;  // to the right, at a depth of 1
+    const double sideways = (column - camera.K[2]) / focal_length;  // to the right, at depth 1
     const float stretch = static_cast<float>(std::hypot(1.0, sideways));
     const double place = (-std::atan(sideways) - scan.angle_min) / scan.angle_increment;
     const auto last = static_cast<double>(scan.ranges.size() - 1);
@@ -64,9 +64,9 @@ sensor_msgs::LaserScan depth_to_scan(const sensor_msgs::Image& image, const sens
                                      const DepthBand& band) {
   const double focal_length = camera.K[0];
   if (!(focal_length > 0.0)) throw std::invalid_argument("the camera_info has no focal length: K[0] must be above 0");
-  if (image.width < 2) throw std::invalid_argument("the image is less than two pixels wide");
+  if (image.width < 2) throw std::invalid_argument("the image must be at least two pixels wide");
   if (static_cast<std::uint32_t>(band.scan_height) > image.height)
-    throw std::invalid_argument("scan_height is more than the image's " + std::to_string(image.height) + " rows");
+    throw std::invalid_argument("scan_height exceeds the image's " + std::to_string(image.height) + " rows");
   sensor_msgs::LaserScan scan;
   scan.angle_max = static_cast<float>(std::atan(camera.K[2] / focal_length));
   scan.angle_min = static_cast<float>(-std::atan((image.width - 1 - camera.K[2]) / focal_length));
@@ -80,7 +80,7 @@ sensor_msgs::LaserScan depth_to_scan(const sensor_msgs::Image& image, const sens
   else if (image.encoding == "16UC1")
     fill<std::uint16_t>(image, camera, band, scan);
   else
-    throw std::invalid_argument("the image's encoding is " + image.encoding + ", not 32FC1 or 16UC1");
+    throw std::invalid_argument("expected an image with encoding 32FC1 or 16UC1, found " + image.encoding);
   return scan;
 }
 

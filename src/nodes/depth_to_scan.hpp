@@ -7,20 +7,19 @@
 
 namespace bubblesim {
 
-/// What of a depth image becomes a scan.
+/// The part of a depth image to convert to a scan.
 struct DepthBand {
-  int scan_height = 1;       ///< rows around the one that looks straight ahead; each column gives its nearest
+  int scan_height = 1;       ///< rows around the optical centre; each column gives its nearest pixel
   double scan_time = 0.033;  ///< s
   double range_min = 0.45;   ///< m
   double range_max = 10.0;   ///< m
 };
 
-/// Throws std::invalid_argument, which names the parameter, when there is no such band.
+/// Throws std::invalid_argument that names the invalid parameter.
 void check(const DepthBand& band);
 
-/// The rows in the middle of a depth image (16UC1 in mm or 32FC1 in m, REP 118), looked at from above, in a frame that
-/// looks along x. One ray for each column; a ray is NaN where nothing was measured and +inf where it was too far to be.
-/// The header is left to the caller.
+/// Converts the middle rows of a depth image (16UC1 in mm or 32FC1 in m, REP 118) to a scan, in a frame with x forward.
+/// One ray per column; a ray is NaN without a measurement and +inf beyond the range. The caller sets the header.
 /// Throws std::invalid_argument for other encodings, a camera without focal length, a band higher than the image.
 sensor_msgs::LaserScan depth_to_scan(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& camera,
                                      const DepthBand& band);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node depthimage_to_laserscan: the depth images of a camera become LaserScan on scan, while somebody listens.
+// The node depthimage_to_laserscan: converts depth images to LaserScan on scan while it has subscribers.
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
 
@@ -49,7 +49,7 @@ class DepthImageToLaserScan {
       if (!frame_.empty()) scan.header.frame_id = frame_;
       scans_.publish(scan);
     } catch (const std::invalid_argument& error) {
-      ROS_ERROR_THROTTLE(5.0, "a depth image is dropped: %s", error.what());
+      ROS_ERROR_THROTTLE(5.0, "dropped a depth image: %s", error.what());
     }
   }
 

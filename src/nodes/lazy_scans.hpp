@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// The topic scan, whose source is switched on while somebody listens to it, by the thread that spins.
+/// The topic scan. The spinning thread switches its source on while it has subscribers.
 class LazyScans {
  public:
   LazyScans(ros::NodeHandle& node, std::function<void()> start, std::function<void()> stop)

@@ -12,7 +12,7 @@ namespace bubblesim {
 
 namespace {
 
-// Shades of the picture, by which readers tell cells apart: white is free.
+// Grey values of the image, from which readers get the state of a cell: white is free.
 constexpr char kFree = static_cast<char>(254);
 constexpr char kOccupied = 0;
 constexpr char kUnknown = static_cast<char>(205);
@@ -27,7 +27,7 @@ std::string picture(const nav_msgs::OccupancyGrid& map, const MapThresholds& thr
   const std::size_t width = map.info.width;
   const std::size_t height = map.info.height;
   std::string text = "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
-  for (std::size_t row = height; row-- > 0;) {  // a picture's first row is its top, a map's is the southernmost
+  for (std::size_t row = height; row-- > 0;) {  // an image's first row is the top, a map's is the southernmost
     for (std::size_t column = 0; column < width; ++column)
       text.push_back(shade(map.data[row * width + column], thresholds));
   }
@@ -42,7 +42,7 @@ std::string description(const nav_msgs::OccupancyGrid& map, const std::string& i
   char numbers[160];
   std::snprintf(numbers, sizeof numbers, "resolution: %.6f\norigin: [%.6f, %.6f, %.6f]\n", map.info.resolution,
                 origin.position.x, origin.position.y, heading);
-  // The shade of unknown cells, 205, lies between these two.
+  // The grey value of unknown cells, 205, is between these two.
   return "image: " + image + "\n" + numbers + "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 }
 
@@ -60,9 +60,9 @@ std::filesystem::path write_map(const nav_msgs::OccupancyGrid& map, const std::f
   if (map.data.size() != std::size_t{map.info.width} * map.info.height || map.data.empty())
     throw std::runtime_error("there is no map yet");
   const std::filesystem::path base = std::filesystem::absolute(name);
-  if (base.filename().empty()) throw std::runtime_error(base.string() + " is a folder: a name has to follow");
+  if (base.filename().empty()) throw std::runtime_error(base.string() + " is a folder: append a file name");
   std::error_code failed;
-  std::filesystem::create_directories(base.parent_path(), failed);  // if it fails, writing tells
+  std::filesystem::create_directories(base.parent_path(), failed);  // an error shows when writing
   const std::string image = base.filename().string() + ".pgm";
   std::filesystem::path yaml = base.string() + ".yaml";
   write(base.parent_path() / image, picture(map, thresholds));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node map_saver: writes the next map it hears to two files, and ends.
+// The node map_saver: writes the next received map to two files and exits.
 #include <ros/ros.h>
 
 #include <cstdio>
@@ -13,9 +13,9 @@ namespace {
 
 constexpr char kUsage[] =
     "usage: map_saver [--occ PER_CENT] [--free PER_CENT] [-f NAME]\n\n"
-    "Writes the map of the topic map to NAME.pgm and NAME.yaml (NAME is map by default).\n\n"
-    "  --occ   occupancy from which a cell is a wall (65)\n"
-    "  --free  occupancy up to which a cell is free (25)\n";
+    "Writes the map on topic map to NAME.pgm and NAME.yaml (default NAME: map).\n\n"
+    "  --occ   occupancy in per cent from which a cell is occupied (default 65)\n"
+    "  --free  occupancy in per cent up to which a cell is free (default 25)\n";
 
 struct Options {
   std::string name = "map";
@@ -28,7 +28,7 @@ int per_cent(const std::string& text) {
   return value;
 }
 
-/// Throws for arguments that are none.
+/// Throws for invalid arguments.
 Options read(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; i += 2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node mapper: LaserScan on scan and odometry from tf become a map, and the base's place in it.
+// The node mapper: builds a map from LaserScan on scan and odometry from tf, and localizes the base in it.
 #include <message_filters/subscriber.h>
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/MapMetaData.h>
@@ -23,8 +23,8 @@ using bubblesim::parameter;
 using bubblesim::PlanarPose;
 using Scan = sensor_msgs::LaserScan;
 
-const ros::Duration kMemory(60.0);  // of transforms: on a busy machine scans come late
-constexpr int kQueue = 100;         // scans that wait for tf, or for the mapper
+const ros::Duration kMemory(60.0);  // of transforms: scans arrive late on a busy machine
+constexpr int kQueue = 100;         // scans that wait for tf or for the mapper
 
 PlanarPose planar(const tf2::Transform& transform) {
   return {transform.getOrigin().x(), transform.getOrigin().y(), tf2::getYaw(transform.getRotation())};
@@ -64,10 +64,10 @@ class Mapper {
   void take(const Scan::ConstPtr& scan) {
     const ros::Time stamp = scan->header.stamp;
     if (stamp < mapped_at_) {
-      ROS_WARN("time has jumped back from %.3f to %.3f s: the map starts anew", mapped_at_.toSec(), stamp.toSec());
+      ROS_WARN("time jumped back from %.3f to %.3f s: restarting the map", mapped_at_.toSec(), stamp.toSec());
       start_anew();
     } else if (stamp == mapped_at_) {
-      return;  // the same scan once more
+      return;  // the same scan again
     }
     try {
       const auto odometry = bubblesim::to_tf2(transforms_.lookupTransform(odom_frame_, base_frame_, stamp).transform);
@@ -79,17 +79,17 @@ class Mapper {
       if (began_at_.isZero()) began_at_ = stamp;
       send_place(spatial(pose) * spatial(planar(odometry)).inverse(), stamp);
     } catch (const tf2::TransformException& error) {
-      ROS_WARN_THROTTLE(5.0, "a scan is dropped: %s", error.what());
+      ROS_WARN_THROTTLE(5.0, "dropped a scan: %s", error.what());
     } catch (const std::invalid_argument& error) {
-      ROS_ERROR_THROTTLE(5.0, "a scan is dropped: %s", error.what());
+      ROS_ERROR_THROTTLE(5.0, "dropped a scan: %s", error.what());
     }
     if (published_at_.isZero() || stamp - published_at_ >= ros::Duration(map_update_interval_)) publish(stamp);
   }
 
   void lose(const Scan& scan, tf2_ros::FilterFailureReason reason) {
-    // What was seen before the first scan in the map is older than what tf knows.
+    // Scans from before the first scan in the map are older than the tf buffer.
     if (!began_at_.isZero() && scan.header.stamp > began_at_)
-      ROS_WARN_THROTTLE(5.0, "a scan of frame %s at %.3f s is dropped: no transform to %s (reason %d)",
+      ROS_WARN_THROTTLE(5.0, "dropped a scan of frame %s at %.3f s: no transform to %s (reason %d)",
                         scan.header.frame_id.c_str(), scan.header.stamp.toSec(), odom_frame_.c_str(),
                         static_cast<int>(reason));
   }
@@ -97,7 +97,7 @@ class Mapper {
   void send_place(const tf2::Transform& odom_in_map, const ros::Time& stamp) {
     geometry_msgs::TransformStamped place;
     place.header.frame_id = map_frame_;
-    place.header.stamp = stamp + ros::Duration(transform_delay_);  // others need it until the next scan
+    place.header.stamp = stamp + ros::Duration(transform_delay_);  // valid until the next scan
     place.child_frame_id = odom_frame_;
     place.transform = bubblesim::to_message(odom_in_map);
     broadcaster_.sendTransform(place);
@@ -153,8 +153,8 @@ class Mapper {
   double transform_delay_;      // s
   bubblesim::ScanMapperOptions options_;
   bubblesim::ScanMapper mapper_;
-  ros::Time mapped_at_;  // stamp of the last scan in the map, 0 before the first
-  ros::Time began_at_;   // and of the first
+  ros::Time mapped_at_;  // time stamp of the last scan in the map, 0 before the first
+  ros::Time began_at_;   // time stamp of the first scan
   ros::Time published_at_;
 
   tf2_ros::Buffer transforms_{kMemory};

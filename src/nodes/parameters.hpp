@@ -9,12 +9,12 @@
 namespace bubblesim {
 
 /// The node's parameter `name`, or `fallback` when it is not set.
-/// Throws std::invalid_argument when it is set to something of another type.
+/// Throws std::invalid_argument if its value is of another type.
 template <typename Value>
 Value parameter(const ros::NodeHandle& node, const std::string& name, const Value& fallback) {
   Value value = fallback;
   if (node.hasParam(name) && !node.getParam(name, value))
-    throw std::invalid_argument("the parameter " + node.resolveName(name) + " is of another type than its default");
+    throw std::invalid_argument("the parameter " + node.resolveName(name) + " has a different type than its default");
   return value;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The node pointcloud_to_laserscan: PointCloud2 on cloud_in becomes LaserScan on scan, while somebody listens.
+// The node pointcloud_to_laserscan: converts PointCloud2 on cloud_in to LaserScan on scan while it has subscribers.
 #include <message_filters/subscriber.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
@@ -18,7 +18,7 @@ namespace {
 using bubblesim::parameter;
 using Cloud = sensor_msgs::PointCloud2;
 
-const ros::Duration kMemory(60.0);  // of transforms: on a busy machine clouds come late
+const ros::Duration kMemory(60.0);  // of transforms: clouds arrive late on a busy machine
 
 bubblesim::HeightBand read_heights(const ros::NodeHandle& own) {
   bubblesim::HeightBand heights;
@@ -79,19 +79,19 @@ class PointCloudToLaserScan {
       if (transforms_) scan.header.frame_id = target_frame_;
       scans_->publish(scan);
     } catch (const tf2::TransformException& error) {
-      ROS_WARN_THROTTLE(5.0, "a cloud is dropped: %s", error.what());
+      ROS_WARN_THROTTLE(5.0, "dropped a cloud: %s", error.what());
     } catch (const std::invalid_argument& error) {
-      ROS_ERROR_THROTTLE(5.0, "a cloud is dropped: %s", error.what());
+      ROS_ERROR_THROTTLE(5.0, "dropped a cloud: %s", error.what());
     }
   }
 
   ros::NodeHandle node_;
   ros::NodeHandle own_{"~"};
-  std::string target_frame_;  // the cloud's own when empty
+  std::string target_frame_;  // if empty, the cloud's frame
   int queue_size_;
   bubblesim::HeightBand heights_;
   bubblesim::ScanShape shape_;
-  std::unique_ptr<tf2_ros::Buffer> transforms_;  // none without a target frame
+  std::unique_ptr<tf2_ros::Buffer> transforms_;  // null without a target frame
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   message_filters::Subscriber<Cloud> clouds_;
   std::unique_ptr<tf2_ros::MessageFilter<Cloud>> placed_;

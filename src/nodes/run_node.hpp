@@ -13,7 +13,7 @@
 
 namespace bubblesim {
 
-/// Starts roscpp after ros::init(): with ports on the advertised address alone, and within the limits for peers.
+/// Starts roscpp after ros::init(): listens on the advertised address only, with the limits for peers.
 inline ros::NodeHandle start_node() {
   check_peer_limits();
   limit_peer_lines();
@@ -21,17 +21,17 @@ inline ros::NodeHandle start_node() {
   return {};
 }
 
-/// Runs a node of the class `Node` under `name` until it is told to stop, and returns the process's exit code: 2 when a
-/// parameter cannot be used, which the log tells.
+/// Runs a node of class `Node` under `name` until shutdown and returns the process's exit code: 2 for an invalid
+/// parameter, which it logs.
 template <typename Node>
 int run_node(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
-  const ros::NodeHandle alive = start_node();  // with the last handle the log ends, too
+  const ros::NodeHandle alive = start_node();  // the last handle also ends the log
   try {
     Node node;
     ros::spin();
   } catch (const std::invalid_argument& error) {
-    ROS_FATAL("a parameter of %s cannot be used: %s", ros::this_node::getName().c_str(), error.what());
+    ROS_FATAL("invalid parameter of %s: %s", ros::this_node::getName().c_str(), error.what());
     return 2;
   }
   return 0;

@@ -22,11 +22,11 @@ using mrpt::maps::CSimplePointsMap;
 
 constexpr double kLeastGoodness = 0.4;   // share of a scan's points that must fit for a match to count
 constexpr float kPointDistance = 0.02F;  // m between points that scans are matched to
-constexpr double kCatch = 0.4;           // m that a point may be off before matching, and ...
+constexpr double kCatch = 0.4;           // m, largest distance of matched points at first, and ...
 constexpr double kFineCatch = 0.02;      // ... at its end
-constexpr float kHit = 0.85F;     // what one ray makes of the cell where it ends: surely a wall until others pass there
-constexpr float kPassed = 0.78F;  // and of those that it passes: free at once
-constexpr double kStartSize = 1.0;  // m; the grid grows with what is seen
+constexpr float kHit = 0.85F;            // occupancy from one ray at its end: occupied until other rays pass
+constexpr float kPassed = 0.78F;         // and of the cells that it passes: free at once
+constexpr double kStartSize = 1.0;       // m; the grid grows with the scans
 
 mrpt::Clock::time_point time_of(const ros::Time& stamp) { return mrpt::Clock::fromDouble(stamp.toSec()); }
 
@@ -60,7 +60,7 @@ void configure(mrpt::slam::CMetricMapBuilderICP& builder, const ScanMapperOption
   matching.thresholdAng = 0.03;
   matching.ALFA = 0.7;
   matching.smallestThresholdDist = kFineCatch;
-  matching.ICP_covariance_method = mrpt::slam::icpCovLinealMSE;  // the covariance is not used: the cheaper one
+  matching.ICP_covariance_method = mrpt::slam::icpCovLinealMSE;  // cheaper; the covariance is not used
 }
 
 mrpt::obs::CObservation2DRangeScan::Ptr observed(const sensor_msgs::LaserScan& scan, const LidarMount& mount,
@@ -88,11 +88,11 @@ mrpt::obs::CObservation2DRangeScan::Ptr observed(const sensor_msgs::LaserScan& s
 }
 
 std::int8_t per_cent(float free) {
-  // Cells that were never seen keep exactly the log-odds 0, which is one half.
+  // Unseen cells keep log-odds of exactly 0, which is one half.
   return static_cast<std::int8_t>(std::lround(100.0F * (1.0F - free)));
 }
 
-/// First and last of the columns or rows that hold something known.
+/// First and last column or row with known cells.
 struct Span {
   int first = std::numeric_limits<int>::max();
   int last = -1;
@@ -134,7 +134,7 @@ ScanMapper& ScanMapper::operator=(ScanMapper&&) noexcept = default;
 
 PlanarPose ScanMapper::add(const sensor_msgs::LaserScan& scan, const LidarMount& mount, const PlanarPose& odometry) {
   if (scan.ranges.size() < 2 || !(scan.angle_increment > 0.0F))
-    throw std::invalid_argument("a scan needs two rays and an angle_increment above 0");
+    throw std::invalid_argument("a scan needs at least two rays and an angle_increment above 0");
   const auto moved = mrpt::obs::CObservationOdometry::Create();
   moved->timestamp = time_of(scan.header.stamp);
   moved->odometry = mrpt::poses::CPose2D(odometry.x, odometry.y, odometry.heading);

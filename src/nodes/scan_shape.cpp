@@ -25,8 +25,9 @@ void check(const ScanShape& shape) {
   require(std::isfinite(shape.angle_min) && std::isfinite(shape.angle_max), "angle_min and angle_max must be finite");
   require(shape.angle_increment > 0.0 && std::isfinite(shape.angle_increment), "angle_increment must be above 0");
   require(shape.angle_max > shape.angle_min, "angle_max must be above angle_min");
-  require(shape.angle_max - shape.angle_min < kTurn + shape.angle_increment, "the angles go round more than once");
-  require(rays(shape) <= kMostRays, "angle_increment gives more than a million rays");
+  require(shape.angle_max - shape.angle_min < kTurn + shape.angle_increment,
+          "angle_max - angle_min must not exceed one turn");
+  require(rays(shape) <= kMostRays, "angle_increment is too small: more than a million rays");
   require(shape.scan_time >= 0.0, "scan_time must not be negative");
   require(shape.range_min >= 0.0, "range_min must not be negative");
   require(shape.range_max > shape.range_min, "range_max must be above range_min");
@@ -56,7 +57,7 @@ void ScanFiller::add(double x, double y) {
   const double range = std::sqrt(x * x + y * y);
   if (!(range >= shape_.range_min && range <= shape_.range_max)) return;
   double angle = std::atan2(y, x);
-  if (angle < shape_.angle_min) angle += kTurn;  // fans may be given as 0 to 2 pi
+  if (angle < shape_.angle_min) angle += kTurn;  // angles may range from 0 to 2 pi
   if (angle > shape_.angle_max) {
     angle -= kTurn;
     if (angle < shape_.angle_min) return;

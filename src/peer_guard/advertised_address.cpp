@@ -34,7 +34,7 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// The host that roscpp advertises, if somebody chose it: without a choice it is the machine's name.
+/// The host that roscpp advertises if the user chose it, otherwise empty: the default is the machine's name.
 std::string chosen_host() {
   std::array<char, HOST_NAME_MAX + 1> machine{};
   gethostname(machine.data(), machine.size() - 1);
@@ -65,7 +65,7 @@ bool is_loopback(const Address& address) {
   return IN6_IS_ADDR_LOOPBACK(&address.ip6.sin6_addr);
 }
 
-/// Whether everybody takes it for a loopback address, not only this machine.
+/// Whether other machines also resolve it to a loopback address.
 bool means_loopback(const std::string& host) {
   constexpr std::string_view kDomain = ".localhost";
   const bool in_domain =
@@ -75,7 +75,7 @@ bool means_loopback(const std::string& host) {
          inet_pton(AF_INET6, host.c_str(), &literal) == 1;
 }
 
-/// The address of a host when it has one alone.
+/// The address of a host that has exactly one.
 std::optional<Address> only_address(const std::string& host, int family) {
   addrinfo hints{};
   hints.ai_family = family;
@@ -111,8 +111,8 @@ bool AdvertisedAddress::bind_instead(int descriptor, const sockaddr* wildcard) {
   if (bind_as_asked(descriptor, &address->any, length) == 0) return true;
   if (errno == EADDRNOTAVAIL && !std::exchange(warned_, true)) {
     std::fprintf(stderr,
-                 "warning: this node advertises itself as '%s' (ROS_HOSTNAME, ROS_IP), which is no address of this "
-                 "machine: its ports listen on all addresses\n",
+                 "warning: this node advertises itself as '%s' (ROS_HOSTNAME, ROS_IP), which is not an address of this "
+                 "machine: listening on all addresses\n",
                  host_.c_str());
   }
   return false;
@@ -120,8 +120,8 @@ bool AdvertisedAddress::bind_instead(int descriptor, const sockaddr* wildcard) {
 
 }  // namespace bubblesim
 
-/// In place of the C library's, whose users it serves as before except within an AdvertisedAddress. roscpp has no
-/// setting for the address: its XML-RPC server always binds to all of them.
+/// Replaces the C library's bind(), and behaves like it except within an AdvertisedAddress. roscpp has no setting for
+/// the address: its XML-RPC server always binds to all addresses.
 extern "C" int bind(int descriptor, const sockaddr* address, socklen_t length) noexcept {
   bubblesim::AdvertisedAddress* instead = bubblesim::advertised;
   if (instead != nullptr && address != nullptr && instead->bind_instead(descriptor, address)) return 0;

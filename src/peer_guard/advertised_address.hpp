@@ -7,11 +7,11 @@
 
 namespace bubblesim {
 
-/// While it lives, sockets that this thread binds to all addresses of the machine are bound to the one that the node
-/// advertises instead: ros::start() then opens its XML-RPC and TCPROS ports there alone. It acts when the user chose
-/// the address, by ROS_HOSTNAME, ROS_IP, `__hostname:=` or `__ip:=`. All addresses stay open to a name that has several
-/// of them or, as Debian's /etc/hosts has it, a loopback address that other machines do not know; and, with a warning,
-/// to a name that is none of this machine. Make it after ros::init().
+/// While it exists, sockets that this thread binds to all addresses are bound to the node's advertised address instead:
+/// ros::start() then opens its XML-RPC and TCPROS ports on that address only. It acts if the user chose the address, by
+/// ROS_HOSTNAME, ROS_IP, `__hostname:=` or `__ip:=`. The sockets stay bound to all addresses if the name has several
+/// addresses, or a loopback address that other machines do not know (as in Debian's /etc/hosts), and, with a warning,
+/// if the name does not belong to this machine. Make it after ros::init().
 class AdvertisedAddress {
  public:
   AdvertisedAddress();
@@ -19,11 +19,12 @@ class AdvertisedAddress {
   AdvertisedAddress(const AdvertisedAddress&) = delete;
   AdvertisedAddress& operator=(const AdvertisedAddress&) = delete;
 
-  /// Binds a socket to the advertised address, with the port of `wildcard`; false when it is to be bound as asked.
+  /// Binds a socket to the advertised address, with the port of `wildcard`; false if the socket is to be bound as
+  /// requested.
   bool bind_instead(int descriptor, const sockaddr* wildcard);
 
  private:
-  const std::string host_;  // empty when the user chose none
+  const std::string host_;  // empty if the user did not choose one
   bool warned_ = false;
 };
 

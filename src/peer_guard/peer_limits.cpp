@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each function here stands in place of one of xmlrpcpp or cpp_common, and calls that.
+// Each function here replaces a function of xmlrpcpp or cpp_common, and calls the original.
 #include "peer_limits.hpp"
 
 #include <dlfcn.h>
@@ -20,11 +20,11 @@
 namespace bubblesim {
 namespace {
 
-/// The definition that the loader would have taken without ours. A member function takes its object first.
+/// The definition that the loader would use without ours. A member function takes its object first.
 template <class Function>
 Function* replaced(const char* symbol) {
   void* found = dlsym(RTLD_NEXT, symbol);
-  if (found == nullptr) throw std::runtime_error(std::string("no roscpp that is known here: it lacks ") + symbol);
+  if (found == nullptr) throw std::runtime_error(std::string("unknown version of roscpp: missing symbol ") + symbol);
   return reinterpret_cast<Function*>(found);
 }
 
@@ -63,7 +63,7 @@ class OneDeeper {
 
 bool is_array(const XmlRpcValue& value) { return value.getType() == XmlRpcValue::TypeArray; }
 
-/// xmlrpcpp would call the outer one again for each that it finds within.
+/// xmlrpcpp would call the outer one again for each nested one.
 void refuse_nested_multicall(XmlRpcValue& params) {
   if (!is_array(params) || params.size() != 1 || !is_array(params[0])) return;
   for (int i = 0; i < params[0].size(); ++i) {
@@ -71,7 +71,7 @@ void refuse_nested_multicall(XmlRpcValue& params) {
     if (!call.hasMember("methodName")) continue;
     XmlRpcValue& name = call["methodName"];
     if (name.getType() == XmlRpcValue::TypeString && static_cast<std::string&>(name) == "system.multicall") {
-      throw XmlRpc::XmlRpcException("system.multicall: it cannot call itself");
+      throw XmlRpc::XmlRpcException("system.multicall: cannot call itself");
     }
   }
 }

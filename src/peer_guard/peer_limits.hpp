@@ -5,15 +5,15 @@
 
 namespace bubblesim {
 
-/// A request or an answer of XML-RPC that is larger ends its connection.
+/// A larger XML-RPC request or response closes its connection.
 constexpr std::size_t kLargestXmlRpc = std::size_t{16} << 20;  // bytes
-/// Values that XML-RPC nests deeper are not read.
+/// More deeply nested XML-RPC values are rejected.
 constexpr int kDeepestXmlRpc = 100;
 
-/// What roscpp's libraries leave to peers without these limits: they recurse as deeply as an XML-RPC value is nested,
-/// without end for a system.multicall in a system.multicall, buffer as much as is sent, and read up to a megabyte
-/// behind a TCPROS header whose lengths lie. The limits hold from the start of the process; this makes sure of it.
-/// Throws std::runtime_error when the libraries are others than those that the limits were made for.
+/// Without these limits, peers can make roscpp's libraries recurse as deeply as an XML-RPC value is nested (without end
+/// for a system.multicall in a system.multicall), buffer everything that is sent, and read up to a megabyte past a
+/// TCPROS header with wrong lengths. The limits are active from the start of the process; this function checks that.
+/// Throws std::runtime_error for versions of the libraries that the limits were not made for.
 void check_peer_limits();
 
 }  // namespace bubblesim

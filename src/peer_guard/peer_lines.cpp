@@ -20,14 +20,14 @@ class LineBudget {
  public:
   explicit LineBudget(const char* about) : about_(about) {}
 
-  /// Whether one more may be printed. Any thread.
+  /// Whether one more line may be printed. Thread-safe.
   bool take() {
     constexpr int kLines = 10;
     constexpr std::chrono::minutes kPeriod(1);
     const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
     if (printed_ == 0 || now - begin_ >= kPeriod) {
-      if (left_out_ > 0) std::fprintf(stderr, "%d lines about %s were left out\n", left_out_, about_);
+      if (left_out_ > 0) std::fprintf(stderr, "%d more lines about %s were suppressed\n", left_out_, about_);
       begin_ = now;
       printed_ = left_out_ = 0;
     }
@@ -35,7 +35,7 @@ class LineBudget {
       ++printed_;
       return true;
     }
-    if (left_out_++ == 0) std::fprintf(stderr, "more lines about %s are left out for a minute\n", about_);
+    if (left_out_++ == 0) std::fprintf(stderr, "suppressing more lines about %s for one minute\n", about_);
     return false;
   }
 
@@ -47,7 +47,7 @@ class LineBudget {
   int left_out_ = 0;
 };
 
-/// Of xmlrpcpp, which prints to stderr without levels.
+/// The lines of xmlrpcpp, which prints to stderr without log levels.
 class XmlRpcLines : public XmlRpc::XmlRpcErrorHandler {
  public:
   void error(const char* msg) override {
@@ -63,7 +63,7 @@ decltype(backend::function_print) print_as_before = nullptr;
 
 void print_within_budget(void* logger, ros::console::Level level, const char* text, const char* file,
                          const char* function, int line) {
-  // They live as long as the process: roscpp's threads may log until its end.
+  // Never destroyed: roscpp's threads may log until the process ends.
   static auto* const budget = std::make_unique<LineBudget>("connections of peers").release();
   const bool is_of_roscpp = std::strstr(file, "/libros/") != nullptr || std::strstr(file, "header.cpp") != nullptr;
   if (level >= ros::console::levels::Warn && is_of_roscpp && !budget->take()) return;

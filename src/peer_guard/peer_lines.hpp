@@ -3,9 +3,9 @@
 
 namespace bubblesim {
 
-/// Limits what roscpp's libraries log about connections, which anybody can open: of the lines of XML-RPC and of those
-/// of roscpp itself, ten each a minute are printed, then one that more are left out. /rosout still gets all of
-/// roscpp's. Call it after ros::init(), before other threads log.
+/// Limits the log lines of roscpp's libraries about connections, which any peer can open: prints ten lines per minute
+/// each of XML-RPC and of roscpp, then one line that more are suppressed. /rosout still gets all lines of roscpp.
+/// Call it after ros::init(), before other threads log.
 void limit_peer_lines();
 
 }  // namespace bubblesim

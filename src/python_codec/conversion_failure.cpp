@@ -11,7 +11,7 @@ namespace {
 
 constexpr Py_ssize_t kShownLetters = 40;
 
-/// repr() of a value, or nothing when that fails.
+/// repr() of a value, or empty if that fails.
 std::string repr(PyObject* value) {
   const Ref text = Ref::steal(PyObject_ASCII(value));
   const char* letters = text ? PyUnicode_AsUTF8(text.get()) : nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why and where inside a message a value could not be converted, and what was lost where it could.
+// Why and where in a message a value could not be converted, and what a conversion lost.
 #pragma once
 
 #include <Python.h>
@@ -18,11 +18,11 @@ struct Truncation {
   double value = 0;   ///< before it was truncated toward zero; the first one of an array
 };
 
-/// What a float may lose in an integer field without a word, such as 0.15 * 10^9 that is not quite whole.
+/// Largest loss of a float in an integer field without a report, such as 0.15 * 10^9, which is not quite whole.
 constexpr double kUnnoticedTruncation = 1e-3;
 
-/// Filled from the inside out while a failed conversion returns through the fields that it was in: nothing is spent on
-/// paths as long as all goes well. The functions that return a bool return false, so that they can be returned.
+/// Filled from the inside out while a failed conversion returns through its fields: successful conversions spend
+/// nothing on paths. The functions that return a bool return false, for use in return statements.
 class ConversionFailure {
  public:
   bool set(std::string reason);
@@ -31,12 +31,12 @@ class ConversionFailure {
   bool inside(std::string_view field);
   bool inside(std::size_t index);
 
-  /// Notes a truncation in the field that is being converted, once for all elements of an array of numbers.
+  /// Records a truncation in the current field, once for all elements of an array of numbers.
   void truncated(double value);
   std::size_t truncation_count() const { return truncations_.size(); }
-  /// The truncations from `first` on were in this field.
+  /// Puts the truncations from `first` on into this field.
   void truncated_inside(std::size_t first, std::string_view field);
-  /// Of the truncations from `first` on, keeps one of each field: those of an array's elements.
+  /// Of the truncations from `first` on, keeps one per field, for the elements of an array.
   void unite_truncations(std::size_t first);
   std::vector<Truncation> take_truncations() { return std::move(truncations_); }
 
@@ -49,11 +49,11 @@ class ConversionFailure {
   std::vector<Truncation> truncations_;
 };
 
-/// A value as error texts show it: "str 'abc'", "list of 3", "float 1.5".
+/// A value for error messages: "str 'abc'", "list of 3", "float 1.5".
 std::string describe(PyObject* value);
 
-/// Clears a Python exception that only says "wrong type or value", for which there will be a better text. Returns false
-/// and keeps it when it says anything else.
+/// Clears a Python exception that only means "wrong type or value", which gets a better text. Returns false and keeps
+/// any other exception.
 bool clear_conversion_error();
 
 }  // namespace bubblesim::bindings

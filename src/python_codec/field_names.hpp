@@ -12,10 +12,10 @@
 
 namespace bubblesim::bindings {
 
-/// Indexed by Field::key; nullptr where a name was not needed yet.
+/// Indexed by Field::key; nullptr for a name not used yet.
 extern std::vector<PyObject*> interned_names;
 
-/// Makes the missing entry. nullptr with a Python exception when memory is out.
+/// Makes the missing entry. Returns nullptr with a Python exception if out of memory.
 PyObject* intern_name(std::uint32_t key, std::string_view name);
 
 /// A borrowed reference that stays valid as long as the interpreter.

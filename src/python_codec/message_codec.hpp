@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Translates between Python dicts and ROS wire bytes, for every message type alike. The GIL must be held.
+// Translates between Python dicts and ROS wire bytes, for every message type. The GIL must be held.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,7 +10,7 @@
 
 namespace bubblesim::bindings {
 
-/// Once in the process, before all else here. Throws pybind11::error_already_set when NumPy cannot be imported.
+/// Call it once, before everything else here. Throws pybind11::error_already_set if NumPy cannot be imported.
 inline void init_message_codec() {
   if (!prepare_codec()) throw pybind11::error_already_set();
 }
@@ -22,8 +22,8 @@ inline void init_message_codec() {
 ///   time, duration: seconds as a number, {secs, nsecs} or {sec, nanosec}
 ///   arrays of numbers: buffers (numpy, array, memoryview) and sequences; uint8[] and int8[] also bytes, bytearray and
 ///   str (Latin-1)               other arrays: sequences
-/// Throws pybind11::error_already_set (MessageError) with type, field path, expected and found; `out` then holds a
-/// part. Returns where a float lost more than kUnnoticedTruncation.
+/// Throws pybind11::error_already_set (MessageError) with type, field path, expected and found value; `out` then holds
+/// a part. Returns the fields where a float lost more than kUnnoticedTruncation.
 inline std::vector<Truncation> encode(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out) {
   std::vector<Truncation> truncations;
   if (!encode_message(type, message, out, &truncations)) throw pybind11::error_already_set();
@@ -40,8 +40,8 @@ inline pybind11::object to_python(const std::vector<Truncation>& truncations) {
   return list;
 }
 
-/// The dict of a message's bytes: arrays of numbers become numpy arrays that own their data, uint8[] becomes bytes.
-/// Throws pybind11::error_already_set (MessageError) when the bytes are too few or too many for the type.
+/// Decodes a message to a dict: arrays of numbers become numpy arrays that own their data, uint8[] becomes bytes.
+/// Throws pybind11::error_already_set (MessageError) if there are too few or too many bytes for the type.
 inline pybind11::object decode(const messages::MessageType& type, messages::WireView bytes, CodecOptions options = {}) {
   PyObject* message = decode_message(type, bytes, options);
   if (message == nullptr) throw pybind11::error_already_set();

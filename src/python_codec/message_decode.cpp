@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The walk from wire bytes to a dict.
+// Decodes wire bytes to a dict.
 #include <string>
 #include <utility>
 
@@ -17,14 +17,14 @@ using messages::FieldKind;
 using messages::MessageType;
 using messages::WireView;
 
-/// Elements without content (std_msgs/Empty[]) cost a sender four bytes however many there are.
+/// Elements without content (std_msgs/Empty[]) cost the sender four bytes for any number of them.
 constexpr std::uint32_t kMostEmptyElements = 1U << 16U;
 
 class Decoder {
  public:
   Decoder(WireView bytes, CodecOptions options) : bytes_(bytes), options_(options) {}
 
-  /// All functions return an empty object when `failure` says why or a Python exception is set.
+  /// All functions return an empty object if `failure` has the reason or a Python exception is set.
   ConversionFailure failure;
 
   Ref message(const MessageType& type) {
@@ -54,12 +54,12 @@ class Decoder {
       if (!has(sizeof(count))) return {};
       count = bytes_.get<std::uint32_t>();
     }
-    // Before memory for them is taken: a wrong count may be anything.
+    // Before allocating: a wrong count may have any value.
     const std::size_t least_size = default_element_size(field);
     if (!has(count * least_size)) return {};
     if (is_number(field.kind)) return Ref::steal(decode_numbers(field.kind, bytes_.take(count * least_size), count));
     if (least_size == 0 && count > kMostEmptyElements) {
-      failure.set("an array of " + std::to_string(count) + " elements without content");
+      failure.set("an array of " + std::to_string(count) + " empty elements");
       return {};
     }
     return list(field, count);
@@ -119,7 +119,7 @@ class Decoder {
     if (!has(sizeof(std::uint32_t))) return {};
     const auto size = bytes_.get<std::uint32_t>();
     if (!has(size)) return {};
-    // Surrogates stand for bytes that are no UTF-8; encoding turns them back.
+    // Surrogates stand for bytes that are not UTF-8; encoding converts them back.
     const auto* letters = reinterpret_cast<const char*>(bytes_.take(size));
     return Ref::steal(PyUnicode_DecodeUTF8(letters, size, "surrogateescape"));
   }
@@ -147,8 +147,8 @@ class Decoder {
   }
 
   bool has(std::size_t size) {
-    return size <= bytes_.left() || failure.set("the message ends early: " + std::to_string(size) +
-                                                " more bytes expected, " + std::to_string(bytes_.left()) + " left");
+    return size <= bytes_.left() || failure.set("the message is truncated: expected " + std::to_string(size) +
+                                                " more bytes, found " + std::to_string(bytes_.left()));
   }
 
   WireView bytes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The walk from a dict to wire bytes.
+// Encodes a dict to wire bytes.
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -23,18 +23,18 @@ class Encoder {
  public:
   explicit Encoder(messages::WireBuffer& out) : out_(out) {}
 
-  /// All functions return false when `failure` says why or a Python exception is set.
+  /// All functions return false if `failure` has the reason or a Python exception is set.
   ConversionFailure failure;
 
   bool message(const MessageType& type, PyObject* value) {
     if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
-    const Ref held = Ref::borrow(value);  // own code of some value may drop it
+    const Ref held = Ref::borrow(value);  // Python code of a value may release it
     Py_ssize_t used = 0;
     Py_ssize_t position = 0;
     for (const Field& field : type.fields) {
       PyObject* const name = python_name(field);
       if (name == nullptr) return false;
-      // Dicts keep the order of their making, which mostly is that of the fields: try the next entry before searching.
+      // Dicts keep insertion order, usually that of the fields: try the next entry before searching.
       Py_ssize_t next = position;
       PyObject* key = nullptr;
       PyObject* item = nullptr;
@@ -70,7 +70,7 @@ class Encoder {
     std::size_t truncated = before;
     for (Py_ssize_t i = 0; i < count; ++i) {
       // Reading an item may run code that changes the list.
-      if (i >= PySequence_Fast_GET_SIZE(items.get())) return failure.set("the list became shorter while it was read");
+      if (i >= PySequence_Fast_GET_SIZE(items.get())) return failure.set("the list was shortened while it was read");
       if (!element(field, PySequence_Fast_GET_ITEM(items.get(), i))) {
         return failure.inside(static_cast<std::size_t>(i));
       }
@@ -171,7 +171,7 @@ class Encoder {
                          (did_you_mean(letters, names).empty() ? ";" : "") +
                          " its fields: " + (valid.empty() ? "none" : valid));
     }
-    return true;  // a value's own code changed the dict meanwhile: all that is there now was written or is known
+    return true;  // Python code of a value changed the dict: all current entries are known fields
   }
 
   messages::WireBuffer& out_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The codec with Python's own interface: a failure is a Python exception that is set. message_codec.hpp is the same for
-// callers that use pybind11, and says what is accepted.
+// The codec with Python's C interface: a failure sets a Python exception. message_codec.hpp is the same for callers
+// that use pybind11, and documents the accepted values.
 #pragma once
 
 #include <Python.h>
@@ -14,11 +14,11 @@
 
 namespace bubblesim::bindings {
 
-/// What decode() makes of a time or a duration. encode() takes all of them.
+/// Form of times and durations from decode(). encode() accepts all of them.
 enum class TimeForm : std::uint8_t {
   kSecsNsecs,   ///< {'secs': int, 'nsecs': int}
   kSecNanosec,  ///< {'sec': int, 'nanosec': int}
-  kFloat,       ///< seconds; a double has no room for the nanoseconds of today's date
+  kFloat,       ///< seconds; a double cannot hold today's date in nanoseconds
 };
 
 struct CodecOptions {
@@ -28,11 +28,11 @@ struct CodecOptions {
 /// The Python class bubblesim.MessageError (a ValueError). A borrowed reference; nullptr before prepare_codec().
 PyObject* message_error();
 
-/// Once in the process, before all else here. False: an exception is set.
+/// Call it once, before everything else here. False: an exception is set.
 bool prepare_codec();
 
 /// Appends to `out`. False: an exception is set, and `out` holds a part of the message. `truncations`, if given, gets
-/// the integer fields that took a float whose fraction was noticeable.
+/// the integer fields that got a float with a noticeable fraction.
 bool encode_message(const messages::MessageType& type, PyObject* message, messages::WireBuffer& out,
                     std::vector<Truncation>* truncations = nullptr);
 

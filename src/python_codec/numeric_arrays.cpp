@@ -56,7 +56,7 @@ NumpyKind numpy_kind(FieldKind kind) {
   }
 }
 
-/// Calls `action` with a value of the C++ type of a kind of numbers.
+/// Calls `action` with a value of the C++ type for a kind of numbers.
 template <class Action>
 bool with_type(FieldKind kind, Action action) {
   switch (kind) {
@@ -96,11 +96,11 @@ bool encode_bytes(const Field& field, std::string_view bytes, WireBuffer& out, C
   return true;
 }
 
-/// Texts as arrays of bytes, as scripts that treat uint8[] as strings hand them over: one byte for each letter.
+/// Encodes a str as an array of bytes, for scripts that treat uint8[] as strings: one byte per character.
 bool encode_text(const Field& field, PyObject* text, WireBuffer& out, ConversionFailure& failure) {
   const Ref bytes = Ref::steal(PyUnicode_AsLatin1String(text));
   if (!bytes) {
-    return clear_conversion_error() && failure.expected(array_name(field) + " or text of letters below 256", text);
+    return clear_conversion_error() && failure.expected(array_name(field) + " or str of characters below 256", text);
   }
   const auto size = static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.get()));
   return encode_bytes(field, {PyBytes_AS_STRING(bytes.get()), size}, out, failure);
@@ -113,7 +113,7 @@ bool encode_items(const Field& field, PyObject* items, WireBuffer& out, Conversi
   std::uint8_t* place = out.extend(static_cast<std::size_t>(count) * sizeof(To));
   for (Py_ssize_t i = 0; i < count; ++i, place += sizeof(To)) {
     // Reading an item may run code that changes the list.
-    if (i >= PySequence_Fast_GET_SIZE(items)) return failure.set("the list became shorter while it was read");
+    if (i >= PySequence_Fast_GET_SIZE(items)) return failure.set("the list was shortened while it was read");
     To number{};
     if (!read_number(PySequence_Fast_GET_ITEM(items, i), number, failure)) {
       return failure.inside(static_cast<std::size_t>(i));
@@ -158,7 +158,7 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
                          PyArray_ISNOTSWAPPED(array);
   if (same_type) {
     const Ref contiguous =
-        Ref::steal(reinterpret_cast<PyObject*>(PyArray_GETCONTIGUOUS(array)));  // the array itself if it is
+        Ref::steal(reinterpret_cast<PyObject*>(PyArray_GETCONTIGUOUS(array)));  // the array itself if it is contiguous
     if (!contiguous) return false;
     auto* source = reinterpret_cast<PyArrayObject*>(contiguous.get());
     if (!begin_array(field, static_cast<std::size_t>(PyArray_SIZE(source)), out, failure)) return false;
@@ -203,7 +203,7 @@ bool begin_array(const Field& field, std::size_t count, WireBuffer& out, Convers
 
 Ref as_items(const Field& field, PyObject* value, ConversionFailure& failure) {
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
-  const bool is_empty_table = PyDict_Check(value) && PyDict_GET_SIZE(value) == 0;  // of Lua, which has no other list
+  const bool is_empty_table = PyDict_Check(value) && PyDict_GET_SIZE(value) == 0;  // from Lua, without lists
   if (is_text || (!PySequence_Check(value) && !is_empty_table)) {
     failure.expected(array_name(field) + " as a sequence", value);
     return {};
@@ -250,7 +250,7 @@ bool is_table_of(const Field& field, PyObject* value) {
 bool encode_table(const Field& field, PyObject* value, WireBuffer& out, ConversionFailure& failure) {
   auto* array = reinterpret_cast<PyArrayObject*>(value);
   if (!begin_array(field, static_cast<std::size_t>(PyArray_DIM(array, 0)), out, failure)) return false;
-  Field numbers;  // of a known length, which is not written
+  Field numbers;  // of known length, so the length is not written
   numbers.kind = field.message->fields[0].kind;
   numbers.array = ArrayKind::kFixed;
   numbers.fixed_length = static_cast<std::uint32_t>(PyArray_SIZE(array));
@@ -266,7 +266,7 @@ PyObject* decode_numbers(FieldKind kind, const std::uint8_t* bytes, std::size_t 
   if (array == nullptr) return nullptr;
   auto* values = static_cast<std::uint8_t*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)));
   if (kind == FieldKind::kBool) {
-    // NumPy relies on 0 and 1; on the wire any byte may come.
+    // NumPy relies on 0 and 1; the wire may have any byte.
     for (std::size_t i = 0; i < count; ++i) values[i] = bytes[i] != 0 ? 1 : 0;
   } else if (count != 0) {
     std::memcpy(values, bytes, count * wire_size(kind));

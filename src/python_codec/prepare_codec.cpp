@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the codec keeps for the whole process.
+// The process-wide state of the codec.
 #include "message_walk.hpp"
 #include "numeric_arrays.hpp"
 
@@ -14,7 +14,8 @@ bool prepare_codec() {
   if (message_error_class != nullptr) return true;
   if (!load_numpy()) return false;
   message_error_class = PyErr_NewExceptionWithDoc(
-      "bubblesim.MessageError", "A dict that does not fit its message type, or bytes that do not; says where and why.",
+      "bubblesim.MessageError",
+      "Conversion error of a message: a dict or bytes that do not fit the message type, with field and cause.",
       PyExc_ValueError, nullptr);
   return message_error_class != nullptr;
 }

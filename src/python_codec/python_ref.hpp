@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An owned reference to a Python object. The codec has its own instead of pybind11's object: that header alone takes
-// more time and memory to compile than all of the codec.
+// An owned reference to a Python object. Replaces pybind11's object, whose header alone takes more time and memory to
+// compile than the whole codec.
 #pragma once
 
 #include <Python.h>
@@ -21,9 +21,9 @@ class Ref {
   Ref& operator=(const Ref&) = delete;
   ~Ref() { Py_XDECREF(object_); }
 
-  /// Takes over a new reference; nullptr gives an empty one.
+  /// Takes ownership of a new reference; nullptr gives an empty one.
   static Ref steal(PyObject* object) { return Ref(object); }
-  /// Keeps an object of others alive meanwhile.
+  /// Keeps another owner's object alive.
   static Ref borrow(PyObject* object) {
     Py_XINCREF(object);
     return Ref(object);

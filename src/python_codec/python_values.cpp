@@ -6,10 +6,10 @@
 namespace bubblesim::bindings {
 namespace {
 
-/// The one number of NumPy that will no longer be an index.
+/// The only NumPy number that will not be an index in the future.
 bool is_numpy_bool(PyObject* value) { return std::strcmp(Py_TYPE(value)->tp_name, "numpy.bool_") == 0; }
 
-/// float, and those of NumPy, of which only float64 is one.
+/// Whether it is a float or a NumPy float, of which only float64 is a float.
 bool is_float(PyObject* value) {
   constexpr std::string_view kNumpyFloat = "numpy.float";
   const std::string_view type = Py_TYPE(value)->tp_name;
@@ -25,7 +25,7 @@ Ref as_int(PyObject* value, std::string_view expected, ConversionFailure& failur
     number = PyNumber_Index(value);
   } else if (is_float(value)) {
     const double real = PyFloat_AsDouble(value);
-    number = PyLong_FromDouble(real);  // toward zero; an exception for infinity and what is no number
+    number = PyLong_FromDouble(real);  // toward zero; an exception for infinity and NaN
     if (number != nullptr && std::abs(real - std::trunc(real)) > kUnnoticedTruncation) failure.truncated(real);
   } else {
     failure.expected(expected, value);
@@ -114,11 +114,11 @@ bool read_string(PyObject* value, std::string_view& bytes, PyObject*& owner, Con
   if (PyUnicode_Check(value)) {
     Py_ssize_t size = 0;
     if (const char* text = PyUnicode_AsUTF8AndSize(value, &size)) {
-      bytes = {text, static_cast<std::size_t>(size)};  // the str keeps its UTF-8 form
+      bytes = {text, static_cast<std::size_t>(size)};  // the str owns its UTF-8 form
       return true;
     }
     if (!clear_conversion_error()) return false;
-    // Surrogates: what decoding made of bytes that are no UTF-8 becomes these bytes again.
+    // Surrogates: decoded bytes that are not UTF-8 become these bytes again.
     owner = PyUnicode_AsEncodedString(value, "utf-8", "surrogateescape");
     if (owner == nullptr) return clear_conversion_error() && failure.expected("string that UTF-8 can express", value);
     value = owner;

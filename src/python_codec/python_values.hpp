@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single Python values as the C++ values that lie on the wire. The functions return false after they have described the
-// failure, or when another Python exception is on its way. They may run Python code of the value's class.
+// Single Python values as C++ values for the wire. The functions return false if they described the failure, or if
+// another Python exception is set. They may run Python code of the value's class.
 #pragma once
 
 #include <Python.h>
@@ -31,7 +31,7 @@ std::string expectation() {
   }
 }
 
-/// Takes over `from` if `to` can hold it: integers exactly, floats as floats rounded but never to infinity, as integers
+/// Converts `from` if `to` can hold it: integers exactly, floats to floats rounded but never to infinity, to integers
 /// truncated toward zero.
 template <class To, class From>
 bool narrow(From from, To& to) {
@@ -69,14 +69,14 @@ bool read_signed(PyObject* value, std::string_view expected, std::int64_t& numbe
 
 template <class T>
 bool read_number_slowly(PyObject* value, T& number, ConversionFailure& failure) {
-  // Code of the value's own class may drop the last other reference to it.
+  // Python code of the value's class may release the last other reference to it.
   const Ref held = Ref::borrow(value);
   if constexpr (std::is_floating_point_v<T>) {
     double wide = 0;
     if (!read_double(value, expectation<T>(), wide, failure)) return false;
     return narrow(wide, number) || failure.expected(expectation<T>() + " (finite or inf)", value);
   } else if constexpr (std::is_same_v<T, bool>) {
-    double wide = 0;  // 0.5 is no bool, where it would be an integer
+    double wide = 0;  // 0.5 is not a valid bool, but a valid integer
     if (!read_double(value, expectation<T>(), wide, failure)) return false;
     return narrow(wide, number) || failure.expected(expectation<T>(), value);
   } else {
@@ -92,7 +92,7 @@ bool read_number_slowly(PyObject* value, T& number, ConversionFailure& failure) 
   }
 }
 
-/// Any of bool, the integers and the floats.
+/// A bool, an integer or a float.
 template <class T>
 bool read_number(PyObject* value, T& number, ConversionFailure& failure) {
   if constexpr (std::is_floating_point_v<T>) {

@@ -26,7 +26,7 @@ std::vector<int> open_descriptors() {
   return descriptors;
 }
 
-/// Port of the other end; nothing when the descriptor is no connected IP socket.
+/// Port of the other end; empty if the descriptor is not a connected IP socket.
 std::optional<std::uint32_t> peer_port(int descriptor) {
   sockaddr_storage address{};
   socklen_t length = sizeof(address);

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kMasterVariable = "ROS_MASTER_URI";
 constexpr const char* kUsualMaster = "http://localhost:11311";
 
-/// The URI that roscpp will take: the last `__master:=` of the command line, else the environment's.
+/// The URI that roscpp will use: the last `__master:=` of the command line, otherwise the environment's.
 std::string chosen_master(int argc, char** argv) {
   constexpr std::string_view kRemapping = "__master:=";
   std::string uri = std::getenv(kMasterVariable);
@@ -32,19 +32,19 @@ std::string chosen_master(int argc, char** argv) {
 }  // namespace
 
 void init_node(int& argc, char** argv, const std::string& default_name) {
-  if (ros::isInitialized()) throw std::logic_error("a process has one ROS node: there is a bridge already");
+  if (ros::isInitialized()) throw std::logic_error("a process can have only one ROS node: a bridge exists already");
   setenv(kMasterVariable, kUsualMaster, 0);
   const std::string uri = chosen_master(argc, argv);
   std::string host;
   std::uint32_t port = 0;
   if (!ros::network::splitURI(uri, host, port) || host.empty() || port == 0 || port > 65535) {
-    throw std::invalid_argument("unusable ROS master URI '" + uri + "': set " + kMasterVariable +
-                                " to something like " + kUsualMaster);
+    throw std::invalid_argument("invalid ROS master URI '" + uri + "': set " + kMasterVariable + " to something like " +
+                                kUsualMaster);
   }
   try {
     ros::init(argc, argv, default_name, ros::init_options::NoSigintHandler);
   } catch (const ros::Exception& error) {
-    throw std::invalid_argument(std::string("unusable name for the ROS node: ") + error.what());
+    throw std::invalid_argument(std::string("invalid name for the ROS node: ") + error.what());
   }
   check_peer_limits();
   limit_peer_lines();

@@ -44,7 +44,7 @@ using messages::WireBuffer;
 
 constexpr std::chrono::milliseconds kAnswerTimeout{800};
 constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
-constexpr std::chrono::milliseconds kLastCalls{100};      // those given up, or held up by a master that is gone
+constexpr std::chrono::milliseconds kLastCalls{100};      // for calls that timed out, or that wait for a lost master
 constexpr std::chrono::milliseconds kLastWords{200};
 
 }  // namespace
@@ -80,7 +80,7 @@ struct RosBridge::Impl {
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
   Parameters parameters{master};
 
-  mutable std::mutex urgent_mutex;  // guards what follows
+  mutable std::mutex urgent_mutex;  // guards urgent
   std::vector<WaitingCount> urgent;
 };
 
@@ -89,7 +89,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
       master({[this] { return watch.check(); }, [this] { return refusal(); },
               [] {
                 say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
-                    "; start one with 'roscore' -- the simulation runs on without ROS and connects as soon "
+                    "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
                     "as a master appears");
               },
               [this] { on_connected(); },
@@ -108,7 +108,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
 }
 
 std::string RosBridge::Impl::refusal() {
-  use_sim_time.take();  // also of a launch file whose node is refused
+  use_sim_time.take();  // also if the node of the launch file is refused
   if (options.replace) end_other_node_of_this_name();
   return options.replace ? std::string() : other_node_of_this_name();
 }
@@ -135,12 +135,12 @@ RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
 }
 
 RosBridge::~RosBridge() {
-  // Here and not where roscpp lets go of them: scripts' callbacks must die on the simulation's thread.
+  // Here, not where roscpp releases them: callbacks of scripts must be destroyed on the simulation thread.
   impl_->topics.silence();
   impl_->services.silence();
   if (leave() && impl_->services.finish_calls(kLastCalls)) return;
-  say("the ROS master at " + master_uri() + " does not answer: leaving without taking this node off it");
-  static_cast<void>(impl_.release());  // the thread that is left behind still uses it
+  say("the ROS master at " + master_uri() + " does not answer: ending without unregistering this node");
+  static_cast<void>(impl_.release());  // the remaining thread still uses it
 }
 
 bool RosBridge::leave() { return impl_->master.stop(); }
@@ -233,7 +233,7 @@ std::optional<std::string> RosBridge::search_parameter(const std::string& name) 
 }
 
 void RosBridge::process_input() {
-  if (impl_->processing_input) return;  // called by a message's callback: the outer call goes on with the rest
+  if (impl_->processing_input) return;  // called by a message's callback: the outer call processes the rest
   impl_->processing_input = true;
   impl_->queue.callAvailable(ros::WallDuration(0));
   impl_->processing_input = false;
@@ -255,7 +255,7 @@ void RosBridge::publish_clock(double sim_time) {
 void RosBridge::publish_diagnostics() {
   if (!impl_->options.take_report) return;
   if (impl_->master.run([impl = impl_.get()] { impl->diagnostics.publish(); }, kLastWords)) {
-    std::this_thread::sleep_for(kLastWords);  // roscpp sends on a thread of its own, and nobody can ask it when
+    std::this_thread::sleep_for(kLastWords);  // roscpp sends on its own thread and does not report when it is done
   }
 }
 

@@ -42,11 +42,11 @@ void RosClock::register_at_master() {
   publisher_->register_at_master();
 }
 
-/// As roscpp does when it starts. Once its own time follows /clock it cannot be told to stop: that is left as it is,
-/// for it only stamps log messages.
+/// As roscpp does when it starts. Once its own time follows /clock it cannot be stopped; it keeps following, because it
+/// only stamps log messages.
 void RosClock::read_use_sim_time() {
   RpcAnswer answer = ask_master("getParam", {"/use_sim_time"});
-  if (!answer.answered) return;  // gone again: what the last one said stands
+  if (!answer.answered) return;  // no master again: keep the last value
   use_sim_time_ =
       answer.succeeded && answer.value.getType() == XmlRpc::XmlRpcValue::TypeBoolean && static_cast<bool>(answer.value);
   if (!use_sim_time_ || ros::Time::isSimTime() || follows_.exchange(true)) return;
@@ -64,7 +64,7 @@ void RosClock::check_type(const std::string& other_topic, const messages::Messag
 
 void RosClock::say_left_to_script() {
   if (std::exchange(said_script_, true)) return;
-  say("a script advertises " + topic() + ": the simulator leaves publishing it to the script");
+  say("a script advertises " + topic() + ": the simulator does not publish it");
 }
 
 void RosClock::set(double sim_time) {
@@ -81,12 +81,12 @@ void RosClock::publish() {
 }
 
 bool RosClock::reaches_others() const {
-  const bool to_itself = follows_ || ros::Time::isSimTime();  // roscpp's subscription or ours, to come if not there yet
+  const bool to_itself = follows_ || ros::Time::isSimTime();  // roscpp's subscription or ours, possibly still pending
   return !use_sim_time_ || publisher_->subscribers() > (to_itself ? 1U : 0U);
 }
 
 BridgeTime RosClock::now() const {
-  // Before the master was asked, the wall clock is what any other node would use too.
+  // Before the first answer of the master, use wall time, as any other node would.
   if (use_sim_time_) return to_bridge_time(sim_time_);
   const auto wall = std::chrono::system_clock::now().time_since_epoch();
   return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());

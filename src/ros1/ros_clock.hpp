@@ -13,23 +13,23 @@
 
 namespace bubblesim {
 
-/// ROS time as this node tells it on /clock and takes it itself.
+/// ROS time, as this node publishes it on /clock and uses it.
 class RosClock {
  public:
-  /// What comes on /clock is heard when `queue` is called.
+  /// Messages on /clock are processed when `queue` is called.
   explicit RosClock(ros::CallbackQueue& queue);
 
   const std::string& topic() const { return publisher_->topic(); }
 
-  /// On the master thread: when roscpp has started, and when there is another master.
+  /// On the master thread: after roscpp has started, and after each change of the master.
   void register_at_master();
   void read_use_sim_time();
 
-  /// On the simulation's thread, as everything below. Throws std::invalid_argument for another type on the topic.
+  /// On the simulation thread, like everything below. Throws std::invalid_argument for another type on the topic.
   void check_type(const std::string& topic, const messages::MessageType& type) const;
-  /// Says once that a script publishes the topic.
+  /// Logs once that a script publishes the topic.
   void say_left_to_script();
-  /// What now() returns under /use_sim_time, from here on, and publish() publishes [s].
+  /// Sets the time that now() returns under /use_sim_time and that publish() publishes [s].
   void set(double sim_time);
   void publish();
   messages::BridgeTime now() const;
@@ -42,7 +42,7 @@ class RosClock {
   bool said_script_ = false;
   std::int64_t sim_time_ = 0;  // [ns]
   std::atomic<bool> use_sim_time_{false};
-  std::atomic<bool> follows_{false};  // roscpp's own time does, from a subscription of ours
+  std::atomic<bool> follows_{false};  // roscpp's own time follows /clock, from our subscription
 };
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries the phases of a step over to the Python object that keeps the scripts
+// Calls the Python object that runs the scripts in each phase of a step
 // (bubblesim.scripting.host.host.ScriptHost).
 #include "bubblesim/child_scripts.hpp"
 
@@ -20,7 +20,7 @@ namespace py = pybind11;
 
 using ScriptFiles = std::vector<std::pair<std::string, std::filesystem::path>>;  // by object path
 
-/// The scripts of a model at `path` and of the models in it.
+/// Returns the scripts of a model at `path` and of its nested models.
 ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
   ScriptFiles scripts;
   if (!model.child_script.empty()) scripts.emplace_back(path, model.child_script);
@@ -31,7 +31,7 @@ ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
   return scripts;
 }
 
-/// The scene's scripts with the replacements in their places.
+/// Returns the scene's scripts, with the replacements applied.
 ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& options) {
   const SceneTree& tree = simulation.world().tree();
   ScriptFiles scripts;
@@ -41,7 +41,7 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {
-      throw InvalidInput("the child script " + file.string() + " for " + path + " does not exist");
+      throw InvalidInput("file not found: " + file.string() + " (child script of " + path + ")");
     }
     auto script = scripts.begin();
     while (script != scripts.end() && script->first != path) ++script;
@@ -58,7 +58,7 @@ void with_python(Simulation& simulation, Action action) {
 
 }  // namespace
 
-/// As with_python(), and remembers how many scripts have failed.
+/// Like with_python(), and updates the number of failed scripts.
 template <class Action>
 void ChildScripts::with_host(Action action) {
   with_python(simulation_, [&] {
@@ -93,7 +93,7 @@ ChildScripts::ChildScripts(Simulation& simulation, messages::Bridge* bridge, con
       python_->close = control.attr("close");
     }
     python_->host.attr("start")();
-    // Looked up once, called in every step.
+    // Look these up once: they are called in every step.
     python_->process_input = python_->host.attr("process_input");
     python_->actuate = python_->host.attr("actuate");
     python_->sense = python_->host.attr("sense");
@@ -113,7 +113,7 @@ ChildScripts::~ChildScripts() {
       python_->host = py::object();
 }
 
-/// Also where there is no input: what was delivered before may have failed in a script.
+/// Also runs without input: earlier messages may have made a script fail.
 void ChildScripts::process_input() {
   with_host([&] { python_->process_input(); });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ChildScripts holds of Python.
+// The Python objects of ChildScripts.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,7 +13,7 @@ struct ChildScripts::Python {
   scripting::Interpreter interpreter;
   pybind11::object host;
   pybind11::object process_input;
-  pybind11::object publish;  // none without a bridge
+  pybind11::object publish;  // None without a bridge
   pybind11::object close;
   pybind11::object actuate;
   pybind11::object sense;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries the phases of a step over to the Python object that keeps the devices
+// Calls the Python object that runs the Gazebo plugins in each phase of a step
 // (bubblesim.gazebo_plugins.robots.GazeboPlugins).
 #include "bubblesim/gazebo_plugins.hpp"
 
@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 template <class Action>
 void with_devices(Simulation& simulation, Action action) {
-  scripting::with_python(simulation, "the devices", action);
+  scripting::with_python(simulation, "Gazebo plugins", action);
 }
 
 }  // namespace

@@ -15,14 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 namespace py = pybind11;
 
-/// Where the Python package lies relative to the program <prefix>/lib/bubblesim/sim, in a development and in an install
-/// space alike.
+/// The folder of the Python package, relative to the program <prefix>/lib/bubblesim/sim, in both development and
+/// install spaces.
 fs::path package_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "python3" / "dist-packages";
 }
 
-/// Scripts find the packages of the virtual environment that is active, or else of the one that the build was told of,
-/// after Debian's own. One made for another version of Python has no folder of this name and is left alone.
+/// Adds the packages of the active virtual environment, or of the one given at build time, after Debian's packages.
+/// An environment of another Python version has no folder of this name and is ignored.
 void add_packages_of_virtual_environment() {
   const char* active = std::getenv("VIRTUAL_ENV");
   const fs::path environment = active != nullptr && *active != '\0' ? active : BUBBLESIM_VIRTUAL_ENV;
@@ -36,7 +36,7 @@ void add_packages_of_virtual_environment() {
 
 std::atomic<bool> can_interrupt{false};
 
-/// Python's own handler of SIGINT is only ever called by interrupt(): the signal itself stays the program's.
+/// Only interrupt() calls Python's handler of SIGINT: the program handles the signal itself.
 void install_interruption() {
   struct sigaction own {};
   sigaction(SIGINT, nullptr, &own);
@@ -47,7 +47,7 @@ void install_interruption() {
 
 void check(const PyStatus& status, const char* what) {
   if (PyStatus_Exception(status) == 0) return;
-  throw std::runtime_error(std::string("Python could not start: ") + what + ": " +
+  throw std::runtime_error(std::string("cannot start Python: ") + what + ": " +
                            (status.err_msg != nullptr ? status.err_msg : "unknown error"));
 }
 
@@ -56,8 +56,8 @@ void start() {
   PyConfig_InitPythonConfig(&config);
   config.parse_argv = 0;
   config.install_signal_handlers = 0;  // the program handles SIGINT and SIGTERM itself
-  config.buffered_stdio = 0;           // what scripts print shows at once and in order with our own lines
-  // Python derives its library's place from its program's name.
+  config.buffered_stdio = 0;           // shows the output of scripts at once and in order with ours
+  // Python derives the folder of its library from its program's name.
   check(PyConfig_SetBytesString(&config, &config.program_name, BUBBLESIM_PYTHON), "its program name");
   const PyStatus status = Py_InitializeFromConfig(&config);
   PyConfig_Clear(&config);
@@ -83,7 +83,7 @@ Interpreter::Interpreter() {
 Interpreter::~Interpreter() {
   can_interrupt = false;
   released_.reset();
-  // Finalizing would wait for ever for a thread of a script that does not end.
+  // Finalizing would wait forever for a script's thread that does not end.
   try {
     if (py::module_::import("bubblesim.scripting.threads.thread_registry").attr("ended")().cast<bool>()) {
       Py_FinalizeEx();
@@ -92,7 +92,7 @@ Interpreter::~Interpreter() {
   } catch (const py::error_already_set& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
-  // The threads stay where they are, without the GIL, until the process is gone.
+  // The threads stay blocked, without the GIL, until the process ends.
 }
 
 void interrupt() {

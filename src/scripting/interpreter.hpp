@@ -8,8 +8,8 @@
 
 namespace bubblesim::scripting {
 
-/// Starts Python as /usr/bin/python3 would start, whatever `python3` comes first on PATH, and lets go of the GIL: take
-/// it around each use. Throws std::runtime_error when the `bubblesim` package cannot be found.
+/// Starts Python as /usr/bin/python3 starts, whatever `python3` is first on PATH, and releases the GIL: acquire it for
+/// each use. Throws std::runtime_error if the `bubblesim` package cannot be found.
 class Interpreter {
  public:
   Interpreter();
@@ -21,8 +21,8 @@ class Interpreter {
   std::unique_ptr<pybind11::gil_scoped_release> released_;
 };
 
-/// Has Python run the handler that bubblesim.scripting.host.interruption installed. A signal
-/// handler may call it, on the thread that made the interpreter.
+/// Makes Python run the handler installed by bubblesim.scripting.host.interruption. A signal handler may call it, on
+/// the thread that made the interpreter.
 void interrupt();
 
 }  // namespace bubblesim::scripting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How C++ calls what the simulator has in Python.
+// Calls from C++ to the simulator's Python code.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,8 +11,8 @@
 
 namespace bubblesim::scripting {
 
-/// Takes the GIL and calls. Meanwhile other Python threads may use the simulation, between this one's calls. A Python
-/// exception, which must not outlive the interpreter, becomes a plain one.
+/// Acquires the GIL and calls. Other Python threads may use the simulation whenever the call releases the GIL. Converts
+/// a Python exception, which must not outlive the interpreter, to a std::runtime_error.
 template <class Action>
 auto with_python(Simulation& simulation, const char* whose, Action action) {
   const AccessLock::Pause others_may_use_it(simulation.world().access());

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node's command line: what it takes, what it refuses, how it ends."""
+"""The node's command line: accepted and rejected arguments, and exit codes."""
 
 import os
 import re
@@ -50,17 +50,17 @@ def test_scenes_are_listed() -> None:
         (["ball", "--until", "-1"], "--until"),
         (["ball", "--until", "nan"], "--until"),
         (["ball", "--seed", "x"], "--seed"),
-        (["ball", "--speed", "fast"], "takes a number above 0 or 'max', found 'fast'"),
-        (["ball", "--speed", "0"], "takes a number above 0 or 'max', found '0'"),
-        (["ball", "--speed", "nan"], "takes a number above 0 or 'max', found 'nan'"),
-        (["ball", "--child-script", "x.py"], "takes OBJECT=FILE such as /Tricycle=my.py, found 'x.py'"),
-        (["ball", "--no-ros", "--child-script", "/Ball=/none.py"], "/none.py for /Ball does not exist"),
+        (["ball", "--speed", "fast"], "expected a number above 0 or 'max', found 'fast'"),
+        (["ball", "--speed", "0"], "expected a number above 0 or 'max', found '0'"),
+        (["ball", "--speed", "nan"], "expected a number above 0 or 'max', found 'nan'"),
+        (["ball", "--child-script", "x.py"], "expected OBJECT=FILE such as /Tricycle=my.py, found 'x.py'"),
+        (["ball", "--no-ros", "--child-script", "/Ball=/none.py"], "file not found: /none.py (child script of /Ball)"),
         (["ball", "--no-ros", "--child-script", "/Bal=/etc/hostname"], "did you mean /Ball?"),
-        (["nosuch", "--no-ros"], "no scene is named 'nosuch'"),
+        (["nosuch", "--no-ros"], "scene not found: 'nosuch'"),
         (["tricycel", "--no-ros"], "tricycle"),
         (["/none/such.sdf", "--no-ros"], "/none/such.sdf"),
-        (["dd.py", "--no-ros"], "dd.py: is a script, not a scene: name the .sdf file"),
-        (["my/robot.lua", "--no-ros"], "my/robot.lua: is a script, not a scene: name the .sdf file"),
+        (["dd.py", "--no-ros"], "dd.py: is a script, not a scene: give the .sdf file"),
+        (["my/robot.lua", "--no-ros"], "my/robot.lua: is a script, not a scene: give the .sdf file"),
         (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: is a file of CoppeliaSim"),
         (["a/room.simscene.xml", "--no-ros"], "a/room.simscene.xml: is a file of CoppeliaSim"),
     ],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the node tells about itself on /diagnostics, heard by rospy."""
+"""The node's messages on /diagnostics, received by rospy."""
 
 import json
 import subprocess
@@ -83,7 +83,7 @@ def test_slow_passes_and_a_failed_script_are_told(roscore: RosCore, heard: Heard
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
         heard.wait_for(SIMULATION, lambda level, text, _: level == WARN and text.endswith("wanted 1.00"), "slowness")
         roscore.run("rostopic", "pub", "-1", "/end", "std_msgs/Empty")
-        told = "child scripts disabled by an error: 1"
+        told = "child scripts disabled after an error: 1"
         heard.wait_for(SIMULATION, lambda level, text, _: level == ERROR and told in text, "the failed script")
         assert node.end() == 3  # a script failed
     assert heard.all(SIMULATION)[-1][4]["Script errors"] == "1"

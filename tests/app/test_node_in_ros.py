@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node among other ROS nodes: how it pauses, ends and gets on without a master."""
+"""The node among other ROS nodes: pausing, ending, and running without a master."""
 
 import os
 import pty
@@ -115,6 +115,6 @@ def test_diverging_physics_pause_the_node(roscore: RosCore, tmp_path: Path) -> N
     with Node(roscore.env, tmp_path / "log", endless_fall(tmp_path), *options) as node:
         wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the service")
         roscore.run("rosservice", "call", f"{NAME}/unpause")
-        node.wait_for_output("paused until it is reset or stopped")
+        node.wait_for_output("paused until reset or stopped")
         assert node.process.poll() is None
         assert NAME in roscore.nodes()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The name that the node has on the master: who takes it, who gives it up."""
+"""The node's name on the master: conflicts with other nodes."""
 
 import os
 import signal
@@ -37,7 +37,7 @@ def test_rosnode_kill_ends_the_process(roscore: RosCore, tmp_path: Path) -> None
         node.wait_for_output("init")
         assert "killed" in roscore.run("rosnode", "kill", NAME)
         assert node.process.wait(timeout=LIMIT) == 0
-        assert "info: the node was told to shut down: /rosnode" in node.output
+        assert "info: shutdown requested: /rosnode" in node.output
         assert node.output.endswith("cleanup\n")
         assert NAME not in roscore.nodes()
 
@@ -55,8 +55,8 @@ def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(
     second = run_sim("ball", env=roscore.env)
     assert second.returncode == 2
     assert second.stderr.splitlines() == [
-        f"error: a node {NAME} runs already on the ROS master {roscore.env['ROS_MASTER_URI']}: name this one otherwise "
-        "by __name:=OTHER, or end that one by --replace"
+        f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: rename this node "
+        "with __name:=OTHER, or shut down the other with --replace"
     ]
     assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
     assert first.process.poll() is None
@@ -73,7 +73,7 @@ def test_replace_ends_the_first(roscore: RosCore, first: Node, tmp_path: Path) -
     with Node(roscore.env, tmp_path / "second", "ball", "--replace") as second:
         assert first.process.wait(timeout=20) == 0
         second.wait_until_listed(roscore)
-        assert "info: the node was told to shut down: /sim_ros_interface: another node takes its name" in first.output
+        assert "info: shutdown requested: /sim_ros_interface: another node takes this name" in first.output
         assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
 
 
@@ -101,10 +101,10 @@ def test_a_node_that_finds_its_name_taken_later_runs_on_without_ros_until_it_is_
             with Node(core.env, tmp_path / "late", "ball") as late:
                 late.wait_until_listed(core)
                 os.kill(early.process.pid, signal.SIGCONT)
-                early.wait_for_output(f"not registered: a node {NAME} runs already")
-                time.sleep(0.6)  # it asks again
+                early.wait_for_output(f"not registered: a node {NAME} is already running")
+                time.sleep(0.6)  # it checks again
                 assert late.process.poll() is None
-                assert early.output.count("runs already") == 1
+                assert early.output.count("is already running") == 1
                 assert late.end() == 0
             early.wait_until_listed(core)
             assert early.end() == 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is printed to a full or closed stdout is not lost without a word."""
+"""Output to a full or closed stdout is reported as lost."""
 
 import os
 import pty
@@ -17,7 +17,7 @@ FULL, CLOSED, NO_READER = ">/dev/full", ">&-", "| true; exit ${PIPESTATUS[0]}"
 
 
 def shell(program: str, *arguments: str, to: str) -> "subprocess.CompletedProcess[str]":
-    """Runs a built program with its stdout somewhere."""
+    """Run a built program with its stdout redirected."""
     command = " ".join([str(built(program)), *arguments, to])
     return subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, timeout=60)
 
@@ -91,7 +91,7 @@ def test_elsewhere_nothing_is_said_of_what_was_simulated() -> None:
 
 
 def on_a_terminal(command: list[str]) -> str:
-    """What a program writes to a terminal, stdout and stderr."""
+    """Return what a program writes to a terminal, stdout and stderr."""
     ours, its = pty.openpty()
     process = subprocess.Popen(command, stdout=its, stderr=its)
     os.close(its)

@@ -13,7 +13,7 @@ from ros_support import RosCore, wait_until
 
 LIMIT = 2.0
 SLACK = 1.5
-"""What ending a process may add on a busy machine."""
+"""Extra time for ending a process on a busy machine."""
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -37,7 +37,7 @@ def test_a_script_that_does_not_return_is_broken_off(
         begin = time.monotonic()
         assert node.end(number) == 0
         assert time.monotonic() - begin < LIMIT + SLACK
-        assert f"warning: child script of /Ball was broken off in {hook} ({script}:" in node.output
+        assert f"warning: child script of /Ball was interrupted in {hook} ({script}:" in node.output
         assert node.output.endswith("cleanup\n")
         assert NAME not in roscore.nodes()
 
@@ -87,7 +87,7 @@ def test_a_scene_that_is_being_loaded_is_given_up(tmp_path: Path, number: signal
 
 
 def handles(node: Node, number: signal.Signals) -> bool:
-    """Whether the node has set a handler for the signal, as it does when its scene is loaded."""
+    """Return whether the node has a handler for the signal, which it sets when its scene is loaded."""
     status = Path(f"/proc/{node.process.pid}/status").read_text()
     caught = re.search(r"SigCgt:\s+(\w+)", status)
     assert caught

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whatever numbers Python throws at a simulation: taken and finite, or refused and without effect; never an abort."""
+"""Any number that Python passes to a simulation is accepted and finite, or rejected without effect; none aborts."""
 
 import math
 from typing import Any

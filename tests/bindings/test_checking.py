@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program check, which says what is wrong with scenes and models."""
+"""The program check, which reports problems of scenes and models."""
 
 import subprocess
 from pathlib import Path

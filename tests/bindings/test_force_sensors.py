@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact and force-torque sensors, against weights and levers."""
+"""Contact and force-torque sensors, compared with weights and levers."""
 
 from pathlib import Path
 
@@ -58,7 +58,7 @@ def test_in_the_air_nothing_is_touched_and_an_impact_between_two_looks_is_not_mi
         felt += sum((contact.force for contact in bumper.reading.contacts), np.zeros(3)) * simulation.time_step
         if simulation.time < 0.25:  # it falls 0.45 m in 0.3 s
             assert bumper.reading.contacts == []
-    # What stopped it and has held it since is what gravity gave it meanwhile.
+    # The impulse that stopped and held it equals the impulse of gravity.
     np.testing.assert_allclose(felt, [0, 0, 2 * G * simulation.time], rtol=0.01, atol=1e-6)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a script's author reads when a message does not fit."""
+"""Error messages for messages that do not fit their type."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from message_support import codec
 
 
 def error(name: str, message: Any) -> str:
-    """The text of the error that encoding raises."""
+    """Return the text of the error that encoding raises."""
     with pytest.raises(codec.MessageError) as caught:
         codec.encode(name, message)
     return str(caught.value)
@@ -104,7 +104,7 @@ def test_float32_arrays_do_not_turn_large_numbers_into_infinity() -> None:
 
 
 def test_text_for_bytes_must_be_latin_1() -> None:
-    assert "expected uint8[] or text of letters below 256" in error("std_msgs/UInt8MultiArray", {"data": "€"})
+    assert "expected uint8[] or str of characters below 256" in error("std_msgs/UInt8MultiArray", {"data": "€"})
 
 
 def test_an_unknown_field_comes_with_a_hint_and_the_valid_names() -> None:
@@ -141,14 +141,14 @@ def test_unknown_types_name_the_list_and_the_command() -> None:
     with pytest.raises(codec.MessageError) as caught:
         codec.encode("geometry_msgs/Twits", {})
     assert str(caught.value) == (
-        "geometry_msgs/Twits is not among the message types of this build, and this machine has no definition of it; "
+        "geometry_msgs/Twits is not a message type of this build, and no definition was found on this machine; "
         "did you mean geometry_msgs/Twist?"
     )
     with pytest.raises(codec.MessageError) as caught:
         codec.encode("quantum_teleport_msgs/Beam", {})
     assert str(caught.value) == (
-        "quantum_teleport_msgs/Beam is not among the message types of this build, and this machine has no definition "
-        "of it; to add it, install its package or put it into the workspace, and list it in meta/messages.txt: rosrun "
+        "quantum_teleport_msgs/Beam is not a message type of this build, and no definition was found on this machine; "
+        "to add it, install its package or add that to the workspace, and list it in meta/messages.txt: rosrun "
         "bubblesim add_message quantum_teleport_msgs/Beam"
     )
 
@@ -180,7 +180,7 @@ def test_services_are_no_messages() -> None:
 def test_short_messages_say_what_is_missing_where() -> None:
     with pytest.raises(codec.MessageError) as caught:
         codec.decode("std_msgs/String", b"\5\0\0\0ab")
-    assert str(caught.value) == "std_msgs/String: data: the message ends early: 5 more bytes expected, 2 left"
+    assert str(caught.value) == "std_msgs/String: data: the message is truncated: expected 5 more bytes, found 2"
 
 
 def test_long_messages_say_how_much_is_left() -> None:

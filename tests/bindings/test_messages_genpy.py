@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every listed type against genpy, the implementation that rospy uses."""
+"""Every listed type, compared with genpy, which rospy uses."""
 
 import contextlib
 import hashlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The codec neither leaks nor trusts what a value's own code does meanwhile."""
+"""The codec does not leak, and stays safe when Python code of a value changes the message."""
 
 import contextlib
 import gc
@@ -15,7 +15,7 @@ from message_support import codec
 
 
 def growth(action: Callable[[], object]) -> int:
-    """Bytes that 2000 repetitions leave allocated."""
+    """Return the bytes that stay allocated after 2000 repetitions."""
     for _ in range(100):
         action()
     gc.collect()
@@ -30,7 +30,7 @@ def growth(action: Callable[[], object]) -> int:
 
 
 def refused(action: Callable[..., object], *arguments: Any) -> Callable[[], None]:
-    """An action that must raise MessageError."""
+    """Return an action that must raise MessageError."""
 
     def run() -> None:
         with contextlib.suppress(codec.MessageError):
@@ -97,7 +97,7 @@ def test_deeply_nested_garbage_is_refused() -> None:
         deep = [deep]
     with pytest.raises(codec.MessageError):
         codec.encode("std_msgs/Float64MultiArray", {"data": deep})
-    while isinstance(deep, list):  # bit by bit: freeing it at once is deep, too
+    while isinstance(deep, list):  # step by step: freeing it at once also recurses deeply
         deep = deep.pop()
 
 

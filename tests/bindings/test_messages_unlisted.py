@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types that are not listed, taken from their definitions on this machine, against genpy."""
+"""Types that are not listed, read from their definitions on this machine, compared with genpy."""
 
 import subprocess
 import sys
@@ -32,7 +32,7 @@ Package = Callable[[str, dict[str, str]], Path]
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Package:
-    """Makes a package of the user's in a folder on ROS_PACKAGE_PATH. Types stay known to the process: use new names."""
+    """Make a user package in a folder on ROS_PACKAGE_PATH. Types stay known to the process: use new names."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
 
     def make(name: str, files: dict[str, str]) -> Path:
@@ -45,7 +45,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Package:
 
 
 def error(name: str) -> str:
-    """The text of the error that asking for a type raises."""
+    """Return the text of the error for a type."""
     with pytest.raises(codec.MessageError) as caught:
         codec.md5(name)
     return str(caught.value)
@@ -131,7 +131,7 @@ def test_one_line_tells_where_a_type_is_from_and_how_to_list_it(
 
 
 def test_a_type_that_appears_later_is_found(package: Package) -> None:
-    assert "this machine has no definition of it" in error("unlisted_late/Cell")
+    assert "no definition was found on this machine" in error("unlisted_late/Cell")
     package("unlisted_late", {"msg/Cell.msg": "int8 a\n"})
     assert codec.encode("unlisted_late/Cell", {"a": 1}) == b"\1"
 

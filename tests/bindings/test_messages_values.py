@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which Python values a field takes, and what it gives back."""
+"""The Python values that a field accepts, and the values that decoding returns."""
 
 import array
 import math
@@ -14,7 +14,7 @@ from message_support import codec, genpy_bytes, same
 
 
 def back(name: str, value: Any) -> Any:
-    """A value of field `data` after a round trip."""
+    """Return a value of field `data` after a round trip."""
     return codec.decode(name, codec.encode(name, {"data": value}))["data"]
 
 
@@ -47,7 +47,7 @@ def test_arrays_of_integers_take_floats_truncated_toward_zero(make: Any) -> None
 
 def test_nanoseconds_that_are_not_quite_whole_are_truncated() -> None:
     t = 0.15
-    nanoseconds = (t - math.floor(t)) * 10**9  # 150000000.00000003 of some times
+    nanoseconds = (t - math.floor(t)) * 10**9  # 150000000.00000003 for some times
     assert back("std_msgs/Time", {"secs": 0, "nsecs": 150000000.00000003}) == {"secs": 0, "nsecs": 150_000_000}
     assert back("std_msgs/Time", {"secs": math.floor(t), "nsecs": nanoseconds})["nsecs"] == int(nanoseconds)
 

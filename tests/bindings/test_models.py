@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models that come into a simulation and leave it, from Python."""
+"""Adding and removing models in a simulation, from Python."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_name_and_place_may_be_given() -> None:
     simulation = bubblesim.Simulation("ball")
     other = simulation.add_model(CRATE, name="Other", position=[5, 6, 7], orientation=QUARTER_ABOUT_Y)
     assert other.path == "/Other"
-    np.testing.assert_allclose(other.position, [5 + 1, 6, 7], atol=1e-12)  # its own pose is within that frame
+    np.testing.assert_allclose(other.position, [5 + 1, 6, 7], atol=1e-12)  # its pose is relative to that frame
     np.testing.assert_allclose(other.orientation, QUARTER_ABOUT_Y)
 
 
@@ -55,10 +55,10 @@ def test_a_model_may_have_a_script_of_the_scenes_folder() -> None:
 @pytest.mark.parametrize(
     ("text", "changes", "message"),
     [
-        (CRATE, {"name": "Ball"}, "/Ball: the world has a model of this name already"),
+        (CRATE, {"name": "Ball"}, "/Ball: a model with this name exists already"),
         (CRATE, {"position": [float("nan"), 0, 0]}, "/Crate: the position is .nan"),
         (CRATE, {"orientation": [0, 0, 0, 0]}, "/Crate: the orientation"),
-        (CRATE, {"position": [0, 0]}, "position takes 3 numbers, found 2"),
+        (CRATE, {"position": [0, 0]}, "position: expected 3 numbers, found 2"),
         (CRATE.replace("<mass>2", "<mass>0"), {}, "<data-string>:4: /Crate/link: the mass is 0 kg"),
         (CRATE.replace("</link>", ""), {}, "<data-string>:4: is not well-formed XML"),
     ],
@@ -74,7 +74,7 @@ def test_a_bad_model_is_refused_and_changes_nothing(text: str, changes: dict[str
 
 def test_only_models_are_removed() -> None:
     simulation = bubblesim.Simulation("ball")
-    with pytest.raises(ValueError, match="/Ball/link is a link: it belongs to its model"):
+    with pytest.raises(ValueError, match="/Ball/link is a link: it cannot be removed on its own"):
         simulation.remove_model(simulation.object("/Ball/link").handle)
 
 

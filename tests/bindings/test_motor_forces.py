@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the motors of joints do, against weights, levers and moments of inertia."""
+"""Joint motors, compared with weights, levers and moments of inertia."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ INERTIA = 0.04  # kg m^2, about the centre of mass
 
 
 def arm(folder: Path, joint: str, axis: str, *, below: str = "", gravity: float = -G) -> Path:
-    """A mass half a metre along x from a joint in the origin, and what the model has beside them."""
+    """Write a mass half a metre along x from a joint at the origin, and other elements of the model."""
     return write(
         folder / "arm.sdf",
         f"""\
@@ -69,13 +69,13 @@ def test_a_motor_at_its_limit_does_what_it_may(tmp_path: Path) -> None:
 def test_what_accelerates_takes_its_inertia(tmp_path: Path) -> None:
     file = arm(tmp_path, "revolute", axis("0 0 1", "velocity"))
     speed = 2.0
-    mean = (INERTIA + MASS * LENGTH**2) * speed / 0.05  # in the first step it reaches its speed
+    mean = (INERTIA + MASS * LENGTH**2) * speed / 0.05  # it reaches its speed in the first step
     assert motor_effort(file, steps=1, target_velocity=speed) == pytest.approx(mean, rel=1e-3)
 
 
 def test_a_stop_is_no_motor(tmp_path: Path) -> None:
     file = arm(tmp_path, "revolute", axis("0 1 0", "velocity", "<lower>-1</lower><upper>0</upper><effort>0.2</effort>"))
-    assert abs(motor_effort(file)) < 0.2001  # the stop bears the rest of 14.7 N m
+    assert abs(motor_effort(file)) < 0.2001  # the joint limit carries the rest of 14.7 N m
 
 
 def test_an_axis_without_a_motor_does_nothing(tmp_path: Path) -> None:

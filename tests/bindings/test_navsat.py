@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""GPS receivers, against geodesics on WGS84: what geographiclib 2.0 of PyPI gives by Geodesic.WGS84.Direct."""
+"""GPS receivers, compared with geodesics on WGS84 from Geodesic.WGS84.Direct of geographiclib 2.0 (PyPI)."""
 
 import math
 from pathlib import Path
@@ -13,7 +13,7 @@ import bubblesim
 EXACT = 2e-9  # degrees: 0.2 mm
 MUNICH, SYDNEY = (48.137, 11.575), (-33.86, 151.21)
 
-# Start, azimuth from the north in degrees, distance in m, and where that leads.
+# Start, azimuth from north in degrees, distance in m, and end.
 GEODESICS = [
     (MUNICH, 90.0, 1000.0, (48.13699921468766, 11.58843588288138)),
     (MUNICH, 0.0, 1000.0, (48.145993365871384, 11.575)),
@@ -27,7 +27,7 @@ GEODESICS = [
 def scene(
     folder: Path, origin: tuple[float, float], place: tuple[float, float], heading: float = 0.0, noise: str = ""
 ) -> bubblesim.Simulation:
-    """A receiver on a body that floats at a place of the scene, whose origin lies 500 m above the ellipsoid."""
+    """A receiver on a floating body in a scene whose origin is 500 m above the ellipsoid."""
     file = folder / "scene.sdf"
     file.write_text(
         f"""<sdf version="1.9"><world name="w">
@@ -54,13 +54,13 @@ def reading(simulation: bubblesim.Simulation) -> Any:
 def test_places_lie_where_geodesics_lead(
     tmp_path: Path, origin: tuple[float, float], azimuth: float, distance: float, end: tuple[float, float]
 ) -> None:
-    # The scene is a plane; its points' feet on the ellipsoid lie as far away to within 0.1 mm at 1 km.
+    # The scene is a plane; at 1 km, the footpoints on the ellipsoid have the same distance to within 0.1 mm.
     there = math.radians(azimuth)
     gps = reading(scene(tmp_path, origin, (distance * math.sin(there), distance * math.cos(there))))
-    scale = 1 - 500.0 / 6.37e6  # 500 m up, the same step leads less far around the Earth
+    scale = 1 - 500.0 / 6.37e6  # 500 m above, the same distance covers a smaller angle
     assert gps.latitude == pytest.approx(origin[0] + (end[0] - origin[0]) * scale, abs=1e-7)
     assert gps.longitude == pytest.approx(origin[1] + (end[1] - origin[1]) * scale, abs=2e-7)
-    # The Earth falls away below the plane by d^2 / 2 R.
+    # The Earth curves away below the plane by d^2 / 2 R.
     assert gps.altitude - 500.0 == pytest.approx(distance**2 / (2 * 6.37e6), rel=0.01)
 
 

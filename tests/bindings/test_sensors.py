@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readings of sensors as Python holds them, in the scene `sensors`: a room with known walls."""
+"""Sensor readings in Python, in the scene `sensors`: a room with known walls."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_a_scan_measures_the_room(room: bubblesim.Simulation) -> None:
     ranges = dict(zip(np.rad2deg(scan.angles).round().astype(int), scan.ranges[0], strict=True))
     assert ranges[90] == pytest.approx(LEFT_WALL, abs=EXACT)
     assert ranges[180] == np.inf, "there is no wall behind"
-    # The ball's circle at the lidar's height: its middle at (2.2, -0.2), its radius the root of 0.3^2 - 0.2^2.
+    # The ball's circle at the lidar's height: centre (2.2, -0.2), radius sqrt(0.3^2 - 0.2^2).
     assert ranges[0] == pytest.approx(2.2 - np.sqrt(0.05 - 0.04), abs=EXACT)
 
 
@@ -57,7 +57,7 @@ def test_a_picture_knows_what_it_shows(room: bubblesim.Simulation) -> None:
 def test_a_depth_camera_has_no_picture(room: bubblesim.Simulation) -> None:
     image = room.object("/DepthCamera").reading
     assert image.rgb is None
-    # The axis points down by 0.25 rad from a metre above the floor; the outer rows lie 23.5 pixels off it.
+    # The axis points down by 0.25 rad from a metre above the floor; the outer rows are 23.5 pixels off the axis.
     off = 23.5 / (32 / np.tan(1.3 / 2))
     assert image.depth[47, 32] == pytest.approx(1 / (np.sin(0.25) + off * np.cos(0.25)), abs=EXACT)
     assert image.depth[0, 32] == pytest.approx(FRONT_WALL / (np.cos(0.25) + off * np.sin(0.25)), abs=EXACT)

@@ -23,7 +23,7 @@ def tricycle() -> bubblesim.Simulation:
 
 
 def run_python(code: str, **environment: str) -> str:
-    """Output of a process of its own."""
+    """Return the output of a separate process."""
     env = clean_environment(PYTHONPATH=str(Path(bubblesim.__file__).parents[1]), PATH="/usr/bin:/bin", **environment)
     return subprocess.run(["/usr/bin/python3", "-c", code], env=env, capture_output=True, text=True, check=True).stdout
 
@@ -123,7 +123,7 @@ def test_a_sonar_reads_in_its_own_frame(tricycle: bubblesim.Simulation) -> None:
     assert not sonar.reading.detected
     assert sonar.reading.distance == 0
     body.position = [-3.5, -1.2, 0]
-    body.orientation = [0, 0, 1, 0]  # faces the wall behind it
+    body.orientation = [0, 0, 1, 0]  # turns to the wall behind it
     tricycle.step()
     reading = sonar.reading
     assert reading.detected
@@ -153,9 +153,9 @@ def test_objects_outlive_the_name_of_their_simulation() -> None:
 @pytest.mark.parametrize(
     ("name", "value", "text"),
     [
-        ("position", [1, 2], "position takes 3 numbers, found 2"),
-        ("position", [[1, 2, 3]], "position takes 3 numbers, found 1 x 3"),
-        ("position", 5.0, "position takes 3 numbers, found a single value"),
+        ("position", [1, 2], "position: expected 3 numbers, found 2"),
+        ("position", [[1, 2, 3]], "position: expected 3 numbers, found 1 x 3"),
+        ("position", 5.0, "position: expected 3 numbers, found a single value"),
         ("position", [1, 2, np.nan], "finite"),
         ("position", [1e9, 0, 0], "within 1e6 m"),
         ("orientation", [0, 0, 0, 0], "uaternion"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulation that one Python thread steps while others read and change it: each in a process of its own, which a
-mistake in the core would end."""
+"""A simulation that one Python thread steps while others read and change it. Each test runs in its own process, because
+an error in the core may crash it."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models as URDF: whoever follows the joints finds the links where the simulation has them."""
+"""Models as URDF: following the joints gives the link poses of the simulation."""
 
 import math
 import subprocess
@@ -18,7 +18,7 @@ ROBOTS = {"tricycle": "/Tricycle", "bubblerob": "/rosInterfaceControlledBubbleRo
 
 
 def about(axis: Matrix, angle: float) -> Matrix:
-    """Rodrigues' formula, as a 4x4 matrix."""
+    """Return a rotation by Rodrigues' formula, as a 4x4 matrix."""
     x, y, z = axis
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     turn = np.eye(4)
@@ -33,7 +33,7 @@ def placed(position: Matrix, rotation: Matrix) -> Matrix:
 
 
 def origin(element: ElementTree.Element) -> Matrix:
-    """Of a joint: rpy turns about x, then y, then z, all of the parent."""
+    """Return a joint's origin: rpy rotates about x, then y, then z, all of the parent."""
     found = element.find("origin")
     assert found is not None
     roll, pitch, yaw = map(float, found.attrib["rpy"].split())
@@ -64,7 +64,7 @@ def motion(joint: ElementTree.Element, simulation: bubblesim.Simulation, model: 
 
 
 def follow(urdf: str, simulation: bubblesim.Simulation, model: str) -> dict[str, Matrix]:
-    """Poses of all links in the root's frame."""
+    """Return the poses of all links in the root's frame."""
     joints = ElementTree.fromstring(urdf).findall("joint")
     (root,) = {link_of(j, "parent") for j in joints} - {link_of(j, "child") for j in joints}
     poses = {root: np.eye(4)}
@@ -113,7 +113,7 @@ ARM = """<sdf version="1.9"><model name="Arm">
 def test_links_whose_frames_are_not_at_their_joints_are_found_as_well() -> None:
     simulation = bubblesim.Simulation("ball")
     simulation.add_model(ARM)
-    simulation.step(5)  # it falls, and its joints give way
+    simulation.step(5)  # it falls, and its joints move
     check(simulation, "/Arm", "base")
     poses = follow(simulation.object("/Arm").urdf, simulation, "/Arm")
     # An optical frame looks along z, with x to the right (REP 103).

@@ -4,8 +4,8 @@
 import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
-from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
-from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # registers modules
 from cli_support import bubblesim
 
 
@@ -27,7 +27,7 @@ def test_a_function_tells_its_arguments_and_what_it_does(name: str) -> None:
     assert text.startswith("sim.setObjectPosition(handle, position, relative_to=-1)\n")
     assert "position     3 numbers\n" in text
     assert "relative_to  the handle of an object, an integer, optional\n" in text
-    assert "Move a model or link" in text
+    assert "Set the position of a model or link" in text
 
 
 def test_a_part_of_a_name_finds_all_that_have_it() -> None:
@@ -40,4 +40,4 @@ def test_a_part_of_a_name_finds_all_that_have_it() -> None:
 def test_an_unknown_name_brings_similar_ones() -> None:
     run = bubblesim("api", "getObjekt")
     assert (run.returncode, run.stdout) == (2, "")
-    assert "scripts have no function 'getObjekt'; did you mean getObject" in run.stderr
+    assert "there is no script function 'getObjekt'; did you mean getObject" in run.stderr

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program bubblesim: what all of its commands share."""
+"""The program bubblesim: features common to all commands."""
 
 import os
 import pty
@@ -19,7 +19,7 @@ def test_help_names_all_commands_and_exit_codes() -> None:
     run = bubblesim("--help")
     assert run.returncode == 0
     assert all(f"\n    {command}" in run.stdout for command in COMMANDS)
-    assert "exit codes: 0 fine, 1" in run.stdout
+    assert "exit codes: 0 success, 1" in run.stdout
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -58,7 +58,7 @@ def test_colours_are_for_terminals_only() -> None:
 
 
 def on_a_terminal(changes: dict[str, str]) -> str:
-    """What `bubblesim api sim.getObject` writes to a terminal."""
+    """Return what `bubblesim api sim.getObject` writes to a terminal."""
     ours, its = pty.openpty()
     environment = {**os.environ, "TERM": "xterm", **changes}
     subprocess.run([built("bubblesim"), "api", "sim.getObject"], env=environment, stdout=its, check=True)
@@ -73,5 +73,5 @@ def test_a_build_that_cannot_be_loaded_is_told_with_the_cure(tmp_path: Path) -> 
     run = bubblesim("scenes", PYTHONPATH=str(tmp_path))
     assert run.returncode == 2
     assert "No module named 'no_such_module'" in run.stderr
-    assert "cure: " in run.stderr
+    assert "fix: " in run.stderr
     assert "Traceback" not in run.stderr

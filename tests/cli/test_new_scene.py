@@ -34,7 +34,7 @@ def test_the_new_scene_talks_to_ros(tmp_path: Path, roscore: RosCore) -> None:
 def test_names_that_are_none_are_refused(tmp_path: Path, name: str) -> None:
     run = bubblesim("new-scene", name, cwd=tmp_path)
     assert run.returncode == 2
-    assert f"'{name}' is no name of a scene" in run.stderr
+    assert f"'{name}' is not a valid scene name" in run.stderr
     assert list(tmp_path.iterdir()) == []
 
 
@@ -42,7 +42,7 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
     (tmp_path / "mine.py").write_text("precious")
     run = bubblesim("new-scene", "mine", cwd=tmp_path)
     assert run.returncode == 2
-    assert "mine.py exists already" in run.stderr
+    assert "mine.py already exists" in run.stderr
     assert [file.read_text() for file in tmp_path.iterdir()] == ["precious"]
 
 

@@ -40,7 +40,7 @@ def test_a_roscore_and_a_controller_come_and_go_with_it_and_the_path_is_drawn(tm
     options = ["--roscore", "--controller", "rosrun bubblesim tricycle_avoid.py", "--plot", tmp_path / "path.png"]
     run = bubblesim("run", "tricycle", "--until", 3, *options, env=ros_environment(port, tmp_path / "log"))
     assert run.returncode == 0, run.stderr
-    assert f"starting a roscore, as none answers at http://localhost:{port}" in run.stderr
+    assert f"no ROS master at http://localhost:{port}: starting a roscore" in run.stderr
     assert "distance driven" in run.stderr
     assert (tmp_path / "path.png").read_bytes().startswith(b"\x89PNG")
     assert processes_with(f"-p {port}") == []
@@ -57,7 +57,7 @@ def test_a_master_that_is_needed_and_missing_is_told(tmp_path: Path) -> None:
 def test_signals_end_all_of_it(tmp_path: Path, number: signal.Signals) -> None:
     port = free_port()
     log = tmp_path / "out"
-    own = ["--seed", str(port)]  # by which the node is told from those of others
+    own = ["--seed", str(port)]  # identifies the node among others
     with log.open("w") as output:
         process = start(
             [str(built("bubblesim")), "run", "ball", "--roscore", *own],
@@ -80,4 +80,4 @@ def test_a_controller_that_ends_is_told_and_ends_the_run(roscore: RosCore) -> No
 def test_a_controller_that_is_not_there_is_told(roscore: RosCore) -> None:
     run = bubblesim("run", "ball", "--controller", "no_such_program", env=roscore.env)
     assert run.returncode == 1
-    assert "the controller cannot be started: no_such_program: No such file" in run.stderr
+    assert "cannot start the controller: no_such_program: No such file" in run.stderr

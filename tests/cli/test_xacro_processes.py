@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""xacro ends with the program that started it."""
+"""xacro ends together with the program that started it."""
 
 import signal
 import subprocess
@@ -12,7 +12,7 @@ from ros_support import built, wait_until
 
 
 def processes_of(file: Path) -> list[int]:
-    """Those whose command line names the file, but not the simulator's."""
+    """Return the processes with the file on their command line, except the simulator."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:

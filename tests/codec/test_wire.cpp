@@ -101,7 +101,7 @@ TEST(WireView, SaysHowMuchIsMissing) {
     view.take(12);
     FAIL() << "no error";
   } catch (const WireError& error) {
-    EXPECT_STREQ(error.what(), "the message ends early: 12 more bytes expected, 0 left");
+    EXPECT_STREQ(error.what(), "the message is truncated: expected 12 more bytes, found 0");
   }
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Programs that tutorials call by the names of packages that Debian lacks, and one of Debian's own."""
+"""Programs that tutorials call by package names that Debian lacks, and one Debian program."""
 
 import subprocess
 from pathlib import Path
@@ -30,7 +30,7 @@ catkin_package()
 
 @pytest.mark.parametrize("package", ["mouse_teleop", "teleop_twist_keyboard"])
 def test_teleoperation_answers_to_its_tutorials_name(roscore: RosCore, package: str) -> None:
-    assert "Drives by the" in roscore.run("rosrun", package, PACKAGES[package], "--help")
+    assert "Teleoperation with the" in roscore.run("rosrun", package, PACKAGES[package], "--help")
 
 
 def test_the_cloud_converter_answers_to_its_tutorials_name(roscore: RosCore) -> None:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node scripts/tricycle_avoid.py, seen through its topics. Started by tricycle_avoid.test."""
+"""The node scripts/tricycle_avoid.py, tested on its topics. Started by tricycle_avoid.test."""
 
 import math
 import queue
@@ -25,7 +25,7 @@ class TricycleAvoidTest(unittest.TestCase):
             time.sleep(0.05)
 
     def publish_until(self, distance: float, values: queue.Queue, expected: float) -> None:
-        """Reports a distance again and again until the expected value comes, which rostest's time limit bounds."""
+        """Publish a distance repeatedly until the expected value arrives, limited by rostest's time limit."""
         while not rospy.is_shutdown():
             self.sonar.publish(distance)
             try:

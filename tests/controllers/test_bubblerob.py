@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""BubbleRob's controller: when it drives which way, and to whom it yields the wheels."""
+"""BubbleRob's controller: its driving directions, and when it yields the wheels."""
 
 import pytest
 
@@ -48,48 +48,48 @@ def test_starts_anew_when_the_simulation_does() -> None:
 
 def test_own_messages_are_no_hand_over() -> None:
     hand_over = HandOver(OWN)
-    assert hand_over.heard(Wheel.LEFT, 1.0, OWN) == []
+    assert hand_over.on_command(Wheel.LEFT, 1.0, OWN) == []
     assert not hand_over.yielded
 
 
 @pytest.mark.parametrize(("wheel", "other"), [(Wheel.LEFT, Wheel.RIGHT), (Wheel.RIGHT, Wheel.LEFT)])
 def test_yields_with_the_others_speed_and_the_other_wheel_stopped(wheel: Wheel, other: Wheel) -> None:
     hand_over = HandOver(OWN)
-    assert hand_over.heard(wheel, 1.5, HUMAN) == [Order(wheel, 1.5), Order(other, 0.0)]
+    assert hand_over.on_command(wheel, 1.5, HUMAN) == [Order(wheel, 1.5), Order(other, 0.0)]
     assert hand_over.yielded
 
 
 def test_is_silent_once_it_has_yielded() -> None:
     hand_over = HandOver(OWN)
-    hand_over.heard(Wheel.LEFT, 1.0, HUMAN)
-    assert hand_over.heard(Wheel.LEFT, 2.0, HUMAN) == []
-    assert hand_over.heard(Wheel.RIGHT, 3.0, HUMAN) == []
+    hand_over.on_command(Wheel.LEFT, 1.0, HUMAN)
+    assert hand_over.on_command(Wheel.LEFT, 2.0, HUMAN) == []
+    assert hand_over.on_command(Wheel.RIGHT, 3.0, HUMAN) == []
 
 
 def test_a_second_driver_is_not_answered() -> None:
     hand_over = HandOver(OWN)
-    hand_over.heard(Wheel.LEFT, 1.0, HUMAN)
-    assert hand_over.heard(Wheel.RIGHT, 1.0, "/rostopic_2") == []
+    hand_over.on_command(Wheel.LEFT, 1.0, HUMAN)
+    assert hand_over.on_command(Wheel.RIGHT, 1.0, "/rostopic_2") == []
 
 
 def test_drives_on_when_the_other_is_gone() -> None:
     hand_over = HandOver(OWN)
-    hand_over.heard(Wheel.LEFT, 1.0, HUMAN)
-    assert not hand_over.connected({OWN, HUMAN})
-    assert hand_over.connected({OWN})
+    hand_over.on_command(Wheel.LEFT, 1.0, HUMAN)
+    assert not hand_over.set_publishers({OWN, HUMAN})
+    assert hand_over.set_publishers({OWN})
     assert not hand_over.yielded
 
 
 def test_waits_until_the_last_driver_is_gone() -> None:
     hand_over = HandOver(OWN)
-    hand_over.heard(Wheel.LEFT, 1.0, HUMAN)
-    hand_over.heard(Wheel.RIGHT, 1.0, "/rostopic_2")
-    assert not hand_over.connected({OWN, HUMAN})
-    assert hand_over.connected({OWN})
+    hand_over.on_command(Wheel.LEFT, 1.0, HUMAN)
+    hand_over.on_command(Wheel.RIGHT, 1.0, "/rostopic_2")
+    assert not hand_over.set_publishers({OWN, HUMAN})
+    assert hand_over.set_publishers({OWN})
 
 
 def test_yields_again_to_one_that_comes_back() -> None:
     hand_over = HandOver(OWN)
-    hand_over.heard(Wheel.LEFT, 1.0, HUMAN)
-    hand_over.connected({OWN})
-    assert hand_over.heard(Wheel.RIGHT, 0.0, HUMAN) == [Order(Wheel.RIGHT, 0.0), Order(Wheel.LEFT, 0.0)]
+    hand_over.on_command(Wheel.LEFT, 1.0, HUMAN)
+    hand_over.set_publishers({OWN})
+    assert hand_over.on_command(Wheel.RIGHT, 0.0, HUMAN) == [Order(Wheel.RIGHT, 0.0), Order(Wheel.LEFT, 0.0)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node between velocities and a tricycle's front wheel."""
+"""The node that converts velocities to a tricycle's front wheel."""
 
 import math
 import subprocess
@@ -41,7 +41,7 @@ def test_a_velocity_becomes_an_angle_and_a_speed_until_none_comes(
     listeners = [listen(roscore, f"/{topic}", file) for topic, file in files.items()]
     command = ["rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "[1.0, 0, 0]", "[0, 0, 0.5]"]
     driver = start(command, roscore.env)
-    speed = math.sqrt(2.0) / 0.5  # the front wheel, 2 m ahead on a circle of 2 m, goes sqrt(2) m/s
+    speed = math.sqrt(2.0) / 0.5  # the front wheel, 2 m ahead on a circle of radius 2 m, moves at sqrt(2) m/s
     wait_until(lambda: last(files["steering"], "field.data") == pytest.approx(math.pi / 4), "the angle")
     wait_until(lambda: last(files["speed"], "field.data") == pytest.approx(speed), "the speed")
     turning = "field.twist.twist.angular.z"

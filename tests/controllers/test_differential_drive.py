@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The kinematics of two driven wheels, against geometry."""
+"""The kinematics of two driven wheels, compared with geometry."""
 
 import math
 import random
@@ -16,7 +16,7 @@ DRIVE = DifferentialDrive(wheel_radius=0.1, track=0.4)
 
 
 def test_on_the_spot_the_wheels_turn_against_each_other() -> None:
-    # A quarter of a turn a second moves each wheel by a quarter of a circle of 0.2 m.
+    # A quarter turn per second moves each wheel along a quarter circle of radius 0.2 m.
     wheels = wheel_speeds(DRIVE, Velocity(0.0, math.pi / 2))
     assert (wheels.left, wheels.right) == pytest.approx((-math.pi, math.pi))
 
@@ -36,7 +36,7 @@ def test_the_wheels_that_give_a_velocity_give_that_velocity(linear: float, angul
 
 @pytest.mark.parametrize("bad", [Velocity(math.nan, 0.0), Velocity(0.0, -math.inf)])
 def test_velocities_that_are_not_finite_are_refused(bad: Velocity) -> None:
-    with pytest.raises(ValueError, match="not finite"):
+    with pytest.raises(ValueError, match="must be finite"):
         wheel_speeds(DRIVE, bad)
 
 
@@ -48,7 +48,7 @@ def test_drives_that_cannot_be_are_refused(bad: dict[str, float]) -> None:
 
 def test_encoders_that_count_from_minus_pi_to_pi_tell_a_circle() -> None:
     odometry = WheelOdometry(DRIVE, Wheels(0.0, 0.0))
-    # Left 0.8 m and right 1.2 m a second are 1 m/s along a circle of 1 m, once around in 2 pi seconds.
+    # 0.8 m/s left and 1.2 m/s right give 1 m/s along a circle of radius 1 m, one turn in 2 pi seconds.
     steps = 628
     for i in range(1, steps + 1):
         time = 2 * math.pi * i / steps

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The joystick's node at a named pipe, which tells what a joystick would."""
+"""The joystick node, with a named pipe in place of a joystick."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ def event(kind: int, number: int, value: int) -> bytes:
 
 
 class Stick:
-    """A pipe with the node at its other end."""
+    """A pipe that the node reads."""
 
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._pipe = folder / "js0"
@@ -29,10 +29,10 @@ class Stick:
         self.heard = Velocities(core, folder / "heard")
         self._node = start([*NODE, f"_dev:={self._pipe}", *arguments], core.env)
         self.plug_in()
-        wait_until(lambda: self._hears(), "somebody to listen", timeout=3 * DEADLINE)  # rostopic takes its time
+        wait_until(lambda: self._hears(), "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
 
     def _hears(self) -> bool:
-        for value in (32767, 0):  # what is sent before the listener is connected is lost
+        for value in (32767, 0):  # messages before the subscriber connects are lost
             self.tell(event(BUTTON, 4, 1), event(AXIS, 3, value))
         return bool(self.heard.all())
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What keys command."""
+"""Commands of the keys."""
 
 import pytest
 
@@ -31,14 +31,14 @@ def test_a_key_has_its_direction(key: str, velocity: Velocity) -> None:
 
 
 def test_stops_when_no_key_is_pressed_any_more() -> None:
-    teleop = KeyboardTeleop(patience=0.6)
+    teleop = KeyboardTeleop(timeout=0.6)
     teleop.press("i", now=10.0)
     assert teleop.velocity(now=10.6) != STANDING
     assert teleop.velocity(now=10.7) == STANDING
 
 
 def test_goes_on_without_patience_to_lose() -> None:
-    teleop = KeyboardTeleop(patience=None)
+    teleop = KeyboardTeleop(timeout=None)
     teleop.press("i", now=0.0)
     assert teleop.velocity(now=1000.0) != STANDING
 

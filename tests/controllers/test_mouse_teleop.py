@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mouse's node on a display of its own."""
+"""The mouse node on its own display."""
 
 import subprocess
 import sys
@@ -27,16 +27,16 @@ def test_dragging_drives_and_releasing_stops(display: Display, roscore: RosCore,
     wait_until(lambda: bool(display.windows("mouse_teleop")), "the window")
     (window,) = display.windows("mouse_teleop")
 
-    def drag_until_heard() -> bool:  # what is sent before the listener is connected is lost
+    def drag_until_heard() -> bool:  # messages before the subscriber connects are lost
         display.xdotool("mousemove", "--window", window, 150, 140, "mousedown", 1, "mousemove_relative", 0, -10)
         return bool(heard.all())
 
-    wait_until(drag_until_heard, "somebody to listen")
+    wait_until(drag_until_heard, "a subscriber")
     display.xdotool("mousemove", "--window", window, 225, 75)
     wait_until(lambda: heard.last() == pytest.approx((0.5, -1.0), abs=0.03), "half ahead, half to the right")
     count = len(heard.all())
-    wait_until(lambda: len(heard.all()) > count + 3, "the same to be told again and again")
-    display.xdotool("mousemove", "--window", window, 150, 800)  # beyond the window's edge
+    wait_until(lambda: len(heard.all()) > count + 3, "repeated commands")
+    display.xdotool("mousemove", "--window", window, 150, 800)  # outside the window
     wait_until(lambda: heard.last() == pytest.approx((-1.0, 0.0), abs=0.03), "full speed back")
     display.xdotool("mouseup", 1)
     wait_until(lambda: heard.last() == (0.0, 0.0), "the robot to stop")
@@ -48,5 +48,5 @@ def test_without_a_display_it_says_so(roscore: RosCore) -> None:
     env = {**roscore.env, "DISPLAY": ""}
     run = subprocess.run(NODE, env=env, capture_output=True, text=True, timeout=3 * DEADLINE, check=False)
     assert run.returncode == 2
-    assert "no window can be opened" in run.stderr
+    assert "cannot open a window" in run.stderr
     assert "Traceback" not in run.stderr

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The controllers' nodes as processes: how they start, hand over the wheels, and end."""
+"""The controller nodes as processes: starting, handing over the wheels, and ending."""
 
 import contextlib
 import os
@@ -22,7 +22,7 @@ Run = Callable[..., "subprocess.Popen[str]"]
 
 @pytest.fixture
 def run(roscore: RosCore) -> Iterator[Run]:
-    """Starts processes that end with the test."""
+    """Start processes that end with the test."""
     processes: list[subprocess.Popen[str]] = []
 
     def start_one(*command: str | Path, **options: object) -> "subprocess.Popen[str]":
@@ -30,7 +30,7 @@ def run(roscore: RosCore) -> Iterator[Run]:
         return processes[-1]
 
     yield start_one
-    for process in processes:  # all at once: each takes its time
+    for process in processes:  # all at once: ending takes time
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGINT)
     for process in processes:
@@ -38,7 +38,7 @@ def run(roscore: RosCore) -> Iterator[Run]:
 
 
 class Echo:
-    """What arrives on a topic, by `rostopic echo`."""
+    """Records the messages on a topic, with `rostopic echo`."""
 
     def __init__(self, run: Run, topic: str, file: Path) -> None:
         self._file = file
@@ -50,7 +50,7 @@ class Echo:
         return [float(line.split(",")[1]) for line in lines if "," in line and not line.startswith("%")]
 
     def last(self) -> float | None:
-        """The newest value, None while nothing has arrived."""
+        """Return the newest value, None before the first."""
         return (self.values() or [None])[-1]
 
 
@@ -62,7 +62,7 @@ def wheels(run: Run, roscore: RosCore, tmp_path: Path) -> tuple[Echo, Echo]:
 
 
 def simulate(run: Run, sensed: bool = False) -> "subprocess.Popen[str]":
-    """Publishes simulated time as a simulation does."""
+    """Publish simulated time like a simulation."""
     run("rostopic", "pub", "-r", "20", "/sensorTrigger", "std_msgs/Bool", str(sensed).lower())
     return run("rostopic", "pub", "-r", "20", "/simTime", "std_msgs/Float32", "1.0")
 

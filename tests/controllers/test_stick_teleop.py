@@ -17,7 +17,7 @@ AXIS, BUTTON, INITIAL = 2, 1, 0x80
         (0.2, -0.2, STANDING),  # in the dead zone
         (1.0, 0.0, Velocity(forward=2.0)),
         (-1.0, 1.0, Velocity(forward=-2.0, turning=3.0)),
-        (0.6, -0.6, Velocity(forward=1.0, turning=-1.5)),  # half of what is left beyond the dead zone
+        (0.6, -0.6, Velocity(forward=1.0, turning=-1.5)),  # half of the range outside the dead zone
         (9.0, -9.0, Velocity(forward=2.0, turning=-3.0)),
     ],
 )
@@ -35,7 +35,7 @@ def test_a_stick_that_cannot_be_is_refused(values: dict[str, float]) -> None:
 def test_events_set_axes_and_buttons() -> None:
     joystick = Joystick()
     joystick.feed(EVENT.pack(1, -32768, AXIS, 1) + EVENT.pack(2, 16384, AXIS | INITIAL, 0))
-    joystick.feed(EVENT.pack(3, 1, BUTTON, 5) + EVENT.pack(4, 7, 0x40, 9))  # the last of a kind that nobody knows
+    joystick.feed(EVENT.pack(3, 1, BUTTON, 5) + EVENT.pack(4, 7, 0x40, 9))  # the last is of an unknown kind
     assert joystick.axes == pytest.approx({1: -1.0, 0: 0.5}, abs=1e-4)
     assert joystick.buttons == {5: True}
     joystick.feed(EVENT.pack(5, 0, BUTTON, 5))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The keyboard's node in a terminal of its own."""
+"""The keyboard node in its own terminal."""
 
 import os
 import pty
@@ -19,7 +19,7 @@ NODE = [sys.executable, str(REPOSITORY / "scripts" / "teleop_twist_keyboard.py")
 
 
 class Terminal:
-    """A terminal with the node in it, and what the node commands."""
+    """A terminal that runs the node, and the node's commands."""
 
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._keys, self.screen = pty.openpty()
@@ -28,10 +28,10 @@ class Terminal:
         with self._shown.open("w") as output:
             self.process = start([*NODE, *arguments], core.env, stdin=self.screen, stdout=output)
         wait_until(lambda: "speed" in self.shown, "the speeds to be shown")
-        wait_until(lambda: self._hears(), "somebody to listen")
+        wait_until(lambda: self._hears(), "a subscriber")
 
     def _hears(self) -> bool:
-        self.press("k")  # what is sent before the listener is connected is lost
+        self.press("k")  # messages before the subscriber connects are lost
         return self.last() is not None
 
     @property
@@ -42,7 +42,7 @@ class Terminal:
         os.write(self._keys, keys.encode())
 
     def last(self) -> tuple[float, float] | None:
-        """Forward and turning of the last command."""
+        """Return forward and turning velocity of the last command."""
         return self._heard.last()
 
     def close(self) -> None:

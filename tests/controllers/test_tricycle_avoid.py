@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tricycle's controller: what it commands for what the sonar says."""
+"""The tricycle's controller: commands for sonar readings."""
 
 import math
 
@@ -11,7 +11,7 @@ STEP = 0.05
 
 
 def drive(controller: TricycleAvoid, *distances: float | None) -> Command | None:
-    """Feeds readings one step apart; the last command that came of them."""
+    """Feed readings one step apart; return the last command."""
     last = None
     for distance in distances:
         last = controller.update(distance, STEP) or last

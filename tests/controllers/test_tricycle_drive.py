@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tricycle's kinematics, against geometry."""
+"""The tricycle's kinematics, compared with geometry."""
 
 import math
 
@@ -18,7 +18,7 @@ def test_straight_on_turns_the_wheel_by_speed_over_radius() -> None:
 
 
 def test_on_a_circle_the_wheel_points_along_its_own_larger_circle() -> None:
-    # Rear axle on a circle of 2 m: the front wheel, 1 m ahead of it, is on one of sqrt(5) m.
+    # Rear axle on a circle of radius 2 m: the front wheel, 1 m ahead, is on a circle of radius sqrt(5) m.
     wheel = front_wheel(TRICYCLE, Velocity(1.0, 0.5))
     assert wheel.steering == pytest.approx(math.atan(1.0 / 2.0))
     assert wheel.speed == pytest.approx(0.5 * math.sqrt(5.0) / 0.3)
@@ -50,7 +50,7 @@ def test_speed_is_limited_on_the_same_curve() -> None:
 
 @pytest.mark.parametrize("bad", [Velocity(math.nan, 0.0), Velocity(0.0, math.inf)])
 def test_velocities_that_are_not_finite_are_refused(bad: Velocity) -> None:
-    with pytest.raises(ValueError, match="not finite"):
+    with pytest.raises(ValueError, match="must be finite"):
         front_wheel(TRICYCLE, bad)
 
 

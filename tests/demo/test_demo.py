@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demonstration as a user runs it, after the setup."""
+"""The demo as a user runs it after the setup."""
 
 import os
 import signal
@@ -23,7 +23,7 @@ def demo(folder: Path, port: int, *arguments: str) -> "subprocess.Popen[str]":
 
 
 def processes_with(text: str) -> list[str]:
-    """Command lines of running processes whose environment holds the text."""
+    """Return the command lines of running processes with the text in their environment."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:
@@ -83,7 +83,7 @@ def test_demo_refuses_a_master_with_a_simulator(tmp_path: Path, roscore: RosCore
         process = demo(tmp_path, roscore.port, "ball", "--seconds", "1")
         output, _ = process.communicate(timeout=60)
         assert process.returncode == 1
-        assert "a simulator runs already" in output
+        assert "a simulator is already running" in output
         assert simulator.poll() is None
     finally:
         stop(simulator)

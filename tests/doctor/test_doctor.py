@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim doctor finds what is broken, here broken for real, and knows the cure."""
+"""bubblesim doctor finds real problems and suggests what to do."""
 
 import os
 import signal
@@ -14,16 +14,16 @@ from ros_support import RosCore, free_port, ros_environment, start, wait_until
 
 
 def finding(run: "subprocess.CompletedProcess[str]", words: str) -> tuple[str, str]:
-    """Level and cure of the finding with these words."""
+    """Return level and suggestion of the finding with these words."""
     lines = run.stdout.splitlines()
     number = next((number for number, line in enumerate(lines) if words in line), None)
     assert number is not None, run.stdout + run.stderr
-    return lines[number].split()[0], lines[number + 1].partition("cure: ")[2]
+    return lines[number].split()[0], lines[number + 1].partition("fix: ")[2]
 
 
 @pytest.fixture
 def terminal(tmp_path: Path) -> dict[str, str]:
-    """An environment in which all is well, but for a master."""
+    """Return an environment without problems except the missing master."""
     return ros_environment(free_port(), tmp_path)
 
 
@@ -39,7 +39,7 @@ def test_a_missing_master_is_a_warning(terminal: dict[str, str]) -> None:
     assert run.returncode == 0
     assert finding(run, "no ROS master answers") == (
         "warning",
-        "roscore, in a terminal of its own; or bubblesim run ... --roscore",
+        "start roscore in another terminal, or use bubblesim run ... --roscore",
     )
 
 
@@ -47,40 +47,40 @@ def test_a_missing_master_is_a_warning(terminal: dict[str, str]) -> None:
 def test_an_address_that_is_none_is_a_problem(terminal: dict[str, str], uri: str) -> None:
     run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI=uri)
     assert run.returncode == 1
-    assert finding(run, f"ROS_MASTER_URI={uri} is not like") == (
+    assert finding(run, f"ROS_MASTER_URI={uri} must have the form") == (
         "problem",
         "export ROS_MASTER_URI=http://localhost:11311",
     )
 
 
 def test_a_port_that_something_else_has_is_a_problem(terminal: dict[str, str]) -> None:
-    with socket.create_server(("localhost", 0)) as other:  # takes connections, and never answers
+    with socket.create_server(("localhost", 0)) as other:  # accepts connections, but never answers
         port = other.getsockname()[1]
         run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI=f"http://localhost:{port}")
     assert run.returncode == 1
-    level, cure = finding(run, "does not answer as a ROS master does")
+    level, cure = finding(run, "is not a ROS master")
     assert (level, f"sport = :{port}" in cure) == ("problem", True)
 
 
 def test_what_it_knows_nothing_about_is_told() -> None:
     run = bubblesim("doctor", "weather")
     assert run.returncode == 2
-    assert "nothing about 'weather', but about build, messages, ros, ports" in run.stderr
+    assert "unknown check 'weather'; the checks are build, messages, ros, ports" in run.stderr
 
 
 def test_names_that_nobody_can_resolve_are_problems(terminal: dict[str, str]) -> None:
     run = bubblesim("doctor", "ros", env=terminal, ROS_HOSTNAME="robot.invalid")
     assert run.returncode == 1
-    assert finding(run, "ROS_HOSTNAME=robot.invalid is no address") == ("problem", "export ROS_HOSTNAME=localhost")
+    assert finding(run, "ROS_HOSTNAME=robot.invalid does not resolve") == ("problem", "export ROS_HOSTNAME=localhost")
     run = bubblesim("doctor", "ros", env=terminal, ROS_MASTER_URI="http://robot.invalid:11311")
-    assert finding(run, "robot.invalid is no address")[0] == "problem"
+    assert finding(run, "robot.invalid does not resolve")[0] == "problem"
 
 
 def test_simulated_time_without_a_clock_is_a_problem(roscore: RosCore) -> None:
     roscore.set_param("/use_sim_time", True)
     run = bubblesim("doctor", "ros", env=roscore.env)
     assert run.returncode == 1
-    level, cure = finding(run, "/use_sim_time is set, and nobody publishes /clock")
+    level, cure = finding(run, "/use_sim_time is set, but no node publishes /clock")
     assert (level, cure.startswith("rosparam delete /use_sim_time")) == ("problem", True)
 
 
@@ -91,7 +91,7 @@ def test_a_node_that_was_killed_is_a_warning(roscore: RosCore) -> None:
     node.wait()
     run = bubblesim("doctor", "ros", env=roscore.env)
     assert run.returncode == 0
-    assert finding(run, "the master knows nodes that do not answer: /rostopic") == ("warning", "rosnode cleanup")
+    assert finding(run, "nodes registered at the master do not respond: /rostopic") == ("warning", "rosnode cleanup")
 
 
 def test_a_workspace_that_rosrun_does_not_know_is_a_problem(terminal: dict[str, str]) -> None:
@@ -116,7 +116,7 @@ def test_a_missing_lua_is_a_warning(terminal: dict[str, str], tmp_path: Path) ->
 
 
 def module(folder: Path, name: str, code: str) -> dict[str, str]:
-    """An environment in which a module of ours comes first."""
+    """Return an environment in which a module of the test comes first."""
     (folder / name).mkdir(parents=True)
     (folder / name / "__init__.py").write_text(code)
     return {"PYTHONPATH": f"{folder}:{os.environ['PYTHONPATH']}"}
@@ -155,8 +155,8 @@ def test_a_port_that_a_scene_serves_and_another_has_is_a_warning(terminal: dict[
     try:
         server = socket.create_server(("127.0.0.1", 5000))
     except OSError:
-        server = None  # another has it already
+        server = None  # already in use
     run = bubblesim("doctor", "ports", env=terminal)
     if server:
         server.close()
-    assert finding(run, "port 5000, which the scene tricycle_socket serves, cannot be had")[0] == "warning"
+    assert finding(run, "cannot bind port 5000, which the scene tricycle_socket needs")[0] == "warning"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A robot in a running node, and what it tells and hears."""
+"""A robot in a running node, and a peer on its topics."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -15,7 +15,7 @@ from ros_support import RosCore
 
 @dataclass
 class Run:
-    """A scene in a node, and a peer."""
+    """A scene in a node, and its peer."""
 
     core: RosCore
     node: Node
@@ -30,7 +30,7 @@ def shared_core(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RosCore]:
 
 @pytest.fixture(scope="module")
 def run(shared_core: RosCore, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Run]]:
-    """Runs a scene until the module's tests are done."""
+    """Run a scene until the module's tests have finished."""
     with ExitStack() as ends:
 
         def begin(scene: Path | str, *options: str) -> Run:

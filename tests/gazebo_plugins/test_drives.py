@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives of other kinds than the rover's, side by side in one world."""
+"""Drives of other kinds than the rover's, in one world."""
 
 import math
 import os
@@ -35,7 +35,7 @@ def wheel(name: str, x: float, y: float, parent: str = "body", radius: float = R
 
 
 def steered(name: str, x: float, y: float) -> str:
-    """A wheel below a part that turns about the vertical."""
+    """Return a wheel below a part that turns about the vertical."""
     knuckle = link(f"{name}_knuckle", x, y, RADIUS, 0.5, 0.002) + joint(
         f"{name}_steering", "body", f"{name}_knuckle", "0 0 1", 0.7
     )
@@ -205,7 +205,7 @@ def peer(running: Any) -> Peer:
 
 
 def moving(peer: Peer, topic: str, name: str, least: float) -> Message:
-    """The odometry, once a velocity has come up to its value."""
+    """Return the odometry after a velocity has reached its value."""
 
     def fast(message: Message) -> bool:
         twist = message["twist"]["twist"]
@@ -305,7 +305,7 @@ def test_ros_2s_drive_drives_each_pair_of_wheels_by_its_own_measures(running: An
     turn_at(speeds(0.3, 0.0))
     peer.drive("/pairs/cmd_vel", 0.0, 0.5)
     turn_at(speeds(0.0, 0.5))
-    running.node.wait_for_output("<leftJoint> stands there 2 times, it must be 3 times")
+    running.node.wait_for_output("<leftJoint> is given 2 times, expected 3")
 
 
 def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None:
@@ -339,14 +339,14 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
     first = at(0.5)
     assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
-    running.node.wait_for_output("cannot take a message on /set_joint_trajectory")
+    running.node.wait_for_output("cannot process a message on /set_joint_trajectory")
     assert peer.next("/joint_states")["position"] == pytest.approx([-0.3], abs=0.01), "the rest goes on"
 
 
 def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
     peer.say("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
     twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]
-    # At the end of a step it has turned by half a step's angle more than it was pushed for.
+    # At the end of a step it has turned by half a step's angle more than the velocity command assumed.
     assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.3, 0.2), abs=0.01)
     assert twist["angular"]["z"] == pytest.approx(0.5, abs=0.01)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors of gz-sim are published as ros_gz_bridge brings them to ROS, without a plugin of their own."""
+"""Sensors of gz-sim are published as by ros_gz_bridge, without a plugin."""
 
 import math
 from collections.abc import Callable
@@ -12,7 +12,7 @@ import pytest
 from ros_peer import Message, Peer
 
 WALL = 2.0  # m ahead of the sensors
-HALF = math.tan(math.pi / 6)  # of the depth cameras' width at 1 m
+HALF = math.tan(math.pi / 6)  # half the depth camera's image width at 1 m, in m
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def peer(running: Any) -> Peer:
 
 
 def points(cloud: Message) -> np.ndarray[Any, Any]:
-    """x, y and z, height x width x 3."""
+    """Return x, y and z, height x width x 3."""
     offsets = {field["name"]: field["offset"] for field in cloud["fields"]}
     kind = np.dtype(
         {"names": list("xyz"), "formats": ["<f4"] * 3, "offsets": [offsets[axis] for axis in "xyz"]}

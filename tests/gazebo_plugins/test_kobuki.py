@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Kobuki of the TurtleBot 2: its drive, odometry, bumpers, cliff sensors and IMU, under its own topics."""
+"""The Kobuki of the TurtleBot 2: its drive, odometry, bumpers, cliff sensors and IMU, on its own topics."""
 
 import math
 from collections.abc import Callable
@@ -90,7 +90,7 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 def odometry(peer: Peer, holds: Callable[[Message, Message], bool], what: str) -> Message:
-    """The first odometry of which something holds, given its pose and its twist."""
+    """Return the first odometry for which `holds`, given its pose and its twist, is true."""
     message = peer.wait_for(
         "/odom", "nav_msgs/Odometry", lambda odom: holds(odom["pose"]["pose"], odom["twist"]["twist"]), what
     )
@@ -103,7 +103,7 @@ def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: 
     peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
     odometry(peer, lambda _, twist: abs(twist["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
     stopped = odometry(peer, lambda _, twist: abs(twist["linear"]["x"]) < 0.001, "it to stop by itself")
-    # 0.6 s and at most a step or two of 50 ms at 0.2 m/s, less what it takes to get there.
+    # 0.6 s and at most a step or two of 50 ms at 0.2 m/s, minus the acceleration time.
     assert stopped["pose"]["pose"]["position"]["x"] == pytest.approx(0.12, abs=0.03)
     states = peer.next("/joint_states", "sensor_msgs/JointState")
     assert states["name"] == ["wheel_left_joint", "wheel_right_joint"]
@@ -171,7 +171,7 @@ def test_a_cliff_sensor_reads_less_the_farther_the_floor_is() -> None:
     assert cliff_reading(2.0) == int(76123 * math.atan2(0.995, 2.0))
 
 
-# As other generators' code for kobuki_msgs has them: rosserial, rosnodejs, roslisp.
+# Values from the code of other generators for kobuki_msgs: rosserial, rosnodejs, roslisp.
 @pytest.mark.parametrize(
     ("name", "md5"),
     [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What devices read from <plugin> elements."""
+"""Parameters that plugins read from <plugin> elements."""
 
 import math
 
@@ -71,7 +71,7 @@ def test_deviations_are_one_or_three(parameters: Parameters) -> None:
     assert parameters.deviations("missing") == (0.0,)
     parameters.check()
     parameters.deviations("none")
-    with pytest.raises(ParameterError, match=r"one number or three \(x, y and z\) of at least 0"):
+    with pytest.raises(ParameterError, match=r"one or three numbers \(x, y and z\) of at least 0"):
         parameters.check()
 
 

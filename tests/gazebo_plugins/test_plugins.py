@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is told about plugins that cannot work as they stand."""
+"""Messages about plugins that cannot work as written."""
 
 from pathlib import Path
 
@@ -30,15 +30,15 @@ MODEL = """\
     [
         (
             '<plugin name="arm" filename="libmy_arm.so"/>',
-            "warning: {file}:10: plugin 'arm' (libmy_arm.so): there is no device for it; the model runs without it",
+            "warning: {file}:10: plugin 'arm' (libmy_arm.so): plugin is not supported; the model runs without it",
         ),
         (
             '<plugin name="drive" filename="libgazebo_ros_dif_drive.so"/>',
-            "there is no device for it; did you mean gazebo_ros_diff_drive?; the model runs without it",
+            "plugin is not supported; did you mean gazebo_ros_diff_drive?; the model runs without it",
         ),
         (
             '<plugin name="control" filename="libgazebo_ros_control.so"/>',
-            "warning: {file}:10: plugin 'control' (libgazebo_ros_control.so): there is no ros_control here",
+            "warning: {file}:10: plugin 'control' (libgazebo_ros_control.so): ros_control is not supported",
         ),
         (
             '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
@@ -54,8 +54,8 @@ MODEL = """\
         (
             '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
             "<updateRat>5</updateRat></plugin>",
-            "warning: {file}:10: plugin 'joints' (libgazebo_ros_joint_state_publisher.so) has no parameters updateRat; "
-            "did you mean update_rate?",
+            "warning: {file}:10: plugin 'joints' (libgazebo_ros_joint_state_publisher.so) has unknown parameters: "
+            "updateRat; did you mean update_rate?",
         ),
     ],
 )
@@ -73,7 +73,7 @@ def test_plugins_without_a_device_are_told_without_ros_too(tmp_path: Path) -> No
         '<plugin name="arm" filename="libmy_arm.so"/><plugin name="drive" filename="libgazebo_ros_diff_drive.so"/>'
     )
     file = write(tmp_path / "robot.sdf", MODEL.format(plugin=plugins))
-    told = f"warning: {file}:10: plugin 'arm' (libmy_arm.so): there is no device for it; the model runs without it"
+    told = f"warning: {file}:10: plugin 'arm' (libmy_arm.so): plugin is not supported; the model runs without it"
     run = run_sim(file, "--no-ros", "--until", "0.1", "--speed", "max")
     assert (run.returncode, run.stderr.splitlines()) == (0, [told])
     assert command("check", file).stderr.splitlines() == [told]

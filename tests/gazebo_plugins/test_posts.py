@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors that plugins publish, and those that publish themselves."""
+"""Sensors that plugins publish, and sensors that publish themselves."""
 
 import math
 from collections.abc import Callable
@@ -22,7 +22,7 @@ def peer(run: Callable[..., Any]) -> Peer:
 
 
 def fields(cloud: Message) -> np.ndarray[Any, Any]:
-    """The points of a PointCloud2 by the names of its fields."""
+    """Return the points of a PointCloud2 by field name."""
     kinds = {4: "<u2", 7: "<f4"}
     point = np.dtype(
         {
@@ -36,7 +36,7 @@ def fields(cloud: Message) -> np.ndarray[Any, Any]:
 
 
 def on_the_wall() -> np.ndarray[Any, Any]:
-    """Where the rays of the block laser meet the wall."""
+    """Return the points where the rays of the block laser hit the wall."""
     across, up = DIRECTIONS.T
     return np.stack([np.full(15, WALL), WALL * np.tan(across), WALL * np.tan(up) / np.cos(across)], axis=1)
 
@@ -76,7 +76,7 @@ def test_a_kinect_gives_depths_points_and_pictures(peer: Peer) -> None:
     red, green, blue = picture.reshape(24, 32, 3)[12, 16]
     assert blue > 50 > max(red, green)
     points = fields(peer.next("/kinect/points", "sensor_msgs/PointCloud2"))
-    # The outermost pixel's centre: half a pixel within 30 degrees; in an optical frame x is to the right, y down.
+    # The outermost pixel's centre: 30 degrees minus half a pixel; in an optical frame x is to the right, y down.
     corner = points[0, 0]
     assert corner["x"] == pytest.approx(-WALL * math.tan(math.pi / 6) * 31 / 32, abs=1e-3)
     assert corner["y"] == pytest.approx(-WALL * math.tan(math.pi / 6) * 23 / 32, abs=1e-3)
@@ -89,7 +89,7 @@ def test_a_gps_tells_the_place_on_the_earth(peer: Peer) -> None:
     fix = peer.next("/fix", "sensor_msgs/NavSatFix")
     assert (fix["latitude"], fix["longitude"], fix["altitude"]) == pytest.approx((52.0, 13.0, 31.0), abs=1e-9)
     assert fix["header"]["frame_id"] == "head"
-    # With a heading of 0, x is north and y west; a degree of latitude is 111.26 km long at 52 degrees, one of
+    # With a heading of 0, x is north and y west; at 52 degrees, a degree of latitude is 111.26 km and a degree of
     # longitude 68.68 km (WGS 84).
     far = peer.next("/far/fix", "sensor_msgs/NavSatFix")
     assert far["latitude"] - 52 == pytest.approx(1.0 / 111.26, rel=1e-3)
@@ -97,7 +97,7 @@ def test_a_gps_tells_the_place_on_the_earth(peer: Peer) -> None:
 
 
 def test_a_compass_feels_the_field_of_the_earth(peer: Peer) -> None:
-    # x is north, the field points down by 60 degrees, and the link looks to the west: north is on its right.
+    # x is north, the field points down by 60 degrees, and the link faces west: north is on its right.
     field = peer.next("/magnetic", "sensor_msgs/MagneticField")
     felt = [field["magnetic_field"][axis] for axis in "xyz"]
     assert felt == pytest.approx([0, -5e-5 * math.cos(math.pi / 3), -5e-5 * math.sin(math.pi / 3)], abs=1e-12)
@@ -113,7 +113,7 @@ def test_a_stereo_head_gives_a_picture_of_each_side(peer: Peer) -> None:
     right = peer.next("/head/right/image_raw", "sensor_msgs/Image")
     assert (left["width"], right["width"]) == (8, 12)
     assert left["header"]["frame_id"] == right["header"]["frame_id"] == "eyes"
-    # Tx is -fx times the baseline, of the right one only.
+    # Tx is -fx times the baseline, for the right camera only.
     for side, baseline in (("left", 0.0), ("right", 0.1)):
         matrix = peer.next(f"/head/{side}/camera_info", "sensor_msgs/CameraInfo")["P"]
         assert matrix[3] == pytest.approx(-matrix[0] * baseline)

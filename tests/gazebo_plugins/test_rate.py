@@ -7,8 +7,8 @@ from bubblesim.gazebo_plugins.rate import Rate
 @pytest.mark.parametrize(
     ("hertz", "step", "expected"),
     [
-        (0, 0.05, 200),  # each step
-        (100, 0.05, 200),  # more often than there are passes
+        (0, 0.05, 200),  # every step
+        (100, 0.05, 200),  # more often than steps
         (10, 0.05, 100),
         (20, 0.05, 200),
         (15, 0.05, 150),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A robot from a URDF file with Gazebo's plugins, spawned and used as its users do it."""
+"""A robot from a URDF file with Gazebo plugins, spawned and driven through ROS."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ LASER_AHEAD = 0.1  # m from base_link
 
 @pytest.fixture(scope="module")
 def running(run: Callable[..., object]) -> Iterator[object]:
-    """The rover at the origin of a world with a wall."""
+    """Run the rover at the origin of a world with a wall."""
     world = run(HERE / "walls.sdf", "--gazebo-compat", "--speed", "4")
     spawn(world.peer, "rover", "/")
     yield world
@@ -39,7 +39,7 @@ def spawn(peer: Peer, name: str, namespace: str, y: float = 0.0) -> None:
 
 @pytest.fixture
 def peer(running: object) -> Peer:
-    """At its start, without commands."""
+    """Return the peer, with the rover at its start, without commands."""
     running.peer.call("/gazebo/reset_world")
     return running.peer
 
@@ -58,7 +58,7 @@ def truth(peer: Peer) -> Message:
 
 
 def at_time(messages: list[Message], message: Message) -> Message:
-    """The one of the same step as another."""
+    """Return the message of the same step as another message."""
     return next(each for each in messages if each["header"]["stamp"] == message["header"]["stamp"])
 
 
@@ -133,7 +133,7 @@ def test_its_camera_looks_at_the_wall(peer: Peer) -> None:
 def test_its_camera_tells_of_its_optics(peer: Peer) -> None:
     info = peer.next("/front/camera_info", "sensor_msgs/CameraInfo")
     assert info["header"]["frame_id"] == "camera_link"
-    # f = width / (2 tan(fov / 2)), the centre as gazebo_ros_pkgs has it
+    # f = width / (2 tan(fov / 2)), the centre as in gazebo_ros_pkgs
     assert info["K"] == pytest.approx([32.0, 0, 32.5, 0, 32.0, 24.5, 0, 0, 1], rel=1e-6)
     assert info["P"] == pytest.approx([32.0, 0, 32.5, -32.0 * 0.07, 0, 32.0, 24.5, 0, 0, 0, 1, 0], rel=1e-6)
     assert info["distortion_model"] == "plumb_bob"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What robots feel: a box that stands on the floor, and a weight that hangs from a joint."""
+"""Contact and force sensors of robots: a box on the floor, and a weight that hangs from a joint."""
 
 from collections.abc import Callable
 from typing import Any
@@ -43,7 +43,7 @@ WORLD = """\
   </world>
 </sdf>
 """
-GRAVITY = 9.8  # m/s^2, as SDFormat has it by default
+GRAVITY = 9.8  # m/s^2, SDFormat's default
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What nobody listens to is not measured: a camera is the dearest thing that a robot has."""
+"""Sensors without subscribers do not measure: cameras are the most expensive sensors of a robot."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -44,7 +44,7 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 def measurements(peer: Peer) -> tuple[float, int]:
-    """The simulated time of the next report, and how many times sensors had measured by then."""
+    """Return the simulated time of the next report, and the number of measurements until then."""
     while True:
         message = peer.next("/diagnostics", "diagnostic_msgs/DiagnosticArray")
         for status in message["status"]:
@@ -62,7 +62,7 @@ def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
     wait_until(lambda: measurements(peer)[1] > unheard, "the lidar's measurements")
     time, before = measurements(peer)
     later, after = measurements(peer)
-    # 20 steps a second, of the lidar alone: two cameras at its side would make it three times as many.
+    # 20 steps per second, of the lidar only: two cameras with it would give three times as many.
     assert 0 < after - before < 2 * 20 * (later - time)
 
 
@@ -76,7 +76,7 @@ def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
 def test_the_optics_of_a_camera_alone_do_not_have_it_measure(
     roscore: RosCore, tmp_path: Path, scene: str, infos: list[str], image: str, others: float
 ) -> None:
-    """`others`: measurements of other sensors in a simulated second."""
+    """`others`: measurements of other sensors per simulated second."""
     file = write(tmp_path / "robot.sdf", ROBOT.replace("{camera}", CAMERA)) if scene == "robot" else scene
     with Node(roscore.env, tmp_path / "log", file), Peer(roscore, tmp_path / "heard") as peer:
         for info in infos:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Velocities as a moving observer sees them."""
+"""Velocities in the frame of a moving observer."""
 
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,7 @@ import pytest
 import bubblesim
 from bubblesim.geometry.frames import state_from, state_in
 
-# The table turns about its z axis and looks along y; both others are 3 m ahead of it.
+# The table turns about its z axis and faces y; both other models are 3 m ahead of it.
 SCENE = """\
 <?xml version="1.0"?>
 <sdf version="1.9">
@@ -24,7 +24,7 @@ SCENE = """\
 
 @pytest.fixture
 def turntable(tmp_path: Path) -> Any:
-    """Turns with 2 rad/s, and carries the rider: w x r = (0, 0, 2) x (0, 3, 0) = (-6, 0, 0)."""
+    """A table that turns at 2 rad/s and carries the rider: w x r = (0, 0, 2) x (0, 3, 0) = (-6, 0, 0)."""
     file = tmp_path / "turntable.sdf"
     file.write_text(SCENE)
     simulation = bubblesim.Simulation(str(file))
@@ -67,7 +67,7 @@ def test_what_rests_on_a_turning_table_moves_with_it(turntable: Any) -> None:
 
 
 def test_velocities_along_the_axes_of_a_frame_turn_with_it(turntable: Any) -> None:
-    # At the table's centre nothing is carried along, and the table looks along y.
+    # At the table's centre the carried velocity is 0; the table faces y.
     table = turntable.object("/Table").handle
     _, linear, angular = state_from(turntable.world, [0, 0, 0, 0, 0, 0, 1], [5, 0, 0], [0, 1, 0], table)
     assert linear == pytest.approx([0, 5, 0])

@@ -12,13 +12,13 @@ from ros_support import REPOSITORY
 
 
 def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """The program as rosrun starts it."""
+    """Run the program as rosrun starts it."""
     command = [sys.executable, str(REPOSITORY / "scripts" / "messages"), *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 def rows(*arguments: str) -> dict[str, list[str]]:
-    """Name -> md5, state, file."""
+    """Return name -> md5, state, file."""
     return {line.split()[0]: line.split()[1:] for line in run(*arguments).stdout.splitlines()}
 
 

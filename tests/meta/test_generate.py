@@ -11,8 +11,8 @@ def test_three_typos_are_reported_at_once_with_place_and_hint(generator: Generat
     assert run.returncode == 1
     assert run.stderr.splitlines() == [
         "meta/messages.txt:1: geometry_msgs has no message Twits; did you mean geometry_msgs/Twist?",
-        "meta/messages.txt:3: there is no package sensor_msg; did you mean sensor_msgs/Image?",
-        "meta/messages.txt:6: there is no package stdmsgs; did you mean std_msgs/Float32?",
+        "meta/messages.txt:3: package sensor_msg is not found; did you mean sensor_msgs/Image?",
+        "meta/messages.txt:6: package stdmsgs is not found; did you mean std_msgs/Float32?",
     ]
 
 
@@ -27,7 +27,7 @@ def test_nothing_is_written_when_there_are_problems(generator: Generator) -> Non
 def test_malformed_lines_are_reported(generator: Generator, line: str) -> None:
     run = generator.run(f"std_msgs/String\n{line}\n")
     assert run.returncode == 1
-    assert run.stderr.startswith(f"meta/messages.txt:2: '{line}' is no type name, expected package/Type")
+    assert run.stderr.startswith(f"meta/messages.txt:2: '{line}' is not a type name, expected package/Type")
 
 
 def test_a_type_listed_twice_is_a_warning_with_both_places(generator: Generator) -> None:
@@ -48,7 +48,7 @@ def test_comments_blank_lines_and_both_spellings_are_allowed(generator: Generato
 
 def test_a_service_among_the_messages_is_sent_to_its_list(generator: Generator) -> None:
     run = generator.run("std_srvs/SetBool\n")
-    assert run.stderr.strip() == "meta/messages.txt:1: std_srvs/SetBool is a service: it belongs into meta/services.txt"
+    assert run.stderr.strip() == "meta/messages.txt:1: std_srvs/SetBool is a service: list it in meta/services.txt"
 
 
 def test_typos_in_services_are_reported_too(generator: Generator) -> None:
@@ -58,7 +58,7 @@ def test_typos_in_services_are_reported_too(generator: Generator) -> None:
 
 def test_an_unknown_package_that_resembles_none_comes_with_a_cure(generator: Generator) -> None:
     run = generator.run("quantum_teleport_msgs/Beam\n")
-    assert "there is no package quantum_teleport_msgs; install ros-quantum-teleport-msgs or" in run.stderr
+    assert "package quantum_teleport_msgs is not found; install ros-quantum-teleport-msgs or" in run.stderr
 
 
 def test_nested_types_come_along(generator: Generator) -> None:
@@ -141,9 +141,9 @@ def test_a_missing_nested_type_names_the_chain(generator: Generator) -> None:
     files = {"msg/Outer.msg": "Inner inner\n", "msg/Inner.msg": "other_pkg/Gone gone\n"}
     package = generator.add_package("src", "my_robot", files)
     assert generator.run("my_robot/Outer\n").stderr.strip() == (
-        "meta/messages.txt:1: other_pkg/Gone, which my_robot/Outer > my_robot/Inner contains "
+        "meta/messages.txt:1: other_pkg/Gone, used in my_robot/Outer > my_robot/Inner "
         f"({package}/msg/Inner.msg:1), is not found; "
-        "install its package or put it into the workspace"
+        "install its package or add it to the workspace"
     )
 
 

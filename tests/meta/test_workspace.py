@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What users do in their workspace, with the tools that they do it with."""
+"""The message tools in a user's workspace."""
 
 from hashlib import md5
 from pathlib import Path
@@ -17,7 +17,7 @@ def workspace(tmp_path: Path, request: pytest.FixtureRequest) -> Workspace:
 
 
 def checksum(text: str) -> str:
-    """Of a type without nested types, comments and constants."""
+    """Return the checksum of a type without nested types, comments and constants."""
     return md5(text.strip().encode()).hexdigest()
 
 
@@ -79,7 +79,7 @@ def test_add_message_writes_nothing_when_a_type_is_wrong(unbuilt: Workspace) -> 
     assert result.returncode == 2
     assert result.stdout.splitlines() == [
         "error: geometry_msgs/Twits is not found on this machine; did you mean geometry_msgs/Twist?",
-        "error: 'Twist' is no type name, expected package/Type such as geometry_msgs/Twist",
+        "error: 'Twist' is not a type name, expected package/Type such as geometry_msgs/Twist",
     ]
     assert (unbuilt.project / "meta" / "messages.txt").read_text() == "std_msgs/String\n"
 
@@ -95,7 +95,7 @@ def test_add_message_tells_the_bad_lines_of_a_definition(tmp_path: Path, unbuilt
 def test_add_message_says_when_there_is_nothing_to_build(unbuilt: Workspace) -> None:
     result = unbuilt.add_message("std_msgs/Bool")
     assert result.returncode == 1
-    assert "lies in no catkin workspace" in result.stdout
+    assert "is not in a catkin workspace" in result.stdout
 
 
 def test_add_message_says_how_the_build_failed(tmp_path: Path, unbuilt: Workspace) -> None:
@@ -109,4 +109,4 @@ def test_add_message_says_how_the_build_failed(tmp_path: Path, unbuilt: Workspac
 def test_add_message_has_a_help(unbuilt: Workspace) -> None:
     result = unbuilt.add_message("--help")
     assert result.returncode == 0
-    assert "exit codes: 0 fine, 1 the build failed, 2 bad usage" in result.stdout
+    assert "exit codes: 0 success, 1 the build failed, 2 bad usage" in result.stdout

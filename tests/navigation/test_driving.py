@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Driving on a map with things that are not in it; the robot follows each command at once."""
+"""Driving on a map with obstacles that are not in it; the robot follows each command at once."""
 
 import math
 from collections.abc import Callable
@@ -21,11 +21,11 @@ GOAL = (5.0, 2.0)
 
 def driving(grid: GridMap | None = ROOM, driver: Driver | None = None) -> Driving:
     driver = driver or Driver(radius=0.25)
-    return Driving(driver, Footprint(0.3, 0.6), patience=10.0, grid=grid)
+    return Driving(driver, Footprint(0.3, 0.6), timeout=10.0, grid=grid)
 
 
 def box(x: float, y: float) -> list[Point]:
-    """Points on a thing of 0.4 by 0.4 m."""
+    """Return points on an obstacle of 0.4 by 0.4 m."""
     steps = [0.05 * i - 0.2 for i in range(9)]
     return [(x + a, y + b) for a in steps for b in steps if max(abs(a), abs(b)) > 0.19]
 
@@ -33,7 +33,7 @@ def box(x: float, y: float) -> list[Point]:
 def drive(
     pilot: Driving, things: list[Point], meanwhile: Callable[[float], None] = lambda now: None
 ) -> tuple[Pose2D, float]:
-    """Where it is in the end, and how close the robot's middle came to a thing."""
+    """Return the final pose, and the smallest distance of the robot's centre to an obstacle."""
     pose, closest = START, math.inf
     for step in range(1500):
         now = 0.1 * step

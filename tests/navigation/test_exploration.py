@@ -42,7 +42,7 @@ def test_what_cannot_be_seen_is_not_tried_for_ever() -> None:
     explorer = Explorer(SLIM)
     assert explorer.update(grid, place)
     assert explorer.goal is not None
-    explorer.leave()
+    explorer.discard_goal()
     assert not explorer.update(grid, place)
     assert explorer.goal is None
 

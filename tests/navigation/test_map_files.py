@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps in files, by the rules that ROS's map_server documents."""
+"""Maps in files, by the rules in ROS's map_server documentation."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ import pytest
 
 from bubblesim.navigation.map_files import MapFileError, read_map
 
-SHADES = np.array([[0, 88, 90], [205, 206, 254]], dtype=np.uint8)  # the upper row first
+SHADES = np.array([[0, 88, 90], [205, 206, 254]], dtype=np.uint8)  # top row first
 
 
 def write(folder: Path, shades: np.ndarray = SHADES, picture: str = "room.pgm", **changes: object) -> Path:
@@ -65,7 +65,7 @@ def test_colours_are_averaged_and_the_transparent_is_unknown_in_scale(tmp_path: 
     [
         ({"image": "nowhere.pgm"}, "nowhere.pgm"),
         ({"resolution": 0}, "resolution"),
-        ({"resolution": None}, "lacks resolution"),
+        ({"resolution": None}, "missing: resolution"),
         ({"origin": [1, 2]}, "origin"),
         ({"origin": "[.nan, 0, 0]"}, "origin"),
         ({"occupied_thresh": 0.1}, "free_thresh"),

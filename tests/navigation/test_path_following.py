@@ -11,7 +11,7 @@ TRICYCLE = Driver(turning_radius=0.5, lookahead=0.8)
 
 
 def drive(path: list[tuple[float, float]], pose: Pose2D, driver: Driver) -> list[Pose2D]:
-    """Poses every 0.1 s until the robot has arrived, which follows each command at once."""
+    """Return the poses every 0.1 s until the robot, which follows each command at once, has arrived."""
     poses = [pose]
     for _ in range(1000):
         command = follow(path, poses[-1], driver)
@@ -66,12 +66,12 @@ def test_it_slows_down_before_the_end() -> None:
     ("command", "point", "blocked"),
     [
         (Velocity(0.4, 0.0), (0.5, 0.0), True),
-        (Velocity(0.4, 0.0), (0.5, 0.31), False),  # beside
+        (Velocity(0.4, 0.0), (0.5, 0.31), False),  # at the side
         (Velocity(0.4, 0.0), (0.7, 0.0), False),  # far enough to stop: 0.3 + 0.1 + 0.2 m
         (Velocity(0.1, 0.0), (0.5, 0.0), False),  # slow
         (Velocity(0.4, 0.0), (-0.2, 0.0), False),  # behind
         (Velocity(0.0, 0.5), (0.2, 0.0), False),  # turning on the spot
-        (Velocity(0.4, 0.8), (0.5, 0.5), True),  # in the curve: 0.25 m to the left there
+        (Velocity(0.4, 0.8), (0.5, 0.5), True),  # on the curve: 0.25 m to the left there
         (Velocity(0.4, 0.8), (0.5, -0.2), False),
     ],
 )

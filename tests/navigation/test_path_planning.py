@@ -34,8 +34,8 @@ def test_the_way_round_a_wall_is_as_short_as_it_can_be() -> None:
     grid = drawn(U_SHAPE)
     path = plan(grid, (2.25, 0.75), (3.25, 0.75), SLIM)
     assert not any(grid.occupied[grid.cell_of(point)] for point in path)
-    # By hand, in steps of half a metre: 2 aslant and 1 straight up to (1.25, 2.25), 1 aslant over the corner,
-    # 3 along, 1 aslant, 3 down.
+    # By hand, in steps of half a metre: 2 diagonal and 1 straight to (1.25, 2.25), 1 diagonal past the corner,
+    # 3 across, 1 diagonal, 3 down.
     assert length(path) == pytest.approx(0.5 * (4 * math.sqrt(2) + 6), abs=1.0)
 
 
@@ -63,8 +63,8 @@ def test_a_robot_that_stands_too_close_to_a_wall_can_leave() -> None:
     [
         ((9.0, 9.0), (0.25, 0.25), "the robot is outside"),
         ((0.25, 0.25), (-1.0, 0.25), "the goal is outside"),
-        ((0.25, 0.25), (1.25, 0.25), "not free"),
-        ((0.25, 0.25), (1.75, 0.25), "not free"),
+        ((0.25, 0.25), (1.25, 0.25), "not on a free cell"),
+        ((0.25, 0.25), (1.75, 0.25), "not on a free cell"),
         ((0.25, 0.25), (0.75, 1.25), "walls"),
     ],
 )
@@ -74,7 +74,7 @@ def test_why_there_is_no_path_is_told(start: tuple[float, float], goal: tuple[fl
 
 
 def shortest(free: np.ndarray, first: tuple[int, int], last: tuple[int, int]) -> float:
-    """By relaxing all cells until nothing changes any more (Bellman 1958), in cells; inf without a way."""
+    """Relax all cells until nothing changes (Bellman 1958); return the length in cells, inf without a path."""
     rows, columns = free.shape
     reached = np.full((rows + 2, columns + 2), math.inf)
     reached[first[0] + 1, first[1] + 1] = 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes of src/nodes as processes, and peers that talk to them."""
+"""The nodes of src/nodes as processes, and their peers."""
 
 import json
 import subprocess
@@ -33,14 +33,14 @@ rospy.init_node("peer", anonymous=True)
 
 @pytest.fixture(scope="module")
 def core(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RosCore]:
-    """A master for all tests of a module, which use names of their own."""
+    """A master for all tests of a module, which use different names."""
     with RosCore(tmp_path_factory.mktemp("roslog")) as core:
         yield core
 
 
 @pytest.fixture
 def node(core: RosCore) -> Iterator[Start]:
-    """Starts a node of ours, built or of scripts/, that ends with the test."""
+    """Start one of our nodes, built or from scripts/, which ends with the test."""
     processes = []
 
     def begin(name: str, *arguments: object, **options: Any) -> "subprocess.Popen[str]":
@@ -56,7 +56,7 @@ def node(core: RosCore) -> Iterator[Start]:
 
 @pytest.fixture
 def ask(core: RosCore, tmp_path: Path) -> Ask:
-    """Runs rospy code in a process of its own, and returns what it prints as JSON in its last line."""
+    """Run rospy code in its own process, and return the JSON of its last output line."""
 
     def run(code: str, *arguments: object) -> Any:
         file = tmp_path / "peer.py"

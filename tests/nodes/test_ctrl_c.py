@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ctrl-C ends programs without a traceback, whatever they wait for."""
+"""Ctrl-C ends programs without a traceback, wherever they wait."""
 
 import os
 import pty
@@ -38,7 +38,7 @@ CLIENTS = {
 
 @contextmanager
 def running(program: str, arguments: list[str], env: dict[str, str], folder: Path) -> Iterator["subprocess.Popen[str]"]:
-    """The program, with keys from a terminal; its output goes to the file `log`."""
+    """Run the program with keys from a terminal; its output goes to the file `log`."""
     (folder / "map.pgm").write_bytes(b"P5 2 2 255\n" + bytes([254] * 4))
     (folder / "map.yaml").write_text(
         "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.2\nnegate: 0\n"
@@ -68,7 +68,7 @@ def ends_quietly(process: "subprocess.Popen[str]", log: Path) -> None:
 
 
 def wait_until_it_loads_modules(process: "subprocess.Popen[str]") -> None:
-    """Python catches SIGINT when it has started, until the program's first lines."""
+    """Wait until Python has started and handles SIGINT, before the program's first lines."""
 
     def catches() -> bool:
         caught = re.search(r"SigCgt:\s+(\w+)", Path(f"/proc/{process.pid}/status").read_text())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes that drive on maps, with a robot that follows each command at once."""
+"""The navigation nodes, with a robot that follows each command at once."""
 
 import subprocess
 
@@ -8,14 +8,14 @@ import pytest
 from node_types import Ask, Start
 from ros_support import DEADLINE
 
-# Plays map, scan and robot: a room of 6 by 4 m with the robot at (1, 2). Arguments: namespace, "goal" to send one.
+# Publishes map, scan and robot: a room of 6 by 4 m with the robot at (1, 2). Arguments: namespace, "goal" to send one.
 ROBOT = """
 from std_msgs.msg import Bool, Header
 namespace, sends_goal = sys.argv[1], sys.argv[2] == "goal"
 cells = np.zeros((40, 60), np.int8)
 cells[[0, -1], :] = cells[:, [0, -1]] = 100
 if not sends_goal:
-    cells[:, 40:] = -1  # what lies there is not known
+    cells[:, 40:] = -1  # unknown cells
 grid = OccupancyGrid(header=Header(frame_id="map"), data=cells.ravel().tolist())
 grid.info.width, grid.info.height, grid.info.resolution = 60, 40, 0.1
 grid.info.origin.orientation.w = 1.0
@@ -46,7 +46,7 @@ def live():
     scans.publish(LaserScan(header=Header(frame_id="base_link"), ranges=[math.inf] * 4, angle_increment=1.0))
     if time.monotonic() - last_map > 0.5:
         if x > 2.5:
-            cells[1:-1, 40:-1] = 0  # it sees the rest from there
+            cells[1:-1, 40:-1] = 0  # the rest is visible from there
             cells[:, -1] = 100
             grid.data = cells.ravel().tolist()
         maps.publish(grid)
@@ -73,7 +73,7 @@ def test_a_goal_is_driven_to(node: Start, ask: Ask) -> None:
     seen = ask(ROBOT, "/a", "goal")
     assert seen["arrived"] == [True]
     assert seen["place"][:2] == pytest.approx([4.0, 1.0], abs=0.15)
-    assert seen["place"][2] == pytest.approx(-1.0, abs=0.05)  # it looks back, as the goal says
+    assert seen["place"][2] == pytest.approx(-1.0, abs=0.05)  # it faces back, as in the goal
     assert seen["path"] > 20
     assert (seen["frame"], seen["last"]) == ("map", [0.0, 0.0])
 

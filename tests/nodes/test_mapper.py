@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node that maps, in simulated time."""
+"""The mapping node, in simulated time."""
 
 import subprocess
 from pathlib import Path
@@ -10,7 +10,7 @@ from bubblesim.navigation.map_files import read_map
 from node_types import Ask, Start
 from ros_support import DEADLINE, RosCore, wait_until
 
-# A robot that goes 2 m through a room of 8 x 6 m whose odometry tells 10 % more; it looks all round every 0.2 m.
+# A robot drives 2 m in a room of 8 x 6 m; its odometry reports 10 % more, and it scans a full turn every 0.2 m.
 MAPPING = """
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Header
@@ -27,7 +27,7 @@ buffer = tf2_ros.Buffer()
 tf2_ros.TransformListener(buffer)
 wait_until(lambda: scans.get_num_connections() > 0, "the mapper")
 
-def range_at(x, angle):  # the room reaches from (-2, -3) to (6, 3)
+def range_at(x, angle):  # the room extends from (-2, -3) to (6, 3)
     along, up = math.cos(angle), math.sin(angle)
     to_side = (6 - x if along > 0 else -2 - x) / along
     to_end = math.copysign(3, up) / up
@@ -88,7 +88,7 @@ def _simulated_time(core: RosCore) -> None:
 def test_scans_become_a_map_and_odometry_is_put_right(node: Start, ask: Ask, tmp_path: Path) -> None:
     node("mapper", f"_map_file:={tmp_path}/made/room", "_linearUpdate:=0.2", "_map_update_interval:=100")
     seen = ask(MAPPING)
-    assert seen["correction"] == pytest.approx(-0.2, abs=0.02)  # odometry went 2.2 m, the robot 2 m
+    assert seen["correction"] == pytest.approx(-0.2, abs=0.02)  # odometry 2.2 m, robot 2 m
     assert seen["frame"] == "map"
     assert seen["size"] == pytest.approx([8.0, 6.0], abs=0.3)
     assert seen["walls"] > 500  # 28 m of walls

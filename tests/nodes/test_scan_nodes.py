@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes that make scans of clouds and depth images: topics, frames, laziness, parameters."""
+"""The nodes that convert clouds and depth images to scans: topics, frames, subscribers, parameters."""
 
 import subprocess
 
@@ -17,7 +17,7 @@ clouds = rospy.Publisher("/placed/cloud", PointCloud2, queue_size=10)
 transforms = tf2_ros.TransformBroadcaster()
 stamps = []
 
-def send():  # the cloud comes first: the node has to wait for its transform
+def send():  # the cloud comes first, so the node must wait for its transform
     now = rospy.Time.now()
     stamps.append(now.to_nsec())
     points = [(2.0, 0.0, 0.0), (3.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 5.0)]
@@ -63,7 +63,7 @@ def test_a_cloud_becomes_a_scan_in_the_target_frame(node: Start, ask: Ask) -> No
     node("pointcloud_to_laserscan", *names, "_target_frame:=base", "_max_height:=1.0")
     seen = ask(CLOUD_SEEN_THROUGH_TF)
     assert (seen["frame"], seen["known"], seen["rays"]) == ("base", True, 360)
-    # 2.5 m ahead; the point to the left lies at (0.5, 1): 63.4 degrees, 1.118 m. Rays start at -180 degrees.
+    # 2.5 m ahead; the point to the left is at (0.5, 1): 63.4 degrees, 1.118 m. Rays start at -180 degrees.
     assert seen["hits"] == {"180": 2.5, "243": pytest.approx(1.118, abs=1e-3)}
 
 

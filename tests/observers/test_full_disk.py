@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A recording that meets a full disk ends with a bag that can be read; the simulation goes on."""
+"""A recording on a full disk ends with a readable bag; the simulation continues."""
 
 import resource
 import subprocess
@@ -25,7 +25,7 @@ SCRIPT = """
 
 
 def record(core: RosCore, folder: Path, bag: Path, limit: int | None = None) -> "subprocess.CompletedProcess[str]":
-    """Records a run of 100 steps with 100 kB each, 10 MB; no file may grow over `limit` bytes."""
+    """Record a run of 100 steps with 100 kB each, 10 MB; no file may exceed `limit` bytes."""
 
     def limit_files() -> None:
         if limit:
@@ -46,12 +46,12 @@ def record(core: RosCore, folder: Path, bag: Path, limit: int | None = None) -> 
 
 def check(run: "subprocess.CompletedProcess[str]", bag: Path, size: int, reason: str) -> None:
     errors = [line for line in run.stderr.splitlines() if line.startswith("error")]
-    assert errors == [f"error: the recording ends: {bag}: {reason}; what was written before can be read"], run.stderr
+    assert errors == [f"error: recording stopped: {bag}: {reason}; the file contains the messages before"], run.stderr
     assert (run.returncode, PREFIX.sub("", run.stdout)) == (0, f"until {SECONDS:.3g}.0\n")
     assert bag.stat().st_size <= size
     with rosbag.Bag(str(bag)) as file:
         numbers = [message.data for _, message, _ in file.read_messages(topics=["/numbers"])]
-    # All but what the chunk held that was being written, of 768 KiB: one in 100 kB.
+    # All except the chunk in progress, of 768 KiB: one message per 100 kB.
     assert size / 100_000 - 10 < len(numbers) <= size / 100_000
     assert numbers == pytest.approx([0.05 * n for n in range(len(numbers))], abs=1e-5)
 
@@ -71,7 +71,7 @@ def test_on_a_full_disk(roscore: RosCore, tmp_path: Path, small_disk: Path) -> N
     check(record(roscore, tmp_path, bag), bag, 4 << 20, "No space left on device")
 
 
-# The error comes in the middle of a message, at the end of a chunk, and in the index that the end of the run writes.
+# The error occurs within a message, at the end of a chunk, and in the index that is written at the end of the run.
 @pytest.mark.parametrize("limit", [2_500_000, 2_700_000, 2_707_000, 2_708_000, 3_000_001])
 def test_where_files_may_not_grow(roscore: RosCore, tmp_path: Path, limit: int) -> None:
     bag = tmp_path / "run.bag"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What peers can do to a roscpp node of ours by its XML-RPC and TCPROS ports: real nodes, real sockets."""
+"""Harm that peers can do to our roscpp nodes through XML-RPC and TCPROS ports: real nodes, real sockets."""
 
 import contextlib
 import itertools
@@ -34,7 +34,7 @@ numbers = itertools.count()
 
 
 class Node:
-    """A node of ours with a name of its own, a log, and where it listens."""
+    """One of our nodes with its name, log, and listening addresses."""
 
     def __init__(self, program: str, env: dict[str, str], folder: Path, *arguments: str) -> None:
         name = f"peer_{next(numbers)}"
@@ -63,7 +63,7 @@ class Node:
         return xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}")
 
     def listens(self) -> set[str]:
-        """The addresses of its listening TCP sockets, as /proc has them."""
+        """Return the addresses of its listening TCP sockets, from /proc."""
         sockets = set()
         for entry in Path(f"/proc/{self.process.pid}/fd").iterdir():
             with contextlib.suppress(OSError):
@@ -77,7 +77,7 @@ class Node:
         return int(answer[2])
 
     def post(self, body: bytes) -> bytes:
-        """Sends one request; returns what is answered until the node closes, b"" when it refuses to read it."""
+        """Send one request; return the response until the node closes, b"" if it refuses to read."""
         head = f"POST / HTTP/1.0\r\nContent-Type: text/xml\r\nContent-length: {len(body)}\r\n\r\n".encode()
         with socket.create_connection(("127.0.0.1", self.port), timeout=60) as connection:
             answer = b""
@@ -97,7 +97,7 @@ class Node:
 
 @pytest.fixture(scope="module")
 def core(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RosCore]:
-    """A master for all tests, whose nodes have names of their own."""
+    """A master for all tests, whose nodes have different names."""
     with RosCore(tmp_path_factory.mktemp("roslog")) as core:
         yield core
 
@@ -112,7 +112,7 @@ def shared_node(
 
 @pytest.fixture
 def node(shared_node: Node) -> Iterator[Node]:
-    """A node that has to be alive after the test, too."""
+    """A node that must still be alive after the test."""
     yield shared_node
     shared_node.check_alive()
 
@@ -125,7 +125,7 @@ def sim(core: RosCore, tmp_path: Path) -> Iterator[Node]:
 
 
 def environment(core: RosCore, **chosen: str) -> dict[str, str]:
-    """That of the master's clients, with this choice of an address."""
+    """Return the environment of the master's clients, with this choice of an address."""
     return {name: value for name, value in core.env.items() if name not in ("ROS_HOSTNAME", "ROS_IP")} | chosen
 
 
@@ -152,10 +152,10 @@ def test_an_address_of_the_command_line_counts(core: RosCore, tmp_path: Path) ->
 
 
 def test_an_address_of_no_interface_is_a_warning(core: RosCore, tmp_path: Path) -> None:
-    unknown = "192.0.2.1"  # of TEST-NET-1 (RFC 5737)
+    unknown = "192.0.2.1"  # in TEST-NET-1 (RFC 5737)
     with Node("sim", environment(core, ROS_HOSTNAME=unknown), tmp_path) as node:
         assert node.listens() == {ANY_ADDRESS}
-        assert node.output.count(f"'{unknown}' (ROS_HOSTNAME, ROS_IP), which is no address of this machine") == 1
+        assert node.output.count(f"'{unknown}' (ROS_HOSTNAME, ROS_IP), which is not an address of this machine") == 1
         node.check_alive()
 
 
@@ -175,7 +175,7 @@ def test_sockets_of_scripts_bind_what_they_ask_for(core: RosCore, tmp_path: Path
 
 
 def nested(depth: int) -> str:
-    """A value of `depth` values, one in the other."""
+    """Return a value with `depth` nested values."""
     return "<value><array><data>" * (depth - 1) + "<value>1</value>" + "</data></array></value>" * (depth - 1)
 
 
@@ -246,5 +246,5 @@ def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
                 connection.shutdown(socket.SHUT_WR)
                 with contextlib.suppress(ConnectionError):
                     connection.recv(1)
-    wait_until(lambda: "more lines about XML-RPC connections are left out" in sim.output, "the limit")
+    wait_until(lambda: "suppressing more lines about XML-RPC connections" in sim.output, "the limit")
     assert len(sim.output.splitlines()) < 60

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a RosBridge and obeys lines on stdin: `command arguments...`. Each is answered by one line, `= result` or
-// `! error`; what subscribers get is printed as `message ID VALUE`, what servers are asked as `request ID VALUE`, what
-// process_input() throws as `process_input threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py is its
-// other half.
+// Holds a RosBridge and executes commands on stdin: `command arguments...`. Each is answered by one line, `= result` or
+// `! error`. Received messages are printed as `message ID VALUE`, service requests as `request ID VALUE`, exceptions of
+// process_input() as `process_input threw TEXT`. Ends on SIGTERM, `quit` or end of input. bridge_probe.py controls it.
 #include <poll.h>
 #include <ros/console.h>
 #include <signal.h>
@@ -130,7 +129,7 @@ std::string decode_response(const WireBuffer& response) {
   return (success ? "yes " : "no ") + decode_string(view);
 }
 
-/// Longest time [ms] that any of the functions has taken, in as many rounds.
+/// Longest duration [ms] of any of the functions, in as many rounds.
 template <class... Functions>
 double longest_call(int rounds, Functions&&... functions) {
   using Clock = std::chrono::steady_clock;
@@ -183,7 +182,8 @@ class Probe {
     return std::to_string(bridge_.advertise(topic, type, queue_size == 0 ? 100 : queue_size, latch));
   }
 
-  /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down, "size" prints how many bytes.
+  /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down, "size" prints the number of
+  /// bytes.
   std::string subscribe(Words& words) {
     const auto topic = read<std::string>(words);
     const auto& type = types().at(read<std::string>(words));
@@ -205,8 +205,8 @@ class Probe {
     return "";
   }
 
-  /// `how`: "" echoes the request's bool, "throw" throws, "fail" says that it cannot, "close" shuts itself down,
-  /// "call ID" calls that client first, for 5 s at most, "sleep" takes half a second.
+  /// `how`: "" echoes the request's bool, "throw" throws, "fail" reports a failure, "close" shuts itself down,
+  /// "call ID" calls that client first, for at most 5 s, "sleep" takes half a second.
   std::string serve(Words& words) {
     const auto name = read<std::string>(words);
     const auto& type = services().at(read<std::string>(words));
@@ -231,7 +231,7 @@ class Probe {
     return std::to_string(bridge_.service_client(name, services().at(read<std::string>(words))));
   }
 
-  /// call ID TIMEOUT [BOOL]: the request of a Trigger has no bytes.
+  /// call ID TIMEOUT [BOOL]: a Trigger request has no bytes.
   std::string call(Words& words) {
     const auto id = read<EndpointId>(words);
     const auto timeout = read<double>(words);
@@ -245,7 +245,7 @@ class Probe {
     return bridge_.wait_for_service(name, read<double>(words)) ? "yes" : "no";
   }
 
-  /// longest TOPIC: longest time [ms] of any call that a simulation makes in its steps.
+  /// longest TOPIC: longest duration [ms] of any call that a simulation makes in its steps.
   std::string longest(Words& words) {
     const auto topic = read<std::string>(words);
     const auto& type = types().at("float");
@@ -264,7 +264,7 @@ class Probe {
         [&] { bridge_.shutdown_subscriber(subscriber); }, [&] { bridge_.shutdown_service_server(server); }));
   }
 
-  /// flood ID BYTES COUNT: so many strings of so many bytes, 50 a second.
+  /// flood ID BYTES COUNT: publishes COUNT strings of BYTES bytes, 50 per second.
   std::string flood(Words& words) {
     const auto id = read<EndpointId>(words);
     const std::string text(read<std::size_t>(words), 'x');
@@ -278,7 +278,7 @@ class Probe {
     return "";
   }
 
-  /// log TEXT: sends it to /rosout.
+  /// log TEXT: sends TEXT to /rosout.
   std::string log(Words& words) {
     ROS_WARN_STREAM(read<std::string>(words));
     return "";
@@ -348,7 +348,7 @@ void run(RosBridge& bridge) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::ios::sync_with_stdio(false);  // so that in_avail() sees lines that were read ahead
+  std::ios::sync_with_stdio(false);  // so that in_avail() counts buffered lines
   struct sigaction action {};
   action.sa_handler = [](int) { ending = true; };
   sigaction(SIGTERM, &action, nullptr);
@@ -357,7 +357,7 @@ int main(int argc, char** argv) {
     options.on_pause = [](bool paused) { std::cout << (paused ? "paused" : "unpaused") << std::endl; };
     options.is_ending = [] { return ending.load(); };
     RosBridge bridge(argc, argv, options);
-    if (argc > 1) throw std::invalid_argument(std::string("left over argument ") + argv[1]);
+    if (argc > 1) throw std::invalid_argument(std::string("unexpected argument ") + argv[1]);
     run(bridge);
   } catch (const std::exception& error) {
     std::cout << "! " << error.what() << std::endl;

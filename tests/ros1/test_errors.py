@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the bridge says to authors of scripts. None of it needs a master."""
+"""Error messages of the bridge to script authors. None of these tests needs a master."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -42,14 +42,14 @@ def test_publisher_is_no_subscriber(probe: Probe) -> None:
 
 @pytest.mark.parametrize("topic", ["a-b", "1a", "/a~b", "/"])
 def test_unusable_topic_name_is_refused(probe: Probe, topic: str) -> None:
-    assert probe.ask("advertise", topic, "float").startswith(f"! unusable topic name '{topic}': ")
-    assert probe.ask("subscribe", topic, "float").startswith(f"! unusable topic name '{topic}': ")
+    assert probe.ask("advertise", topic, "float").startswith(f"! invalid topic name '{topic}': ")
+    assert probe.ask("subscribe", topic, "float").startswith(f"! invalid topic name '{topic}': ")
 
 
 def test_second_type_on_a_topic_is_refused(probe: Probe) -> None:
     probe.ask("advertise", "/x", "float")
     assert probe.ask("advertise", "/x", "string") == (
-        "! topic '/x' is already advertised here as std_msgs/Float32, so it cannot be std_msgs/String"
+        "! topic '/x' is already advertised here as std_msgs/Float32, not std_msgs/String"
     )
     assert "already advertised here as std_msgs/Float32" in probe.ask("subscribe", "/x", "string")
     probe.ask("subscribe", "/y", "float")
@@ -62,11 +62,11 @@ def test_unusable_master_uri_is_refused(tmp_path: Path, uri: str) -> None:
     with Probe({**ros_environment(1, tmp_path), "ROS_MASTER_URI": uri}) as probe:
         assert probe.process.wait() == 2
         probe.wait_for(lambda: bool(probe.events), "the error")
-        assert probe.events[0].startswith(f"! unusable ROS master URI '{uri}'")
+        assert probe.events[0].startswith(f"! invalid ROS master URI '{uri}'")
 
 
 def test_unusable_node_name_is_refused(tmp_path: Path) -> None:
     with Probe(ros_environment(free_port(), tmp_path), "__name:=a/b") as probe:
         assert probe.process.wait() == 2
         probe.wait_for(lambda: bool(probe.events), "the error")
-        assert probe.events[0].startswith("! unusable name for the ROS node: ")
+        assert probe.events[0].startswith("! invalid name for the ROS node: ")

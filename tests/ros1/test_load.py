@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Subscribers that stop, or come and go."""
+"""Subscribers that stop, or connect and disconnect."""
 
 import os
 import re
@@ -21,7 +21,7 @@ MEGABYTE = 1_000_000
 RATE = 50
 QUEUE = 10
 CYCLES = 200
-MASTER_CONNECTIONS = 2  # that roscpp keeps open between calls, or not, as it happens: a leak would show CYCLES times
+MASTER_CONNECTIONS = 2  # roscpp may keep these open between calls; a leak would show CYCLES times
 
 
 def resident_megabytes(probe: Probe) -> float:
@@ -36,7 +36,7 @@ def open_descriptors(probe: Probe) -> int:
 
 
 def flood(probe: Probe, publisher: str, seconds: int) -> None:
-    """One megabyte, 50 times a second; in pieces, so that no answer takes longer than a test waits."""
+    """Publish one megabyte 50 times a second; in parts, so that no answer exceeds the test's timeout."""
     for _ in range(seconds):
         probe.ask("flood", publisher, MEGABYTE, RATE)
 
@@ -67,12 +67,12 @@ def test_stopped_subscriber_costs_its_queue_and_the_others_nothing(roscore: RosC
         flood(probe, publisher, seconds)
         live.wait_for(lambda: len(live.messages(subscriber)) == sent + seconds * RATE, "all messages")
         os.kill(stuck.process.pid, signal.SIGCONT)
-        # The queue, one message that is being written, and as much again for what an allocator keeps.
+        # The queue, one message in progress, and as much again for the allocator.
         assert resident_megabytes(probe) - before < 2 * (QUEUE + 1)
 
 
 def connect_as_subscriber(core: RosCore, topic: str) -> socket.socket:
-    """A TCPROS connection as far as the publisher's answer."""
+    """Open a TCPROS connection up to the publisher's response."""
     master: Any = xmlrpc.client.ServerProxy(core.env["ROS_MASTER_URI"])
     node: Any = xmlrpc.client.ServerProxy(master.lookupNode("/test", NAME)[2])
     _, host, port = node.requestTopic("/test", topic, [["TCPROS"]])[2]
@@ -94,10 +94,10 @@ def test_subscribers_that_come_and_die_leave_no_descriptors(roscore: RosCore) ->
         for _ in range(CYCLES):
             connection = connect_as_subscriber(roscore, "/big")
             probe.ask("flood", publisher, MEGABYTE, 1)
-            # As the kernel does for a process that was killed with unread data: a reset.
+            # The kernel resets the connection of a killed process with unread data.
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
             connection.close()
-        # roscpp works through 200 ends one after the other, which takes a while on a busy machine.
+        # roscpp handles 200 closed connections one by one, which takes a while on a busy machine.
         probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the last to be gone", timeout=60.0)
         wait_until(
             lambda: open_descriptors(probe) <= baseline + MASTER_CONNECTIONS,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A master that dies and returns, forgets the node, or hangs."""
+"""A master that dies and returns, loses the node, or hangs."""
 
 import os
 import signal
@@ -17,7 +17,7 @@ from ros_support import RestartableCore, RosCore, stop, wait_until
 
 NAME = "/sim_ros_interface"
 RETURN = 1.0
-"""Seconds within which everything must be back once a new master answers."""
+"""Seconds within which everything must work again once a new master answers."""
 OWN_SERVICES = {f"{NAME}/{name}" for name in ("get_loggers", "set_logger_level", "pause", "unpause", "paint")}
 KEPT_PUBLISHERS = {"/rosout", "/clock", "/out", "/map"}
 
@@ -44,7 +44,7 @@ def is_back(core: RosCore) -> bool:
 
 
 def make_endpoints(probe: Probe) -> tuple[str, str]:
-    """A publisher of /out and a subscriber of /in; beside them a latched /map and a service /paint."""
+    """Make a publisher of /out, a subscriber of /in, a latched /map and a service /paint."""
     publisher = probe.ask("advertise", "/out", "float")
     probe.ask("publish", probe.ask("advertise", "/map", "float", "latch"), 4.0)
     probe.ask("serve", "paint", "setbool")
@@ -52,7 +52,7 @@ def make_endpoints(probe: Probe) -> tuple[str, str]:
 
 
 def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str, name: str) -> None:
-    """A node that is new to the master sends to and hears from `probe`."""
+    """Check that a node that is new to the master exchanges messages with `probe`."""
     with Probe(core.env, f"__name:={name}") as peer:
         heard, latched = peer.ask("subscribe", "/out", "float"), peer.ask("subscribe", "/map", "float")
         logged = peer.ask("subscribe", "/rosout", "log")
@@ -87,7 +87,7 @@ def test_everything_is_back_after_the_master_was_killed(tmp_path: Path, times: i
 
 
 def test_connections_outlive_the_master(tmp_path: Path) -> None:
-    """Other nodes, which do not register again, stay connected when the bridge does."""
+    """Other nodes, which do not register again, stay connected when the bridge registers again."""
     with (
         restartable_core(tmp_path) as restartable,
         Probe(restartable.core.env) as probe,
@@ -102,7 +102,7 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
         restartable.kill()
         restartable.start()
         wait_until(lambda: is_back(restartable.core), "the registrations", RETURN)
-        time.sleep(0.5)  # whatever would cut the connection has happened
+        time.sleep(0.5)  # long enough for anything that would cut the connection
         os.kill(peer.process.pid, signal.SIGCONT)
         peer.ask("publish", said, 1.0)
         probe.wait_for(lambda: probe.messages(subscriber) == ["1.000000"], "the peer's message")
@@ -146,7 +146,7 @@ def test_node_that_the_master_forgot_comes_back(roscore: RosCore) -> None:
 
 
 def forget(core: RosCore, node: str) -> None:
-    """What `rosnode cleanup` does to a node that it believes dead."""
+    """Do what `rosnode cleanup` does to a node that it considers dead."""
     master: Any = xmlrpc.client.ServerProxy(core.env["ROS_MASTER_URI"])
     uri = master.lookupNode("/test", node)[2]
     for topic in own(core, "publishers"):
@@ -178,8 +178,8 @@ def test_no_call_of_a_pass_waits_for_a_hanging_master(roscore: RosCore) -> None:
         make_endpoints(probe)
         wait_until(lambda: is_back(roscore), "the registrations")
         roscore.pause()
-        time.sleep(0.5)  # so that a call to the master is under way
-        assert float(probe.ask("longest", "/busy")) < 50  # ms; far more than any call takes, far less than any wait
+        time.sleep(0.5)  # until a call to the master is in progress
+        assert float(probe.ask("longest", "/busy")) < 50  # ms; far more than any call, far less than any timeout
 
 
 def test_messages_flow_while_the_master_hangs(roscore: RosCore) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bridge as a node: its names, its time, its master coming late, hanging or going away."""
+"""The bridge as a node: its names, its time, and a master that starts late, hangs or disappears."""
 
 import time
 import xmlrpc.client
@@ -11,9 +11,9 @@ from ros_support import RosCore, free_port, ros_environment, wait_until
 
 NAME = "/sim_ros_interface"
 BOUND = 2.0
-"""Seconds within which a bridge must let go of its master, whatever that does."""
+"""Seconds within which a bridge must end, whatever its master does."""
 SLACK = 0.5
-"""What starting and ending a process may add on a busy machine."""
+"""Extra time for starting and ending a process on a busy machine."""
 
 
 def test_node_is_listed_under_its_name(roscore: RosCore) -> None:
@@ -56,7 +56,7 @@ def test_missing_master_is_reported_with_uri_and_cure(tmp_path: Path) -> None:
         probe.wait_for(lambda: bool(probe.errors), "the line")
         assert probe.errors == [
             f"plugin 'ROSInterface': load failed (failed initialization): no ROS master at http://localhost:{port};"
-            " start one with 'roscore' -- the simulation runs on without ROS and connects as soon as a master appears"
+            " start one with 'roscore' -- the simulation continues without ROS and connects as soon as a master appears"
         ]
         assert probe.ask("connected") == "no"
 
@@ -102,7 +102,7 @@ def test_clock_is_left_to_a_script_that_advertises_it(roscore: RosCore) -> None:
         probe.wait_for(lambda: probe.messages(subscriber) == ["7 0", "2 0"], "the simulator's clock again")
         probe.ask("advertise", "/clock", "clock")
         assert [line for line in probe.errors if "/clock" in line] == [
-            "plugin 'ROSInterface': a script advertises /clock: the simulator leaves publishing it to the script"
+            "plugin 'ROSInterface': a script advertises /clock: the simulator does not publish it"
         ]
 
 
@@ -161,7 +161,7 @@ def test_ends_in_time_while_a_registration_hangs(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         roscore.pause()
         probe.ask("advertise", "/out", "float")
-        time.sleep(0.2)  # so that the call is under way
+        time.sleep(0.2)  # until the call is in progress
         assert probe.terminate() < BOUND + SLACK
         assert probe.process.returncode == 0
 

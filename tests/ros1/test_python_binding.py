@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services as bubblesim._core.Bridge has them: dicts in, dicts out, and Python's exceptions."""
+"""Services of bubblesim._core.Bridge: requests and responses as dicts, and Python's exceptions."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services offered and called by the bridge."""
+"""Services advertised and called by the bridge."""
 
 import socket
 import time
@@ -16,7 +16,7 @@ from ros_support import SUPPORT, RosCore, free_port, ros_environment, start, sto
 
 OTHER = "__name:=other"
 BOUND = 2.5
-"""Seconds within which a bridge must end, whatever holds it up, and what a process may add on a busy machine."""
+"""Seconds within which a bridge must end in any state, plus extra time for a process on a busy machine."""
 
 
 def wait_for_service(core: RosCore, name: str) -> None:
@@ -25,7 +25,7 @@ def wait_for_service(core: RosCore, name: str) -> None:
 
 @contextmanager
 def silent_server(core: RosCore, name: str) -> Iterator[socket.socket]:
-    """A service that is registered and takes connections, but never says a word."""
+    """A registered service that accepts connections, but never responds."""
     with socket.create_server(("localhost", 0)) as server:
         master: Any = xmlrpc.client.ServerProxy(core.env["ROS_MASTER_URI"])
         address = f"rosrpc://localhost:{server.getsockname()[1]}"
@@ -120,7 +120,7 @@ def test_call_of_an_own_service_needs_no_master(tmp_path: Path) -> None:
 
 
 def test_own_services_are_answered_while_another_node_is_called(roscore: RosCore) -> None:
-    """This node calls the other's, which calls back before it answers."""
+    """This node calls the other's service, which calls back before it answers."""
     with Probe(roscore.env) as probe, Probe(roscore.env, OTHER) as other:
         back = probe.ask("serve", "/back", "trigger")
         wait_for_service(roscore, "/back")
@@ -137,7 +137,7 @@ def test_services_that_call_in_a_circle_are_stopped(roscore: RosCore) -> None:
         wait_for_service(roscore, "/here")
         wait_for_service(roscore, "/there")
         answer = probe.ask("call", there, 5)
-        assert answer.endswith("16 service calls wait for each other: do services call in a circle?")
+        assert answer.endswith("16 nested service calls: check for services that call each other")
         assert probe.events.count(f"request {here_server} 0") > 1  # it answered while it was being called
 
 
@@ -195,7 +195,7 @@ def test_call_times_out_while_the_master_hangs(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         client = probe.ask("client", "/paint", "setbool")
         roscore.pause()
-        for _ in range(20):  # more than the threads that such calls may leave behind
+        for _ in range(20):  # more than the largest number of remaining call threads
             assert "the ROS master does not answer" in probe.ask("call", client, 0.05, 1)
         assert probe.terminate() < BOUND
 
@@ -205,7 +205,7 @@ def test_server_that_closes_the_connection_is_reported(roscore: RosCore) -> None
         port = server.getsockname()[1]
         server.close()
         answer = probe.ask("call", probe.ask("client", "/paint", "setbool"), 5, 1)
-        assert answer == f"! lost service '/paint' at localhost:{port}: Connection refused"
+        assert answer == f"! connection to service '/paint' at localhost:{port} failed: Connection refused"
 
 
 def test_call_is_given_up_when_the_process_ends(roscore: RosCore) -> None:
@@ -213,7 +213,7 @@ def test_call_is_given_up_when_the_process_ends(roscore: RosCore) -> None:
         client = probe.ask("client", "/paint", "setbool")
         assert probe.process.stdin is not None
         print("call", client, 60, 1, file=probe.process.stdin, flush=True)
-        time.sleep(0.3)  # so that the call is under way
+        time.sleep(0.3)  # until the call is in progress
         assert probe.terminate() < BOUND
         assert probe.process.returncode == 0
 
@@ -270,7 +270,7 @@ def test_unknown_service_handle_is_named(tmp_path: Path, command: str, kind: str
 def test_second_service_of_a_name_is_refused(tmp_path: Path) -> None:
     with Probe(ros_environment(free_port(), tmp_path)) as probe:
         probe.ask("serve", "/paint", "setbool")
-        assert probe.ask("serve", "/paint", "trigger") == "! service '/paint' is already offered here"
+        assert probe.ask("serve", "/paint", "trigger") == "! service '/paint' is already advertised by this node"
 
 
 def test_timeout_must_be_positive(tmp_path: Path) -> None:

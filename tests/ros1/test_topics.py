@@ -13,7 +13,7 @@ from ros_support import RosCore, start, stop, wait_until
 
 @contextmanager
 def rostopic_echo(core: RosCore, topic: str, log: Path) -> Iterator[None]:
-    """`rostopic echo` of a topic that is advertised, into a file; from when it has subscribed until the block's end."""
+    """Write `rostopic echo` of an advertised topic to a file, from its subscription until the end of the block."""
     with log.open("w") as file:
         echo = start(["rostopic", "echo", topic], core.env, stdout=file, stderr=subprocess.STDOUT)
         try:
@@ -32,7 +32,7 @@ def has_got(probe: Probe, subscriber: str, messages: list[str]) -> bool:
 
 
 def publish_from_outside(core: RosCore, topic: str, type_name: str, *values: str) -> None:
-    """Each value by a `rostopic pub -1`, which latches and so waits for the subscriber."""
+    """Publish each value with `rostopic pub -1`, which latches and so waits for the subscriber."""
     for value in values:
         core.run("rostopic", "pub", "-1", topic, type_name, "--", value)
 

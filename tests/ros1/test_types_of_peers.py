@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodes that take a topic or a service for another type: one line says so, however often they try."""
+"""Nodes that use another type for a topic or a service: reported in one line, however often they try."""
 
 import subprocess
 from collections.abc import Iterator
@@ -13,14 +13,14 @@ FLOAT = "std_msgs/Float32 (md5 73fcbf46b49191e672908e50842a83d4)"
 STRING = "std_msgs/String (md5 992ce8a1687cec8c8bd883ec73ca41d1)"
 OTHER_FLOAT = "std_msgs/Float32 (md5 00000000000000000000000000000000)"
 REBUILD = (
-    "their definitions differ: build the messages of both nodes from the same definition, and start both after "
+    "the definitions differ: build the messages of both nodes from the same definition, and start both after "
     "sourcing that workspace"
 )
 
 
 @contextmanager
 def rospy_node(core: RosCore, code: str, log: Path) -> Iterator[None]:
-    """A node /peer that runs `code`, and what it writes in `log`."""
+    """Run a node /peer with `code`; its output goes to `log`."""
     head = "import rospy, std_msgs.msg, std_srvs.srv\nrospy.init_node('peer')\n"
     with log.open("w") as file:
         process = start(["/usr/bin/python3", "-c", head + code], core.env, stdout=file, stderr=subprocess.STDOUT)
@@ -31,7 +31,7 @@ def rospy_node(core: RosCore, code: str, log: Path) -> Iterator[None]:
 
 
 def told(probe: Probe) -> list[str]:
-    """What the bridge and roscpp said since the bridge connected."""
+    """Return what the bridge and roscpp logged since the bridge connected."""
     return [line for line in probe.errors if "load succeeded" not in line]
 
 
@@ -46,8 +46,8 @@ def test_subscriber_of_another_type_is_told_once(roscore: RosCore, tmp_path: Pat
         with rospy_node(roscore, f"while not rospy.is_shutdown(): {again}", tmp_path / "peer"):
             wait_until(lambda: attempts() >= 2, "the peer to have tried twice")
         assert told(probe) == [
-            f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to it as {STRING}, but here it is published "
-            f"as {FLOAT}, so nothing is sent to that node; let both use one type"
+            f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to {STRING}, but this node publishes "
+            f"{FLOAT}, so no messages are sent to it; use the same type in both"
         ]
 
 
@@ -59,15 +59,15 @@ def test_publisher_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path
         )
         with rospy_node(roscore, node, tmp_path / "peer"):
             probe.wait_for(lambda: bool(told(probe)), "the line")
-            # A second one shows that two more looks have passed.
+            # A second publisher shows that two more checks have passed.
             with Probe(roscore.env, "__name:=second") as second:
                 second.ask("advertise", "/speed", "other_float")
                 probe.wait_for(lambda: len(told(probe)) > 1, "the second publisher's line")
         assert told(probe) == [
-            f"plugin 'ROSInterface': topic '/speed': node /peer publishes it as {STRING}, but here it is subscribed as "
-            f"{FLOAT}, so nothing comes from that node; let both use one type",
-            f"plugin 'ROSInterface': topic '/speed': node /second publishes it as {OTHER_FLOAT}, but here it is "
-            f"subscribed as {FLOAT}, so nothing comes from that node; {REBUILD}",
+            f"plugin 'ROSInterface': topic '/speed': node /peer publishes {STRING}, but this node subscribes to "
+            f"{FLOAT}, so no messages arrive from it; use the same type in both",
+            f"plugin 'ROSInterface': topic '/speed': node /second publishes {OTHER_FLOAT}, but this node "
+            f"subscribes to {FLOAT}, so no messages arrive from it; {REBUILD}",
         ]
 
 
@@ -77,11 +77,11 @@ def test_subscriber_with_another_version_of_the_type_is_told_to_rebuild(roscore:
         other.ask("subscribe", "/speed", "other_float")
         probe.wait_for(lambda: bool(told(probe)), "the line")
         assert told(probe) == [
-            f"plugin 'ROSInterface': topic '/speed': node /other subscribes to it as {OTHER_FLOAT}, but here it is "
-            f"published as {FLOAT}, so nothing is sent to that node; {REBUILD}"
+            f"plugin 'ROSInterface': topic '/speed': node /other subscribes to {OTHER_FLOAT}, but this node "
+            f"publishes {FLOAT}, so no messages are sent to it; {REBUILD}"
         ]
         other.wait_for(lambda: bool(told(other)), "the other's line")
-        assert f"node /sim_ros_interface publishes it as {FLOAT}, but here it is subscribed" in told(other)[0]
+        assert f"node /sim_ros_interface publishes {FLOAT}, but this node subscribes to" in told(other)[0]
 
 
 def test_client_of_another_service_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
@@ -94,9 +94,9 @@ def test_client_of_another_service_type_is_told_once(roscore: RosCore, tmp_path:
         with rospy_node(roscore, code, log):
             wait_until(lambda: log.read_text().count("refused") == 2, "both calls")
         assert told(probe) == [
-            "plugin 'ROSInterface': service '/paint': a client calls it with a type of md5 "
-            "937c9679a518e3a18d831e57125ea522, but here it is offered as std_srvs/SetBool (md5 "
-            "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; let both use one type, built from the same "
+            "plugin 'ROSInterface': service '/paint': a client calls a type with md5 "
+            "937c9679a518e3a18d831e57125ea522, but this node provides std_srvs/SetBool (md5 "
+            "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; use the same type in both, built from the same "
             "definition"
         ]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures that the demo draws from what it has seen."""
+"""The figures that the demo draws from a recording."""
 
 import math
 
@@ -10,7 +10,7 @@ from bubblesim.running.recording import Pose, Recording, Sample
 
 
 def recording(*points: tuple[float, float, float, float]) -> Recording:
-    """Samples of (wall time, simulated time, x, y)."""
+    """Return samples of (wall time, simulated time, x, y)."""
     return Recording([Sample(wall, sim, Pose(x, y, 0.0, 0.0)) for wall, sim, x, y in points])
 
 

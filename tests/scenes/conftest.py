@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A child script of a test's own in a running node."""
+"""A test's child script in a running node."""
 
 import signal
 from collections.abc import Callable, Iterator
@@ -15,7 +15,7 @@ Script = Callable[..., Node]
 
 @pytest.fixture
 def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
-    """Runs a script on the ball."""
+    """Run a script on the ball."""
     nodes: list[Node] = []
 
     def run(code: str, name: str = "script.py") -> Node:

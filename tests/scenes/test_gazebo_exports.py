@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Folders of models and media that ROS packages export to Gazebo in their package.xml."""
+"""Folders of models and media that ROS packages export to Gazebo in package.xml."""
 
 from pathlib import Path
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The camera that publishes its pictures, and the panel that shows them."""
+"""The camera that publishes its images, and the panel that shows them."""
 
 from pathlib import Path
 
@@ -49,5 +49,5 @@ def test_a_camera_shows_what_it_is_given_until_the_simulation_starts_again(tmp_p
         """
     run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast")
     assert (run.stderr, run.returncode) == ("", 0)
-    assert "640 x 480 pixels of 3 bytes are not 3 bytes" in run.stdout
+    assert "640 x 480 pixels need 921600 bytes, found 3" in run.stdout
     assert "/Lidar is a lidar, not a camera" in run.stdout

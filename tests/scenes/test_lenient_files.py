@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files with mistakes that Gazebo takes: they load, and one warning says what is taken in place of each."""
+"""Files with mistakes that Gazebo accepts: they load, and one warning describes each replacement."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +16,7 @@ Load = Callable[..., tuple[bubblesim.Simulation, list[str]]]
 
 @pytest.fixture
 def load(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Load:
-    """Loads a text as a file; the simulation and the lines of stderr, without the file's name."""
+    """Load a text as a file; return the simulation and the lines of stderr, without the file's name."""
 
     def load_text(text: str, name: str = "scene.sdf") -> tuple[bubblesim.Simulation, list[str]]:
         file = tmp_path / name
@@ -66,12 +66,12 @@ def inertia(ixx: float, iyy: float, izz: float) -> str:
     [
         pytest.param(
             model(f"<visual name='v'>{GEOMETRY}<material><script><name>Gazebo/Red</name></script></material></visual>"),
-            "4: /m/l/v: <script> has no <uri>: 'Gazebo/Red' is looked for among Gazebo's materials",
+            "4: /m/l/v: <script> has no <uri>: 'Gazebo/Red' is searched in Gazebo's materials",
             id="script_without_uri",
         ),
         pytest.param(
             model(f"<visual name='v'>{GEOMETRY}<material><script>Gazebo/Red</script></material></visual>"),
-            "4: /m/l/v: <script> has text and no <name>: 'Gazebo/Red' is taken for the material's name",
+            "4: /m/l/v: <script> has text and no <name>: 'Gazebo/Red' is used as the material's name",
             id="script_with_text",
         ),
         pytest.param(
@@ -79,74 +79,74 @@ def inertia(ixx: float, iyy: float, izz: float) -> str:
                 "</link><link name='k'>",
                 JOINT.format(axis="<axis><xyz>0 0 1</xyz><limit><lower>-1e9</lower><upper>1</upper></limit></axis>"),
             ),
-            "5: /m/j: the lower limit is -1e+09, beyond 1e6: there is none",
+            "5: /m/j: the lower limit is -1e+09, beyond 1e6: treated as no limit",
             id="limit",
         ),
         pytest.param(
             model(collision("<friction><ode><mu>-1</mu></ode></friction>")),
-            "4: /m/l/c: <mu> is -1: the friction is infinite",
+            "4: /m/l/c: <mu> is -1: using infinite friction",
             id="mu",
         ),
         pytest.param(
             model(collision("<friction><ode><mu></mu></ode></friction>")),
-            "4: /m/l/c: <mu> is empty: its default 1 is taken",
+            "4: /m/l/c: <mu> is empty: using the default 1",
             id="empty",
         ),
         pytest.param(
             model(collision("<friction><ode><mu>slippery</mu></ode></friction>")),
-            "4: /m/l/c: <mu> is 'slippery', which cannot be read: its default 1 is taken",
+            "4: /m/l/c: <mu> is 'slippery', which cannot be read: using the default 1",
             id="odd_number",
         ),
         pytest.param(
             model(collision("<friction><ode><mu>1e400</mu></ode></friction>")),
-            "4: /m/l/c: <mu> is '1e400', beyond what a number can be: inf is taken",
+            "4: /m/l/c: <mu> is '1e400', out of the range of numbers: using inf",
             id="number_beyond_all",
         ),
         pytest.param(
             model("", "<self_collide>1.0</self_collide>"),
-            "5: /m: <self_collide> is '1.0': true is taken",
+            "5: /m: <self_collide> is '1.0': using true",
             id="odd_flag",
         ),
         pytest.param(
             model(f"<visual name='v'>{GEOMETRY}<material><diffuse>255 0 0 1</diffuse></material></visual>"),
-            "4: /m/l/v: <diffuse> is '255 0 0 1', and parts of colours lie between 0 and 1: 1 0 0 1 is taken",
+            "4: /m/l/v: <diffuse> is '255 0 0 1', colour values must be from 0 to 1: using 1 0 0 1",
             id="colour",
         ),
         pytest.param(
             model(lidar("<samples>3</samples><min_angle>0.2</min_angle><max_angle>-0.2</max_angle>")),
-            "4: /m/l/s: the vertical angles are 0.2 to -0.2 rad: they are taken from low to high",
+            "4: /m/l/s: the vertical angles are 0.2 to -0.2 rad: using them from low to high",
             id="reversed_vertical_angles",
         ),
         pytest.param(
             model(lidar("<samples>1</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle>")),
-            "4: /m/l/s: 1 vertical samples from -0.2 to 0.2 rad: a single ring at 0 rad is taken",
+            "4: /m/l/s: 1 vertical samples from -0.2 to 0.2 rad: using a single ring at 0 rad",
             id="one_vertical_sample",
         ),
         pytest.param(
             model(lidar("<samples>0</samples>")),
-            "4: /m/l/s: 0 vertical samples from 0 to 0 rad: a single ring at 0 rad is taken",
+            "4: /m/l/s: 0 vertical samples from 0 to 0 rad: using a single ring at 0 rad",
             id="no_vertical_sample",
         ),
         pytest.param(
             model(camera(3.13)),
-            "4: /m/l/s: the horizontal field of view is 3.13 rad: what lies ahead is tiny in such a picture",
+            "4: /m/l/s: the horizontal field of view is 3.13 rad: objects ahead are tiny in such an image",
             id="field_of_view",
         ),
         pytest.param(
             model(inertia(-1, 1, 2)),
             "3: /m/l: the inertia is ixx iyy izz (-1, 1, 2), ixy ixz iyz (0, 0, 0), which is not positive definite: "
-            "the nearest that is, ixx iyy izz (0.002, 1, 2), ixy ixz iyz (0, 0, 0), is taken",
+            "using the nearest that is, ixx iyy izz (0.002, 1, 2), ixy ixz iyz (0, 0, 0)",
             id="inertia",
         ),
         pytest.param(
             world("<model name='m'><link name='l'/></model>\n<model name='m'><link name='l'/></model>"),
-            "4: /m_2: is named so, as another model has the name 'm'",
+            "4: /m_2: renamed: another model has the name 'm'",
             id="models_of_one_name",
         ),
         pytest.param(
             model("</link><model name='arm'><link name='hand'/></model><link name='k'>",
                   "<joint name='j' type='fixed'><parent>l</parent><child>m::arm::hand</child></joint>", "1.9"),
-            "5: /m/j: the child 'm::arm::hand' is taken for arm::hand",
+            "5: /m/j: the child 'm::arm::hand' is not found: using arm::hand",
             id="child_of_an_inner_model",
         ),
     ],
@@ -185,8 +185,8 @@ def test_a_collision_without_its_mesh_is_left_out(load: Load) -> None:
     mesh = "<collision name='lost'><geometry><mesh><uri>model://nowhere/a.stl</uri></mesh></geometry></collision>"
     simulation, warnings = load(model(mesh + f"<collision name='c'>{GEOMETRY}</collision>"))
     assert len(warnings) == 1
-    assert warnings[0].startswith("warning: 4: /m/l/lost: the file 'model://nowhere/a.stl' is not found;")
-    assert warnings[0].endswith("; this collision is left out")
+    assert warnings[0].startswith("warning: 4: /m/l/lost: file not found: 'model://nowhere/a.stl';")
+    assert warnings[0].endswith("; this collision is ignored")
     assert [shape.kind for shape in simulation.collisions if shape.object_path == "/m/l"] == ["sphere"]
 
 
@@ -197,7 +197,7 @@ def test_a_model_may_be_named_with_three_slashes(load: Load, tmp_path: Path) -> 
         "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>"
     )
     simulation, warnings = load(world("<include><uri>model:///crate</uri></include>"))
-    assert warnings == ["warning: 3: <uri> is 'model:///crate': model://crate is taken"]
+    assert warnings == ["warning: 3: <uri> is 'model:///crate': using model://crate"]
     assert any(each.path == "/crate" for each in simulation.objects)
 
 
@@ -210,9 +210,9 @@ def test_included_files_are_repaired_and_named_in_warnings(load: Load, tmp_path:
     include = "<include><uri>model://crate</uri></include>\n"
     simulation, warnings = load(world(include * 3))
     assert warnings == [
-        f"warning: {folder}/model.sdf:6: /crate/l/c: <mu> is -1: the friction is infinite",
-        "warning: 4: /crate_2: is named so, as another model has the name 'crate'",
-        "warning: 5: /crate_3: is named so, as another model has the name 'crate'",
+        f"warning: {folder}/model.sdf:6: /crate/l/c: <mu> is -1: using infinite friction",
+        "warning: 4: /crate_2: renamed: another model has the name 'crate'",
+        "warning: 5: /crate_3: renamed: another model has the name 'crate'",
     ]
     assert {"/crate", "/crate_2", "/crate_3"} <= {each.path for each in simulation.objects}
 
@@ -226,8 +226,8 @@ def test_extensions_of_urdf_are_repaired(load: Load) -> None:
         "r.urdf",
     )
     assert warnings == [
-        "warning: 2: /r/base: <mu1> is below 0: the friction is infinite",
-        "warning: 3: /r/s: <update_rate> is 'often', which cannot be read: its default 0 is taken",
+        "warning: 2: /r/base: <mu1> is below 0: using infinite friction",
+        "warning: 3: /r/s: <update_rate> is 'often', which cannot be read: using the default 0",
     ]
 
 
@@ -245,7 +245,7 @@ def test_extensions_of_urdf_are_repaired(load: Load) -> None:
 )
 def test_what_is_left_out_is_reported(load: Load, text: str, name: str) -> None:
     _, warnings = load(text)
-    assert [f"<{name}> is left out: " in warning for warning in warnings] == [True], warnings
+    assert [f"<{name}> is ignored: " in warning for warning in warnings] == [True], warnings
 
 
 def test_what_would_have_no_effect_is_not_reported(load: Load) -> None:

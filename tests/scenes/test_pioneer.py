@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Pioneer P3DX: how it drives, and what its script tells."""
+"""The Pioneer P3DX: its drive, and the messages of its script."""
 
 import math
 from pathlib import Path
@@ -19,7 +19,7 @@ FURNITURE = ("Table", "Chair", "Shelf", "Sofa", "CoffeeTable", "Plant", "FloorLa
 
 
 class Pioneer:
-    """In its room, without its script."""
+    """The Pioneer in its room, without its script."""
 
     def __init__(self) -> None:
         self.simulation = bubblesim.Simulation("pioneer")
@@ -32,7 +32,7 @@ class Pioneer:
         self.left.target_velocity, self.right.target_velocity = wheels.left, wheels.right
 
     def places(self, passes: int) -> Any:
-        """x, y after each step."""
+        """Return x, y after each step."""
         found = []
         for _ in range(passes):
             self.simulation.step()
@@ -59,7 +59,7 @@ def test_it_drives_straight_as_fast_as_told() -> None:
 def test_its_circles_have_the_radius_of_the_theory(linear: float, angular: float) -> None:
     pioneer = Pioneer()
     pioneer.command(linear, angular)
-    pioneer.places(40)  # the caster comes round
+    pioneer.places(40)  # the caster turns round
     places = pioneer.places(round(math.tau / abs(angular) / 0.05))
     centre = (places.max(axis=0) + places.min(axis=0)) / 2
     radii = np.linalg.norm(places - centre, axis=1)
@@ -72,7 +72,7 @@ def test_its_lidar_sees_the_room_and_not_itself() -> None:
     assert len(points) > 0.9 * 16 * 720
     distances = np.hypot(points[:, 0], points[:, 1])
     assert distances.min() > 0.25  # m: the robot is smaller
-    # Nothing lies behind the walls, 4 and 3 m from the middle of the room; noise has a deviation of 1 cm.
+    # Nothing is behind the walls, 4 and 3 m from the middle of the room; noise has a standard deviation of 1 cm.
     assert np.abs(points[:, 0] - 0.0325).max() < 4.0 + 0.06
     assert np.abs(points[:, 1]).max() < 3.0 + 0.06
     assert points[:, 2].min() > -0.31 - 0.06
@@ -177,7 +177,7 @@ def test_a_script_in_place_of_its_own_finds_the_points_of_its_lidar_in_the_signa
     )
     assert (run.stderr, run.returncode) == ("", 0)
     scans = [np.array(line.split(), float) for line in run.stdout.splitlines()]
-    assert [scan[0] for scan in scans] == pytest.approx([0.0, 0.1, 0.2, 0.3])  # 10 Hz, and nothing once it was cleared
+    assert [scan[0] for scan in scans] == pytest.approx([0.0, 0.1, 0.2, 0.3])  # 10 Hz, and none after it was cleared
     for scan in scans:
         points = scan[1:].reshape(-1, 3)
         ranges = np.linalg.norm(points, axis=1)
@@ -213,4 +213,4 @@ def test_the_signal_belongs_to_a_lidar(tmp_path: Path) -> None:
     )
     run = run_sim(scene, "--no-ros", "--until", "0")
     assert run.returncode == 2
-    assert "<bubblesim:signal> stands in <sensor>, it belongs in <lidar>" in run.stderr
+    assert "<bubblesim:signal> is not allowed in <sensor>, it belongs in <lidar>" in run.stderr

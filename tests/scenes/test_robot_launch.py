@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The robots' launch files: all frames from map to the last wheel and sensor are there."""
+"""The robots' launch files: all frames from map to the last wheel and sensor exist."""
 
 import signal
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 
 from ros_support import DEADLINE, SUPPORT, RosCore, start, stop, wait_until
 
-# Heights at which the frames are by the robots' measures, metres.
+# Heights of the frames from the robots' dimensions, metres.
 FRAMES = {
     "pioneer": {
         "odom": 0.0,

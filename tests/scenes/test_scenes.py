@@ -16,7 +16,7 @@ StartNode = Callable[..., Node]
 
 @pytest.fixture
 def node(roscore: RosCore, tmp_path: Path) -> Iterator[StartNode]:
-    """Starts the node with a scene; when it ends, nothing of it is left."""
+    """Start the node with a scene; all its processes end with it."""
     nodes: list[Node] = []
 
     def start_node(scene: str, *options: object) -> Node:
@@ -33,7 +33,7 @@ def node(roscore: RosCore, tmp_path: Path) -> Iterator[StartNode]:
 
 
 def echo(core: RosCore, topic: str) -> str:
-    """The next message on a topic."""
+    """Return the next message on a topic."""
     wait_until(lambda: topic in core.state()["publishers"], f"{topic} to be advertised")
     return core.run("rostopic", "echo", "-n", "1", topic)
 
@@ -45,7 +45,7 @@ def number(text: str, name: str = "data") -> float:
 
 
 def pose(core: RosCore) -> tuple[float, float, float]:
-    """x, y and heading of the last transform on /tf."""
+    """Return x, y and heading of the last transform on /tf."""
     text = echo(core, "/tf")
     translation, rotation = text.split("rotation:")
     x, y = (number(translation.split("translation:")[1], axis) for axis in "xy")
@@ -101,7 +101,7 @@ def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node
     assert processes_with(f"rosBubbleRob {topic[1:]}", started_by=running)
     human = start(["rostopic", "pub", topic, "std_msgs/Float32", "data: 1.0"], roscore.env)
     try:
-        wait_until(lambda: "drives now" in running.output, "the client to yield")
+        wait_until(lambda: "it has control now" in running.output, "the client to yield")
         # Circling about the right wheel: that wheel's place, 0.05 ahead and 0.1 to the right, stands still.
         wait_until(lambda: speed_of_right_wheel(roscore) < 1e-3, "the right wheel to stand still")
         wheel, (_, _, heading) = right_wheel(roscore), pose(roscore)
@@ -152,7 +152,7 @@ def right_wheel(core: RosCore) -> tuple[float, float]:
 
 
 def speed_of_right_wheel(core: RosCore) -> float:
-    """How far the right wheel's place moves from one look to the next, metres."""
+    """Return the distance, in metres, that the right wheel moves between two measurements."""
     return math.dist(right_wheel(core), right_wheel(core))
 
 

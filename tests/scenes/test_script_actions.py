@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Actions of child scripts, against Debian's actionlib on the other side."""
+"""Actions of child scripts, with Debian's actionlib at the other end."""
 
 import subprocess
 import textwrap
@@ -134,12 +134,12 @@ def test_goals_end_as_the_serving_script_says(script: Script, roscore: RosCore) 
         assert end(send(0)) == ('SUCCEEDED', 42)
         assert end(send(1)) == ('ABORTED', 43)
         assert end(send(2)) == ('REJECTED', 0)
-        assert end(send(10)) == ('SUCCEEDED', 42)  # after it was pending
+        assert end(send(10)) == ('SUCCEEDED', 42)  # was pending first
         heard = []
         goal = send(5, feedback_cb=lambda handle, feedback: heard.append(feedback.feedback))
         wait(lambda: 7 in heard)
         goal.cancel()
-        assert end(goal) == ('SUCCEEDED', 45)  # it was there before it could be cancelled
+        assert end(goal) == ('SUCCEEDED', 45)  # finished before it could be cancelled
         """,
     )
 
@@ -197,7 +197,7 @@ def test_goals_that_are_over_leave_the_status_after_a_while(script: Script, rosc
         assert end(send(0)) == ('SUCCEEDED', 42)
         wait(lambda: 1 in lists)
         wait(lambda: lists[-1] == 0)
-        assert lists.count(1) >= 5  # it stayed, and the status came regularly
+        assert lists.count(1) >= 5  # it stayed, and the status was published regularly
         """,
     )
 
@@ -277,8 +277,8 @@ def test_wrong_calls_are_told_and_change_nothing(script: Script) -> None:
     for line, parts in zip(
         told,
         (
-            ("MessageError 'actionlib/Tset' is no action type", "did you mean actionlib/Test?"),
-            ("ValueError unusable topic name '/a b/",),
+            ("MessageError 'actionlib/Tset' is not an action type", "did you mean actionlib/Test?"),
+            ("ValueError invalid topic name '/a b/",),
             ("ValueError action server '/t' has no goal 'nobody'", "its goals are none"),
             ("MessageError actionlib/TestActionGoal: ", "gaol"),
             ("ValueError invalid object handle", "no such action server, or it was shut down"),
@@ -293,7 +293,7 @@ def test_wrong_calls_are_told_and_change_nothing(script: Script) -> None:
 @pytest.mark.parametrize(
     ("accept", "succeed", "told"),
     [
-        ("None", "pass", "the callback for goals must return True, False or one of"),
+        ("None", "pass", "the goal callback must return True, False or one of"),
         ("2", "simROS2.actionServerActionSucceed(self.server, goal_id, {})", "is PENDING and cannot succeed; call"),
         ("True", "simROS2.actionServerActionSucceed(self.server, goal_id, {'rsult': 1})", "rsult"),
     ],

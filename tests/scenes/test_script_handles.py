@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Handles of simROS and simROS2 after what they stand for was shut down: a second time, and in any use."""
+"""Handles of simROS and simROS2 after their object was shut down: a second shutdown, and any other use."""
 
 from collections.abc import Callable
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""simROS.imageTransport* in child scripts, against rospy and cv_bridge."""
+"""simROS.imageTransport* in child scripts, with rospy and cv_bridge."""
 
 import subprocess
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from ros_support import DEADLINE, RosCore, start, stop, wait_until
 
 Script = Callable[[str], Node]
 
-# 64 x 32 pixels in four fields: red and green above, blue and yellow below; scripts give the lower rows first.
+# 64 x 32 pixels in four fields: red and green above, blue and yellow below; scripts pass the bottom row first.
 PUBLISH = """\
 import sys
 RED, GREEN, BLUE, YELLOW = b'\\xff\\0\\0', b'\\0\\xff\\0', b'\\0\\0\\xff', b'\\xff\\xff\\0'
@@ -40,7 +40,7 @@ print(getattr(message, 'format', message._type), image.shape[0], image.shape[1],
 
 
 def observe(core: RosCore, topic: str) -> tuple[str, np.ndarray[tuple[int, ...], np.dtype[np.int64]]]:
-    """What cv_bridge makes of an image on a topic: its format, and its pixels as rgb8 with the top row first."""
+    """Return an image on a topic from cv_bridge: its format, and its pixels as rgb8 with the top row first."""
     command = ["/usr/bin/python3", "-c", OBSERVE, topic]
     seen = subprocess.run(command, env=core.env, capture_output=True, text=True, timeout=4 * DEADLINE, check=False)
     assert seen.returncode == 0, seen.stderr
@@ -61,7 +61,7 @@ def test_compressed_images_are_jpeg_by_default(script: Script, roscore: RosCore)
     script(PUBLISH)
     image_format, pixels = observe(roscore, "/camera/compressed")
     assert image_format == "rgb8; jpeg compressed bgr8"
-    # JPEG keeps colours at half the resolution: they run into each other where fields meet, and nowhere else.
+    # JPEG stores colours at half the resolution: they blend at the edges of the fields only.
     inside = np.ones((32, 64), bool)
     inside[14:18, :] = inside[:, 30:34] = False
     np.testing.assert_allclose(pixels[inside], FIELDS[inside], atol=8)
@@ -74,10 +74,10 @@ def test_compressed_images_are_png_where_the_parameter_says_so(script: Script, r
     image_format, pixels = observe(roscore, "/camera/compressed")
     assert image_format == "rgb8; png compressed bgr8"
     np.testing.assert_array_equal(pixels, FIELDS)
-    assert "parameter '/camera/compressed/png_level' takes 1 to 9, found 11: 9 is used" in node.output
+    assert "parameter '/camera/compressed/png_level' must be 1 to 9, found 11: using 9" in node.output
 
 
-# A red pixel left of a green one, above blue left of white; two bytes of padding a row.
+# A red pixel left of a green one, above a blue one left of a white one; two bytes of padding per row.
 SEND = """
 import numpy as np, rospy, cv_bridge
 from sensor_msgs.msg import CompressedImage, Image
@@ -145,9 +145,9 @@ def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script
         for name in ("rgb8", "bgr8", "rgba8", "bgra8", "png"):
             node.wait_for_output(f"heard {name} 2 2 " + "0000ff" + "ffffff" + "ff0000" + "00ff00")
         node.wait_for_output("heard mono8 2 2 " + "030303" + "040404" + "010101" + "020202")
-        node.wait_for_output("'/deep' is left out: its encoding is '16UC1'; there can be read rgb8, bgr8, rgba8")
-        node.wait_for_output("'/short' is left out: 2 x 2 pixels of rgb8 take")
-        node.wait_for_output("'/broken/compressed' is left out: OpenCV cannot read its 2 bytes of format 'jpeg'")
+        node.wait_for_output("'/deep' is ignored: unsupported encoding '16UC1'; supported: rgb8, bgr8, rgba8")
+        node.wait_for_output("'/short' is ignored: 2 x 2 pixels of rgb8 need")
+        node.wait_for_output("'/broken/compressed' is ignored: OpenCV cannot decode 2 bytes of format 'jpeg'")
     finally:
         stop(camera)
 
@@ -175,10 +175,10 @@ def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
             print('done')
         """)
     node.wait_for_output("done")
-    assert "takes 2 * 2 * 3 = 12 bytes of rgb8, and at least one pixel; found 11 bytes" in node.output
+    assert "needs 2 * 2 * 3 = 12 bytes of rgb8 and at least one pixel; found 11 bytes" in node.output
     assert "argument 5, frame_id: expected a text, found int 5" in node.output
     assert "argument 2, data: expected bytes or a numpy array of uint8, found an array of float64" in node.output
-    assert "transport takes 'raw' or 'compressed', found 'theora'" in node.output
+    assert "transport must be 'raw' or 'compressed', found 'theora'" in node.output
     assert node.output.count("told: invalid object handle") == 3
 
 

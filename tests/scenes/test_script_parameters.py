@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parameters of child scripts, against a real master and rosparam."""
+"""Parameters of child scripts, with a real master and rosparam."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -29,8 +29,8 @@ def test_values_are_converted_as_roscpp_does(script: Script, roscore: RosCore) -
             print('done')
         """)
     node.wait_for_output("done")
-    assert "parameter '/s' is a string ('text'), not an int: the default is used" in node.output
-    assert "parameter '/l' is a list or a dictionary, not a string: the default is used" in node.output
+    assert "parameter '/s' is a string ('text'), not an int: using the default" in node.output
+    assert "parameter '/l' is a list or a dictionary, not a string: using the default" in node.output
 
 
 def test_names_are_below_the_node_and_found_upwards(script: Script, roscore: RosCore) -> None:
@@ -96,7 +96,7 @@ def test_wrong_values_are_told(script: Script) -> None:
         """)
     node.wait_for_output("done")
     assert node.output.count("told: ") == 4
-    assert "unusable parameter name 'a b'" in node.output
+    assert "invalid parameter name 'a b'" in node.output
 
 
 def test_without_a_master_nothing_exists_and_the_script_runs_on(tmp_path: Path) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services of child scripts, against a real master and rosservice."""
+"""Services of child scripts, with a real master and rosservice."""
 
 import subprocess
 from collections.abc import Callable
@@ -75,7 +75,7 @@ def test_a_failing_service_ends_its_script_and_tells_the_caller(script: Script, 
     call = ["rosservice", "call", "/wrong"]
     failed = subprocess.run(call, env=roscore.env, text=True, capture_output=True, timeout=30, check=False)
     assert failed.returncode != 0
-    # rosservice's own words, then the reason.
+    # rosservice's text, then the reason.
     told = failed.stderr.partition("responded with an error: b")[2].strip("'\"\n")
     assert told.startswith("bubblesim.MessageError: std_srvs/TriggerResponse"), failed.stderr
     assert "sucess" in told

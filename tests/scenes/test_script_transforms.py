@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transforms of child scripts, against tf2's own listener."""
+"""Transforms of child scripts, with tf2's listener."""
 
 import subprocess
 from collections.abc import Callable
@@ -45,8 +45,8 @@ def test_tf2_looks_up_dynamic_and_static_transforms(script: Script, roscore: Ros
 @pytest.mark.parametrize(
     ("transform", "told"),
     [
-        ("{'rotation': {'w': 2}}", "no unit quaternion (x, y, z, w) but has length 2; no rotation is 0, 0, 0, 1"),
-        ("{}", "has length 0"),
+        ("{'rotation': {'w': 2}}", "is not a unit quaternion (x, y, z, w), its norm is 2; the identity is 0, 0, 0, 1"),
+        ("{}", "its norm is 0"),
         ("{'translation': {'y': float('nan')}, 'rotation': {'w': 1}}", "translation [0.0, nan, 0.0] is not finite"),
     ],
 )

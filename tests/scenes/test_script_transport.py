@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transport hints of simROS.subscribe, as the publishers at the other end see them."""
+"""Transport hints of simROS.subscribe, as received by the publishers."""
 
 import subprocess
 from collections.abc import Callable, Iterator
@@ -11,7 +11,7 @@ from ros_support import RosCore, start, stop, wait_until
 
 Script = Callable[[str], Node]
 
-# Prints what each subscriber's connection header says about TCP_NODELAY.
+# Prints the TCP_NODELAY field of each subscriber's connection header.
 TALKER = """
 import rospy, std_msgs.msg
 from rospy.impl.tcpros_pubsub import TCPROSHandler
@@ -59,5 +59,5 @@ def test_publishers_are_asked_for_what_the_script_wants(script: Script, roscore:
         wanted = {"/either 1", "/fast 1", "/slow 0"}
         wait_until(lambda: set(log.read_text().splitlines()) - {"/rosout 1", "/rosout 0"} == wanted, "the headers")
     node.wait_for_output("told: ")
-    assert "'/either' is subscribed over TCP: there is no UDP here" in node.output
-    assert "told: transports holds 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output
+    assert "'/either' is subscribed over TCP: UDP is not supported" in node.output
+    assert "told: transports must hold 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output

@@ -48,8 +48,8 @@ def test_what_they_tell_agrees(roscore: RosCore, tmp_path: Path) -> None:
         found = told_by(PROBE, roscore.env, tmp_path)
         assert node.end() == 0
     assert found["frames"] == ["odom", "base_link", "Gps", "Camera_optical"]
-    # A degree of latitude at 48 degrees north is 111 194 m long, one of longitude 74 395 m (WGS84). x is the east, and
-    # the receiver stands on base_link; its noise has a deviation of 2 cm.
+    # A degree of latitude at 48 degrees north is 111 194 m, a degree of longitude 74 395 m (WGS84). x is east, and the
+    # receiver is at base_link; its noise has a standard deviation of 2 cm.
     x, y, _ = found["odom"]
     latitude, longitude, altitude = found["fix"]
     assert (longitude - 11.575) * 74_395 == pytest.approx(x, abs=0.12)
@@ -69,7 +69,7 @@ def test_its_odometry_stays_with_it(tmp_path: Path) -> None:
 
         def sysCall_actuation():
             sim.setJointTargetPosition(self.steering, -0.5 if sim.getSimulationTime() > 3 else 0.4)
-            sim.setJointTargetVelocity(self.motor, min(3.0, sim.getSimulationTime()))  # no faster than its wheel grips
+            sim.setJointTargetVelocity(self.motor, min(3.0, sim.getSimulationTime()))  # below the limit of slip
 
         def sysCall_sensing():
             move_odometry()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tricycle's TCP server: what it answers, and that no client can harm it or the others."""
+"""The tricycle's TCP server: its answers, and that no client can harm it or other clients."""
 
 import contextlib
 import os
@@ -30,7 +30,7 @@ def sysCall_sensing():
 
 
 class Client:
-    """A client that says anything."""
+    """A client that can send anything."""
 
     def __init__(self, port: int) -> None:
         self.connection = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE)
@@ -40,7 +40,7 @@ class Client:
         self.connection.sendall(data)
 
     def line(self) -> str:
-        """The next line; nothing when the connection has been closed."""
+        """Return the next line; empty when the connection has been closed."""
         return self._reader.readline().decode().rstrip("\n")
 
     def ask(self, line: bytes) -> str:
@@ -48,7 +48,7 @@ class Client:
         return self.line()
 
     def reset(self) -> None:
-        """Vanishes without a word."""
+        """Reset the connection."""
         self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.close()
 
@@ -58,7 +58,7 @@ class Client:
 
 
 class Server:
-    """The scene on a port of its own; `more` is code that follows the child script's own."""
+    """The scene on its own port; `more` is code appended to the child script."""
 
     def __init__(self, folder: Path, *options: object, more: str = "") -> None:
         self.port = free_port()
@@ -98,7 +98,7 @@ def test_each_command_is_answered_with_time_and_distance(client: Client) -> None
 
 
 def test_a_command_may_come_in_pieces_and_several_at_once(client: Client) -> None:
-    assert ANSWER.fullmatch(client.ask(b"0;0"))  # it ends its lines
+    assert ANSWER.fullmatch(client.ask(b"0;0"))  # answers end with a newline
     client.say(b"0.1;")
     client.say(b"0.")
     client.say(b"5\n0;1\r\n 0 ; 2 \n")
@@ -136,10 +136,10 @@ def test_every_line_has_one_answer(server: Server, lines: list[bytes]) -> None:
 
 
 def test_a_line_without_end_costs_the_connection(server: Server, client: Client) -> None:
-    with contextlib.suppress(ConnectionError):  # it is closed before all has been said
+    with contextlib.suppress(ConnectionError):  # the connection is closed before everything is sent
         client.say(b"1" * 1_000_000)
     client.connection.settimeout(DEADLINE)
-    with contextlib.suppress(ConnectionError):  # and what it was told may be lost with it
+    with contextlib.suppress(ConnectionError):  # and the answer may be lost with it
         assert client.line() in ("error: a line of more than 200 bytes", "")
     assert ANSWER.fullmatch(Client(server.port).ask(b"0;0"))
 
@@ -222,7 +222,7 @@ def test_a_port_in_use_is_told(tmp_path: Path, server: Server) -> None:
         wait_until(lambda: second.process.poll() is not None, "the second simulation to end")
         assert second.process.returncode == 3
         assert f"cannot listen on 127.0.0.1:{server.port}" in second.output
-        assert "does another simulation run?" in second.output
+        assert "is another simulation running?" in second.output
 
 
 def client_program(port: int) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The <state> of a saved world: where its models and links are when it begins."""
+"""The <state> of a saved world: the initial poses of its models and links."""
 
 import math
 from pathlib import Path
@@ -51,4 +51,4 @@ def test_models_links_and_joints_begin_as_they_were_saved(tmp_path: Path, capfd:
     simulation.reset_world()
     check()
     warnings = capfd.readouterr().err.splitlines()
-    assert warnings == [f"warning: {file}:17: /gone: the <state> names it, and the world has no such model"]
+    assert warnings == [f"warning: {file}:17: /gone: the <state> contains this model, which is not in the world"]

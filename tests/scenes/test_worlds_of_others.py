@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worlds and robots that others made for Gazebo, in the folders that BUBBLESIM_BARN (worlds) and BUBBLESIM_ROBOTS
-(packages) name: each loads, runs, and stays on the ground."""
+"""Third-party Gazebo worlds and robots, in the folders BUBBLESIM_BARN (worlds) and BUBBLESIM_ROBOTS (packages): each
+loads, runs, and stays on the ground."""
 
 import os
 from pathlib import Path
@@ -16,7 +16,7 @@ ROBOTS = (
     "turtlebot3_description/urdf/turtlebot3_waffle.urdf",
     "turtlebot3_description/urdf/turtlebot3_waffle_pi.urdf",
 )
-"""Robots on their own; the others need packages that are not there."""
+"""Self-contained robots; the others need packages that are not installed."""
 
 
 def folder(variable: str) -> Path | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Robots in xacro: what its files of today use, and arguments from the command line."""
+"""Robots in xacro: the features of current files, and arguments from the command line."""
 
 from pathlib import Path
 
@@ -34,7 +34,7 @@ SIZES = """\
 
 @pytest.fixture
 def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A robot in a package of its own, which is found by ROS_PACKAGE_PATH."""
+    """A robot in its own package, found by ROS_PACKAGE_PATH."""
     package = tmp_path / "ws" / "bot_description"
     for name, text in {
         "package.xml": "<package><name>bot_description</name></package>",

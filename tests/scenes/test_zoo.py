@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models made for Gazebo, in the folder that BUBBLESIM_ZOO names: each loads, comes to rest, and drives."""
+"""Gazebo models in the folder BUBBLESIM_ZOO: each loads, comes to rest, and drives."""
 
 import os
 import xml.etree.ElementTree as ElementTree
@@ -12,11 +12,11 @@ import bubblesim
 
 ZOO = Path(os.environ.get("BUBBLESIM_ZOO", ""))
 FILES = sorted(ZOO.glob("*/*.sdf")) if "BUBBLESIM_ZOO" in os.environ else []
-# What nothing holds: it swings.
+# Models that nothing holds: they swing.
 RESTLESS = {"double_pendulum_with_base", "simple_arm"}
 SETTLED = 0.05  # m/s or rad/s
 MOTOR = "{https://bubblesim}motor"
-ElementTree.register_namespace("bubblesim", "https://bubblesim")  # which are written with this prefix
+ElementTree.register_namespace("bubblesim", "https://bubblesim")  # the files use this prefix
 
 pytestmark = pytest.mark.skipif(not FILES, reason="BUBBLESIM_ZOO names no folder with models")
 
@@ -26,7 +26,7 @@ def name(file: Path) -> str:
 
 
 def links(simulation: bubblesim.Simulation) -> list[bubblesim.Object]:
-    """Those of the model, without the ground's."""
+    """Return the model's links, without the ground's."""
     return [thing for thing in simulation.objects if thing.kind == "link" and not thing.path.startswith("/ground")]
 
 
@@ -49,7 +49,7 @@ def test_it_loads_and_comes_to_rest(file: Path) -> None:
 
 
 def wheels(model: ElementTree.Element) -> list[ElementTree.Element]:
-    """The axes of joints that turn wheels."""
+    """Return the axes of the joints that turn wheels."""
 
     def is_wheel(joint: ElementTree.Element) -> bool:
         return "wheel" in joint.get("name", "") + (joint.findtext("child") or "")

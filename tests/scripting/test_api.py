@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions of scripts as a whole: each is documented, and none takes what it does not say it takes."""
+"""The functions of scripts in general: each is documented and checks its arguments."""
 
 import inspect
 from collections.abc import Callable
@@ -34,7 +34,7 @@ ANYTHING = st.recursive(
 
 @script_module("sample")
 class Sample:
-    """Functions that give back what they were given."""
+    """Functions that return their arguments."""
 
     def number(self, value: float) -> float:
         """Any number."""
@@ -59,11 +59,11 @@ class Sample:
         return handle, value, reference
 
 
-del MODULES["sample"]  # other tests look at all modules that there are
+del MODULES["sample"]  # other tests check all modules
 
 
 def refusal(function: Callable[[Any], object], value: object) -> str | None:
-    """What the function says to a value that it does not take, None when it takes it."""
+    """Return the error message for a rejected value, None for an accepted one."""
     try:
         function(value)
     except ArgumentError as error:
@@ -161,7 +161,7 @@ def test_no_function_of_sim_falls_over_odd_arguments(tmp_path: Path) -> None:
 def test_no_function_of_simros_falls_over_odd_arguments(tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", SWEEP.replace("MODULES", "[simROS, simROS2]"))
     options = ["--strict", "--speed", "max", "--until", 0.05, "--child-script", f"/Ball={script}"]
-    run = run_sim("ball", *options, env=ros_environment(free_port(), tmp_path))  # no master: nothing waits for one
+    run = run_sim("ball", *options, env=ros_environment(free_port(), tmp_path))  # no master is needed
     assert run.returncode == 0, run.stderr
     assert run.stdout.endswith("swept\n")
 

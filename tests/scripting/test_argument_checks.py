@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whatever is given to any function in place of what it takes: function, argument, what it takes and what it got are
-told, in both languages, and nothing else happens."""
+"""Any wrong argument of any function is reported with function, argument, expected and found value, in both languages,
+without side effects."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 from bubblesim.scripting.api.functions import MODULES, functions, kinds_of
 from bubblesim.scripting.api.kinds import Kind
-from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
-from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # registers modules
 from node_support import run_sim, write
 from ros_support import free_port, ros_environment
 
@@ -59,12 +59,12 @@ IN_PYTHON = """
                         check(module, function.name, number, parameter, kind, before, after)
                         checked += 1
                     if hasattr(getattr(type(module), function.name), 'checked_on_failure'):
-                        break  # looks at the arguments when the call has failed, which may be for the first of them
+                        break  # checks the arguments only after a failed call, which the first may cause
                     before.append(fitting(kind))
         print('checked', checked)
 """
 
-# What Lua has, and what it becomes in Python.
+# Lua values and their Python equivalents.
 LUA_VALUES: list[tuple[str, object]] = [
     ("true", True),
     ("1.5", 1.5),
@@ -94,14 +94,14 @@ def fitting(kind: Kind | None) -> str:
 
 
 def calls_in_lua() -> Iterator[tuple[str, str]]:
-    """Wrong calls, and what they are to be told."""
+    """Yield wrong calls and the expected error messages."""
     for module_name, module in MODULES.items():
         if module_name not in ("sim", "simROS", "simROS2"):
             continue
         for function in functions(module):
             name = f"{module_name}.{function.name}"
             if name == "sim.wait":
-                continue  # Lua has one of its own
+                continue  # Lua has its own version
             kinds = kinds_of(module, function.name)
             required = [p.name for p in function.signature.parameters.values() if p.default is p.empty]
             before: list[str] = []
@@ -118,7 +118,7 @@ def calls_in_lua() -> Iterator[tuple[str, str]]:
 
 
 def run(folder: Path, name: str, code: str) -> list[str]:
-    """What the script prints, in a node that looks for a master in vain."""
+    """Return what the script prints, in a node without a master."""
     script = write(folder / name, code)
     options = ["--strict", "--speed", "max", "--until", 0.05, "--child-script", f"/Ball={script}"]
     run = run_sim("ball", *options, env=ros_environment(free_port(), folder), timeout=240)
@@ -135,7 +135,7 @@ def test_lua(tmp_path: Path) -> None:
     calls = list(calls_in_lua())
     assert len(calls) > 1000
     code = ["local function try(call) print(select(2, pcall(call))) end", "function sysCall_init()"]
-    # Functions of their own, for one may have only so many constants.
+    # One function per call: a Lua function can have only a limited number of constants.
     code += [f"  (function() try(function() {call} end) end)()" for call, _ in calls]
     printed = run(tmp_path, "script.lua", "\n".join([*code, "end"]).replace("\n  (", "\n  ;("))
     printed = [line for line in printed if not line.startswith("plugin ")]

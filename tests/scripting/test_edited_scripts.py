@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A script that was edited is loaded again: at the next start, and with --watch at once."""
+"""An edited script is reloaded: at the next start, and with --watch at once."""
 
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def test_an_edited_script_starts_again(tmp_path: Path, name: str, code: str) -> 
         assert node.end() == 0
         assert "end of one\ninfo" not in node.output
         assert node.output.index("end of one") < node.output.index("two\n") < node.output.index("end of two")
-        assert "info: the child script of /Ball was edited: it starts again\n" in node.output
+        assert "info: the child script of /Ball has changed: restarting it\n" in node.output
 
 
 def test_so_does_one_whose_included_file_was_edited(tmp_path: Path) -> None:

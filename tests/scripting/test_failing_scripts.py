@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A script that fails is reported once, with file:line and object, and the rest runs on."""
+"""A script that fails is reported once, with file:line and object, and the other scripts continue."""
 
 from pathlib import Path
 
@@ -61,13 +61,13 @@ def test_a_syntax_error_names_file_line_and_text(tmp_path: Path) -> None:
 def test_a_script_needs_an_init_or_a_thread(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_actuation(): pass\n", "--strict")
     assert run.returncode == 3
-    assert f"{tmp_path}/script.py: defines no sysCall_init and no sysCall_thread; a script needs one" in run.stderr
+    assert f"{tmp_path}/script.py: it defines neither sysCall_init nor sysCall_thread; a script needs one" in run.stderr
 
 
 def test_a_missing_include_names_its_line_and_the_cure(tmp_path: Path) -> None:
     run = run_script(tmp_path, "#python\ninclude nothing\ndef sysCall_init(): pass\n", "--strict")
     assert run.returncode == 3
-    assert f"{tmp_path}/script.py:2: no file nothing.py in {tmp_path}" in run.stderr
+    assert f"{tmp_path}/script.py:2: file not found: nothing.py in {tmp_path}" in run.stderr
     assert "--script-path" in run.stderr
 
 

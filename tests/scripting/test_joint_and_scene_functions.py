@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions of `sim` about joints as the scene has them, trees of objects, the time step, and what scripts are told of
-pauses."""
+"""Functions of `sim` about the scene's joints, object trees and the time step, and the callbacks for pauses."""
 
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from ros_support import RosCore, free_port, ros_environment, wait_until
 
 
 def check(folder: Path, code: str, name: str = "script.py", scene: str = "tricycle", until: float = 0.1) -> str:
-    """Runs the script, which fails the test where it fails, and returns what it printed."""
+    """Run the script, whose failure fails the test, and return what it printed."""
     target = "/Tricycle" if scene == "tricycle" else "/Ball"
     run = run_script(folder, code, "--strict", name=name, scene=scene, target=target, until=until)
     assert (run.stderr, run.returncode) == ("", 0)
@@ -59,7 +58,7 @@ def test_what_hangs_on_a_joint_is_put_where_it_should_be(tmp_path: Path) -> None
                 sim.setJointPosition(steering, angle)
                 assert math.isclose(sim.getJointPosition(steering), angle, abs_tol=1e-9)
             assert sim.getObjectPose(body) == before
-            # The wheel, which hangs on the fork, stands in the axis of the steering and has turned with it.
+            # The wheel, attached to the fork, is on the steering axis and has turned with it.
             assert math.dist(sim.getObjectPosition(motor), wheel) < 1e-9
             sim.setJointPosition(motor, 2.0)
             assert math.isclose(sim.getJointPosition(motor), 2.0, abs_tol=1e-9)
@@ -124,7 +123,7 @@ def test_a_body_falls_by_any_time_step_alike(tmp_path: Path) -> None:
         return float(check(tmp_path, code, scene="ball", until=1.0))
 
     fallen = [50 - height(seconds) for seconds in ("0.05", "0.1", "0.004", "0.0125")]
-    assert fallen == pytest.approx([9.81 / 2] * 4, abs=0.03)  # Euler's steps: half a substep of 9.81 m/s too far
+    assert fallen == pytest.approx([9.81 / 2] * 4, abs=0.03)  # Euler integration: half a substep of 9.81 m/s too far
 
 
 @pytest.mark.parametrize("seconds", ["0", "-1", "11", "1e-5", "float('nan')"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""When a script's callbacks are called, what they see, and what it may be made of."""
+"""When a script's callbacks are called, what they can access, and the forms of a script."""
 
 from pathlib import Path
 
@@ -93,7 +93,7 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
             except ImportError as error:
                 print(error)
     """
-    assert lines(tmp_path, code) == ["there is no module 'simUI' to require; there are sim, simROS, simROS2"]
+    assert lines(tmp_path, code) == ["module 'simUI' not found; require supports sim, simROS, simROS2"]
 
 
 def test_header_includes_files_from_the_script_folder_and_the_script_path(tmp_path: Path) -> None:

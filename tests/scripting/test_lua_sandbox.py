@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a script in Lua cannot do: run programs of its choice, or keep the simulator from ending."""
+"""Actions forbidden for Lua scripts: running arbitrary programs, keeping the simulator from ending."""
 
 import shutil
 import signal
@@ -30,7 +30,7 @@ def program_in(folder: Path) -> Path:
 @pytest.mark.parametrize("program", ["sh", "/bin/sh", "../../../../../../../bin/sh", "rosrun"])
 def test_a_script_in_lua_starts_no_program_of_the_machine(tmp_path: Path, program: str) -> None:
     _, output = launch(tmp_path, program)
-    assert "a script in Lua may not start /" in output or "there is no program" in output
+    assert "a Lua script must not start /" in output or "not found in" in output
     assert "true" not in output
 
 
@@ -48,7 +48,7 @@ def test_a_script_in_lua_starts_programs_of_ros_packages(tmp_path: Path, monkeyp
     (tmp_path / "space" / "share" / "robot").mkdir(parents=True)
     source = program_in(tmp_path / "src" / "robot" / "scripts")
     for program in (installed, source):
-        assert "may not start" in launch(tmp_path, program)[1]
+        assert "must not start" in launch(tmp_path, program)[1]
     (tmp_path / "space" / "share" / "robot" / "package.xml").touch()
     (tmp_path / "src" / "robot" / "package.xml").touch()
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path / "space"), prepend=":")
@@ -62,15 +62,15 @@ def test_the_user_allows_programs_and_folders(tmp_path: Path) -> None:
     for allowed in (program, program.parent):
         assert launch(tmp_path, program, "--allow-programs", allowed)[1].startswith("true\t")
     assert "true\t" in launch(tmp_path, "true", "--allow-programs", "true")[1]  # after what the program prints
-    assert "may not start" in launch(tmp_path, program, "--allow-programs", tmp_path / "other")[1]
+    assert "must not start" in launch(tmp_path, program, "--allow-programs", tmp_path / "other")[1]
 
 
 @pytest.mark.parametrize("options", [[], ["--lua-unsafe"]])
 def test_scripts_without_a_sandbox_start_any_program(tmp_path: Path, options: list[str]) -> None:
-    assert "may not start" not in launch(tmp_path, "sh", *options, name="script.lua" if options else "script.py")[1]
+    assert "must not start" not in launch(tmp_path, "sh", *options, name="script.lua" if options else "script.py")[1]
 
 
-SLACK = 1.5  # s, of a busy machine
+SLACK = 1.5  # s, for a busy machine
 ENDLESS = {
     "a loop": "while true do end",
     "a coroutine": "coroutine.wrap(function() while true do end end)()",
@@ -106,7 +106,7 @@ def test_sigterm_ends_a_script_that_does_not_return_with_its_cleanup(
         begin = time.monotonic()
         assert node.end(signal.SIGTERM) == 0
         assert time.monotonic() - begin < 2.0 + SLACK
-        assert f"child script of /Ball was broken off in sysCall_init ({script}:3)" in node.output
+        assert f"child script of /Ball was interrupted in sysCall_init ({script}:3)" in node.output
         assert node.output.endswith("cleanup\n")
 
 
@@ -120,7 +120,7 @@ def test_there_are_no_finalizers(tmp_path: Path) -> None:
     told = failure(
         tmp_path, "function sysCall_init()\n  setmetatable({}, {__gc = function() while true do end end})\nend"
     )
-    assert f"{tmp_path}/script.lua:2: setmetatable: there are no finalizers (__gc) in child scripts" in told
+    assert f"{tmp_path}/script.lua:2: setmetatable: finalizers (__gc) are not allowed in child scripts" in told
 
 
 def test_a_finalizer_that_comes_later_is_never_called(tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_texts_keep_their_metatable(tmp_path: Path) -> None:
 
 def test_an_error_within_a_wait_keeps_its_text(tmp_path: Path) -> None:
     told = failure(tmp_path, "function sysCall_init()\n  sim.wait(1)\nend")
-    assert f"{tmp_path}/script.lua:2: sim.wait is for sysCall_thread" in told
+    assert f"{tmp_path}/script.lua:2: sim.wait is only allowed in sysCall_thread" in told
     told = failure(tmp_path, "function sysCall_thread()\n  sim.wait('long')\nend")
     assert f"{tmp_path}/script.lua:2: sim.wait: argument 1, seconds: expected a number" in told
 
@@ -167,7 +167,7 @@ def test_an_error_in_a_coroutine_keeps_its_text(tmp_path: Path, kind: str) -> No
         end
     """
     told = failure(tmp_path, code)
-    assert f"{tmp_path}/script.lua:4: sim.wait is for sysCall_thread" in told
+    assert f"{tmp_path}/script.lua:4: sim.wait is only allowed in sysCall_thread" in told
     assert "sandbox" not in told
 
 

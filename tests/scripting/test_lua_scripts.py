@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Child scripts in Lua: the same life, functions and reports as in Python, and no way to the outside."""
+"""Child scripts in Lua: the same callbacks, functions and error reports as in Python, and no access to the outside."""
 
 import os
 import subprocess
@@ -136,15 +136,18 @@ def test_scripts_keep_their_globals_to_themselves(tmp_path: Path) -> None:
         ("function sysCall_init()\n  sim.getObject('/Bal')\nend", "{file}:2: no object matches '/Bal'"),
         ("function sysCall_init()\n  sim.getObjct()\nend", "{file}:2: sim has no getObjct; did you mean sim.getObject"),
         ("function sysCall_init()\n  nothing()\nend", "{file}:2: attempt to call a nil value (global 'nothing')"),
-        ("require('nothing')", "{file}:1: no file nothing.lua in {folder}"),
-        ("function sysCall_actuation() end", "defines no sysCall_init"),
+        ("require('nothing')", "{file}:1: file not found: nothing.lua in {folder}"),
+        ("function sysCall_actuation() end", "it defines neither sysCall_init"),
         ("function sysCall_thread()\n  sim.step()\n  x.y = 1\nend", "sysCall_thread ({file}:3) and is disabled"),
         ("local function f() return 1 + f() end\nfunction sysCall_init() f() end", "{file}:1: stack overflow"),
         ("function sysCall_init() t = 'x' while true do t = t .. t end end", "not enough memory"),
         ("error({code = 1})", "an error that is not a text: {{code = 1}}"),
         ("error(setmetatable({1}, {__tostring = function() error('no') end}))", "an error that is not a text: a table"),
         ("function sysCall_thread()\n  error({1})\nend", "an error that is not a text: {{1}}"),
-        ("function sysCall_init()\n  local t = {} t[1] = t\n  sim.packTable(t)\nend", "{file}:3: a table holds itself"),
+        (
+            "function sysCall_init()\n  local t = {} t[1] = t\n  sim.packTable(t)\nend",
+            "{file}:3: a table contains itself",
+        ),
     ],
 )
 def test_a_failing_script_is_reported_with_its_line(tmp_path: Path, code: str, report: str) -> None:
@@ -233,7 +236,7 @@ def test_a_thread_that_will_not_end_is_broken_off(tmp_path: Path) -> None:
 
 def test_callbacks_cannot_step(tmp_path: Path) -> None:
     run = run_lua(tmp_path, "function sysCall_init()\n  sim.step()\nend")
-    assert f"{tmp_path}/script.lua:2: sim.step is for sysCall_thread" in run.stderr
+    assert f"{tmp_path}/script.lua:2: sim.step is only allowed in sysCall_thread" in run.stderr
 
 
 OUTSIDE = ["os", "io", "package", "dofile", "loadfile", "python", "debug.getinfo", "debug.getregistry"]

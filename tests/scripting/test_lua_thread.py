@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A thread in Lua, as the functions of Python see it that it calls."""
+"""A Lua thread, from the Python functions that it calls."""
 
 import time
 
@@ -10,14 +10,14 @@ from bubblesim.scripting.threads.lua_thread import LuaThread
 
 
 def test_what_python_does_for_it_may_sleep(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(time, "sleep", time.sleep)  # install() replaces it, and the test's end puts it back
+    monkeypatch.setattr(time, "sleep", time.sleep)  # install() replaces it, and the end of the test restores it
     script_thread.install()
     slept = []
 
     def resume() -> bool:
-        time.sleep(0.001)  # as a service of another script may that it calls
+        time.sleep(0.001)  # like a called service of another script
         slept.append(True)
         return True
 
-    LuaThread(resume).give_turn()
+    LuaThread(resume).run_turn()
     assert slept == [True]

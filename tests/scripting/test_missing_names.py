@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a script is told that uses a module or a function that is not there."""
+"""Error messages for scripts that use a missing module or function."""
 
 from pathlib import Path
 
@@ -7,11 +7,11 @@ import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.api.missing_names import explain
-from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
-from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
+from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # registers modules
 from node_support import run_script, write
 
-NO_ROS = "there is no ROS because the node was started with --no-ros; scripts for both cases test `if simROS`"
+NO_ROS = "the node was started with --no-ros; to run with and without ROS, test `if simROS`"
 
 
 def failure(folder: Path, code: str, name: str = "script.py") -> str:
@@ -53,7 +53,7 @@ def test_without_ros_simros_is_false_in_lua(tmp_path: Path) -> None:
     [
         ("sim.setObjectPos", "sim has no setObjectPos; did you mean sim.setObjectPose or sim.setObjectPosition?"),
         ("sim.wantsMessages", "sim has no wantsMessages; did you mean simROS.wantsMessages or simROS2.wantsMessages?"),
-        ("sim.xyzzy", "sim has no xyzzy; `bubblesim api` lists all functions that there are"),
+        ("sim.xyzzy", "sim has no xyzzy; `bubblesim api` lists all functions"),
     ],
 )
 def test_a_misspelt_function_is_reported_with_what_was_meant_in_both_languages(
@@ -77,8 +77,8 @@ def test_a_name_of_the_other_ros_module_is_reported_with_its_counterpart(
     module: str, wanted: str, counterpart: str
 ) -> None:
     text = explain(module, wanted, MODULES)
-    assert text.startswith(f"{module} has no {wanted}, which belongs to simROS")
-    assert text.endswith(f"its counterpart is {counterpart}")
+    assert text.startswith(f"{module} has no {wanted}, which is a function of simROS")
+    assert text.endswith(f"use {counterpart}")
 
 
 def test_every_function_that_one_ros_module_has_under_another_name_has_a_counterpart() -> None:
@@ -107,13 +107,13 @@ def test_a_function_that_lua_does_not_find_is_nil_and_its_call_can_be_caught(tmp
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        ("sim.getObjectPosition(-1)", "sim.getObjectPosition: argument 1, handle: -1 is no handle of an object"),
-        ("sim.setObjectPosition(-1, [0, 0, 0])", "sim.setObjectPosition: argument 1, handle: -1 is no handle"),
+        ("sim.getObjectPosition(-1)", "sim.getObjectPosition: argument 1, handle: -1 is not a handle of an object"),
+        ("sim.setObjectPosition(-1, [0, 0, 0])", "sim.setObjectPosition: argument 1, handle: -1 is not a handle"),
         (
             "sim.getObjectPosition(sim.getObject('.'), -99)",
-            "sim.getObjectPosition: argument 2, relative_to: -99 is no handle of an object",
+            "sim.getObjectPosition: argument 2, relative_to: -99 is not a handle of an object",
         ),
-        ("sim.getVisionSensorCharImage(-1)", "sim.getVisionSensorCharImage: argument 1, sensor: -1 is no handle"),
+        ("sim.getVisionSensorCharImage(-1)", "sim.getVisionSensorCharImage: argument 1, sensor: -1 is not a handle"),
     ],
 )
 def test_what_is_no_handle_is_reported_with_function_argument_and_line(tmp_path: Path, call: str, told: str) -> None:
@@ -129,7 +129,7 @@ def test_what_is_no_handle_is_reported_with_function_argument_and_line(tmp_path:
     [
         ("sysCall_actuaton", "sysCall_actuaton is never called; did you mean sysCall_actuation?"),
         ("sysCall_clenup", "sysCall_clenup is never called; did you mean sysCall_cleanup?"),
-        ("sysCall_vision", "sysCall_vision is never called; sysCall_sensing can do what it does"),
+        ("sysCall_vision", "sysCall_vision is never called; use sysCall_sensing instead"),
         ("sysCall_mesage", "sysCall_mesage is never called; the callbacks are sysCall_init, sysCall_thread,"),
     ],
 )
@@ -152,7 +152,7 @@ def test_other_functions_are_nothing_to_warn_of(tmp_path: Path) -> None:
 def test_a_misspelt_init_is_named(tmp_path: Path) -> None:
     told = failure(tmp_path, "def sysCall_int(): pass\n")
     assert "did you mean sysCall_init?" in told
-    assert "defines no sysCall_init" in told
+    assert "it defines neither sysCall_init" in told
 
 
 def test_time_counts_from_the_start_of_the_node(tmp_path: Path) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scripts cannot end, replace or double the simulator by functions of os."""
+"""Scripts cannot end, replace or fork the simulator with functions of os."""
 
 from pathlib import Path
 
@@ -34,7 +34,7 @@ def test_a_call_that_would_is_named_with_its_place_and_the_run_goes_on(
     assert run.returncode == 3
     assert f"failed in {hook} (" in run.stderr
     assert f'{tmp_path}/script.py", line 4, in {hook}' in run.stderr
-    assert f"RefusedCallError: {name}" in run.stderr
+    assert f"ForbiddenCallError: {name}" in run.stderr
     assert len(run.stdout.splitlines()) == 1, "one simulator prints one hash"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""QoS arguments as the scripts of ROS 2 tutorials give them."""
+"""QoS arguments in the forms used by ROS 2 tutorials."""
 
 from typing import Any
 
@@ -26,10 +26,10 @@ def test_depth_is_the_queue_and_transient_local_latches(given: Any, read: Qos) -
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ({"dept": 5}, "QoS has no 'dept'; it has depth, "),
+        ({"dept": 5}, "QoS has no 'dept'; valid keys: depth, "),
         ({"durability": "latched"}, "one of volatile, transient_local, "),
-        (-1, "not negative"),
-        ("many", "whole number"),
+        (-1, "not be negative"),
+        ("many", "an integer"),
     ],
 )
 def test_what_is_no_qos_is_told_with_what_is(given: Any, told: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transport hints as scripts give them."""
+"""Transport hints in the forms used by scripts."""
 
 from typing import Any
 
@@ -24,18 +24,18 @@ def test_hints_are_read(given: Any, read: TransportHints) -> None:
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ("tcp", "transport hints are a table, found str 'tcp'"),
-        ({"tcpNodelay": True}, "have no 'tcpNodelay'; they have transports, tcpNoDelay, maxDatagramSize"),
+        ("tcp", "transport hints must be a table, found str 'tcp'"),
+        ({"tcpNodelay": True}, "have no 'tcpNodelay'; valid keys: transports, tcpNoDelay, maxDatagramSize"),
         ({"tcpNoDelay": "yes"}, "tcpNoDelay is true or false, found str 'yes'"),
-        ({"transports": 5}, "transports is a list, found int 5"),
+        ({"transports": 5}, "transports must be a list, found int 5"),
         (
             {"transports": ["carrier pigeon"]},
-            "transports holds 'reliable', 'tcp', 'unreliable', 'udp'; found str 'carr",
+            "transports must hold 'reliable', 'tcp', 'unreliable', 'udp'; found str 'carr",
         ),
-        ({"transports": [["tcp"]]}, "transports holds "),
-        ({"maxDatagramSize": 1.5}, "maxDatagramSize is an integer, found float 1.5"),
-        ({"maxDatagramSize": -1}, "maxDatagramSize is 0 to 65507 bytes, found -1"),
-        ({"maxDatagramSize": 10**30}, "maxDatagramSize is 0 to 65507 bytes"),
+        ({"transports": [["tcp"]]}, "transports must hold "),
+        ({"maxDatagramSize": 1.5}, "maxDatagramSize must be an integer, found float 1.5"),
+        ({"maxDatagramSize": -1}, "maxDatagramSize must be 0 to 65507 bytes, found -1"),
+        ({"maxDatagramSize": 10**30}, "maxDatagramSize must be 0 to 65507 bytes"),
     ],
 )
 def test_what_is_no_hint_is_told_with_what_is(given: Any, told: str) -> None:

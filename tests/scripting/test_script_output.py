@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines that scripts print say which script it was, and when in the simulation."""
+"""Printed lines of scripts start with the object and the simulation time."""
 
 import subprocess
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""sysCall_thread: when it runs, what it may wait for, and how it ends."""
+"""sysCall_thread: when it runs, what it can wait for, and how it ends."""
 
 import signal
 from pathlib import Path
@@ -150,7 +150,7 @@ def test_an_error_in_the_thread_ends_the_script_and_names_the_line(tmp_path: Pat
 def test_a_callback_cannot_step(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_init(): sim.step()\n", "--strict")
     assert run.returncode == 3
-    assert "sim.step is for sysCall_thread" in run.stderr
+    assert "sim.step is only allowed in sysCall_thread" in run.stderr
 
 
 def test_a_thread_that_never_steps_in_stepping_mode_is_broken_off_by_a_signal(tmp_path: Path) -> None:
@@ -166,5 +166,5 @@ def test_a_thread_that_never_steps_in_stepping_mode_is_broken_off_by_a_signal(tm
     with Node(clean_environment(), tmp_path / "log", *options) as node:
         node.wait_for_output("begun")
         assert node.end(signal.SIGTERM) == 0
-        assert "was broken off in sysCall_thread" in node.output
+        assert "was interrupted in sysCall_thread" in node.output
         assert node.output.endswith("cleanup\n")

@@ -53,7 +53,7 @@ def test_altimeters_and_magnetometers_are_read(tmp_path: Path) -> None:
             height, velocity = sim.readAltimeter(sim.getObject('/Altimeter'))
             assert (height, velocity) == (0.0, 0.0)
             field = sim.readMagnetometer(sim.getObject('/Magnetometer'))
-            assert [round(part * 1e7) for part in field] == [56, 229, -424]  # the default; it looks along x
+            assert [round(part * 1e7) for part in field] == [56, 229, -424]  # the default field; the sensor faces x
         """
     run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.1)
     assert (run.stderr, run.returncode) == ("", 0)

@@ -9,7 +9,7 @@ from node_support import processes_with, run_script
 
 
 def check(folder: Path, body: str, scene: str = "ball", target: str = "/Ball", until: float = 0.1) -> str:
-    """Runs `body` in sysCall_init; it fails the test where it fails. Returns what it printed."""
+    """Run `body` in sysCall_init; an error fails the test. Return what it printed."""
     indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
     header = "import math\nimport numpy as np\nnear = lambda a, b: np.testing.assert_allclose(a, b, atol=1e-9)\n"
     run = run_script(
@@ -75,7 +75,7 @@ near(sim.getObjectPosition(h), [1, 2, 3])
 def test_poses_relative_to_an_object(tmp_path: Path) -> None:
     body = """
 h, ramp = sim.getObject('.'), sim.getObject('/Ramp')
-c, s = math.cos(0.2), math.sin(0.2)  # the ramp is turned by 0.2 about y and stands at (-1, 0, 0.1)
+c, s = math.cos(0.2), math.sin(0.2)  # the ramp is rotated by 0.2 about y, at (-1, 0, 0.1)
 turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 sim.setObjectPosition(h, [0.3, 0.4, 0.5], ramp)
 near(sim.getObjectPosition(h), turn @ [0.3, 0.4, 0.5] + [-1, 0, 0.1])
@@ -95,7 +95,7 @@ def test_poses_relative_to_a_joint_use_its_moving_frame(tmp_path: Path) -> None:
         def sysCall_cleanup():
             steering, fork = sim.getObject('/Steering'), sim.getObject('/fork')
             assert abs(sim.getJointPosition(steering) - 0.5) < 1e-3
-            # The fork turns with the joint, whose frame is the fork's own.
+            # The fork turns with the joint and has the same frame.
             np.testing.assert_allclose(sim.getObjectPosition(fork, steering), [0, 0, 0], atol=1e-3)
             np.testing.assert_allclose(sim.getObjectOrientation(fork, steering), [0, 0, 0], atol=1e-3)
             x, y, z = sim.getObjectPosition(sim.getObject('/Tricycle'), steering)
@@ -120,7 +120,7 @@ for _ in range(200):
     sim.setObjectOrientation(h, [a, b, c])
     near(sim.getObjectOrientation(h), [a, b, c])
     near(sim.getObjectMatrix(h), np.column_stack([rx(a) @ ry(b) @ rz(c), position]).ravel())
-for b in (math.pi / 2, -math.pi / 2):  # where the first and the third axis are one
+for b in (math.pi / 2, -math.pi / 2):  # where the first and the third axis coincide
     sim.setObjectOrientation(h, [0.3, b, 0.4])
     matrix = sim.getObjectMatrix(h)
     sim.setObjectOrientation(h, sim.getObjectOrientation(h))
@@ -202,7 +202,7 @@ BAD_CALLS = {
     "sim.getObject('/Ball', {'noerror': 1})": "ValueError: getObject has no option 'noerror'",
     "sim.getObjectPosition('/Ball')": "expected the handle of an object, an integer, found str '/Ball'",
     "sim.getObjectPosition(999)": "NoSuchObject: no object has the handle 999",
-    "sim.getObjectPosition(-77)": "sim.getObjectPosition: argument 1, handle: -77 is no handle of an object",
+    "sim.getObjectPosition(-77)": "sim.getObjectPosition: argument 1, handle: -77 is not a handle of an object",
     "sim.setObjectPosition(sim.handle_self, [1, 2])": "argument 2, position: expected 3 numbers, found 2",
     "sim.setObjectPosition(sim.handle_self, 'abc')": "argument 2, position: expected 3 numbers, found str 'abc'",
     "sim.setObjectPosition(sim.handle_self, [1, None, 2])": "position: expected 3 numbers, found list [1, None, 2]",
@@ -212,7 +212,7 @@ BAD_CALLS = {
     "sim.setJointTargetVelocity(sim.handle_self, 1)": "/Ball is a model, not a joint",
     "sim.setJointTargetVelocity(sim.handle_self, 'x')": "argument 2, velocity: expected a number, found str 'x'",
     "sim.readProximitySensor(sim.handle_self)": "/Ball is a model, not a proximity sensor",
-    "sim.launchExecutable('no_such_program')": "FileNotFoundError: there is no program 'no_such_program' in ",
+    "sim.launchExecutable('no_such_program')": "FileNotFoundError: program 'no_such_program' not found in ",
     "sim.launchExecutable('echo', '\"open')": "ValueError: No closing quotation",
 }
 

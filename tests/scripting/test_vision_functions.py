@@ -16,7 +16,7 @@ def sysCall_init():
 
 
 def run(folder: Path, body: str) -> str:
-    """Runs `body` in sysCall_init in the scene `sensors`; returns what went to stderr."""
+    """Run `body` in sysCall_init in the scene `sensors`; return its output on stderr."""
     indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
     return run_script(folder, HEADER + indented, "--strict", scene="sensors", target="/Mast", until=0.1).stderr
 
@@ -64,7 +64,7 @@ def test_depths_are_metres_or_parts_of_the_clipping_range(tmp_path: Path) -> Non
 data, size = sim.getVisionSensorDepth(depth_camera, 1)
 metres = np.array(sim.unpackFloatTable(data)).reshape(48, 64)
 assert size == [64, 48]
-off = 23.5 / (32 / np.tan(0.65))  # of the outer rows, from the axis, which points down by 0.25 rad, 1 m above the floor
+off = 23.5 / (32 / np.tan(0.65))  # outer rows off the axis, which points down by 0.25 rad, 1 m above the floor
 np.testing.assert_allclose(metres[0, 32], 1 / (np.sin(0.25) + off * np.cos(0.25)), atol=1e-4)
 np.testing.assert_allclose(metres[-1, 32], 4 / (np.cos(0.25) + off * np.sin(0.25)), atol=1e-4)
 parts = np.array(sim.unpackFloatTable(sim.getVisionSensorDepth(depth_camera)[0])).reshape(48, 64)
@@ -120,12 +120,12 @@ np.testing.assert_allclose(acceleration, [0, 0, 9.8], atol=1e-9)
         ("sim.getVisionSensorImg(lidar)", "/Lidar is a lidar, not a camera"),
         ("sim.readLidar(camera)", "/Camera is a camera, not a lidar"),
         ("sim.readVisionSensor(sim.getObject('/Ball'))", "/Ball is a model, not a sensor"),
-        ("sim.getVisionSensorImg(depth_camera)", "/DepthCamera is a depth camera, which has no picture"),
+        ("sim.getVisionSensorImg(depth_camera)", "/DepthCamera is a depth camera without colour image"),
         (
             "sim.getVisionSensorImg(camera, 0, 0, [600, 0], [50, 10])",
-            "the part at [600, 0] of size [50, 10] is not within 640 x 480 pixels",
+            "the part at [600, 0] of size [50, 10] exceeds the 640 x 480 pixels",
         ),
-        ("sim.transformImage(b'123', [2, 2], 0)", "2 x 2 pixels of 3 bytes are not 3 bytes"),
+        ("sim.transformImage(b'123', [2, 2], 0)", "2 x 2 pixels need 12 bytes, found 3"),
     ],
 )
 def test_bad_calls_are_explained(tmp_path: Path, call: str, complaint: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A callback that does not return is told, with the place where it is; the simulator can still be ended."""
+"""A callback that does not return is reported with its current line; the simulator can still be ended."""
 
 import re
 import time
@@ -23,10 +23,10 @@ def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: s
     script = write(tmp_path / name, STUCK[name])
     environment = ros_environment(free_port(), tmp_path)
     with Node(environment, tmp_path / "log", "ball", "--no-ros", "--child-script", f"/Ball={script}") as node:
-        node.wait_for_output("the simulation waits for it")
+        node.wait_for_output("the simulation is waiting")
         place = re.search(
             r"child script of /Ball has not returned from (sysCall_\w+) for 1.5 s, now at (.*):(\d+): "
-            "the simulation waits for it",
+            "the simulation is waiting",
             node.output,
         )
         assert place is not None, node.output
@@ -35,14 +35,14 @@ def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: s
         began = time.monotonic()
         assert node.end() == 0
         assert time.monotonic() - began < 10  # without force, which comes later
-        assert "was broken off in sysCall_" in node.output
+        assert "was interrupted in sysCall_" in node.output
 
 
 def test_a_callback_is_told_once(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): time.sleep(4.5)\n"
     run = run_script(tmp_path, code, slowness=True)
     assert run.returncode == 0
-    assert run.stderr.count("the simulation waits for it") == 1
+    assert run.stderr.count("the simulation is waiting") == 1
 
 
 def test_callbacks_that_return_are_not_told(tmp_path: Path) -> None:

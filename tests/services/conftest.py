@@ -12,7 +12,7 @@ from ros_support import RosCore
 
 @pytest.fixture
 def run(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
-    """The ball with a script of the test's own, and the remote control."""
+    """Run the ball with a test's script, and the remote control."""
     with ExitStack() as ends:
 
         def begin(code: str, *options: str, hear: Sequence[str] = ()) -> tuple[Node, Remote]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gazebo's services and topics, used as other nodes use them."""
+"""Gazebo's services and topics, used by other nodes."""
 
 import math
 import subprocess
@@ -14,7 +14,7 @@ from node_support import NAME, Node, write
 from ros_support import RosCore, start, wait_until
 from service_caller import ServiceCaller
 
-# The platform looks along y.
+# The platform faces y.
 SCENE = """\
 <?xml version="1.0"?>
 <sdf version="1.9">
@@ -38,7 +38,7 @@ AHEAD = {"position": {"x": 3.0}, "orientation": {"w": 1.0}}
 
 
 class Gazebo:
-    """A running node and its services below /gazebo."""
+    """A running node and its services in /gazebo."""
 
     def __init__(self, core: RosCore, caller: ServiceCaller) -> None:
         self.core = core
@@ -58,7 +58,7 @@ def vector(message: dict[str, float]) -> list[float]:
 
 
 def named(message: Any, name: str) -> tuple[list[float], list[float]]:
-    """Position and linear velocity of one of those that a topic tells of."""
+    """Return position and linear velocity of a named entry of a state message."""
     index = message["name"].index(name)
     return vector(message["pose"][index]["position"]), vector(message["twist"][index]["linear"])
 
@@ -146,7 +146,7 @@ def test_models_come_and_go(gazebo: Gazebo, service: str, xml: str) -> None:
     assert gazebo.position("New") == pytest.approx([1, 5, 0])
     gazebo("reset_world")
     assert gazebo.position("New") == pytest.approx([1, 5, 0])
-    assert gazebo(service, **request)["success"] is False  # the name is taken
+    assert gazebo(service, **request)["success"] is False  # the name is in use
     assert gazebo("delete_model", model_name="New")["success"]
     assert "New" not in gazebo("get_world_properties")["model_names"]
 
@@ -224,7 +224,7 @@ def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
     assert topics["model_states"]["name"] == ["Platform", "Arm", "Rock"]
     assert topics["link_states"]["name"] == ["Platform::base", "Arm::base", "Arm::tip", "Rock::link"]
     assert named(topics["model_states"], "Platform")[0] == pytest.approx([1, 2, 0])
-    # The tip goes round the base: v = w x r = (0, 0.5, 0) x (0, 0, 1).
+    # The tip moves round the base: v = w x r = (0, 0.5, 0) x (0, 0, 1).
     assert named(topics["link_states"], "Arm::tip")[1] == pytest.approx([0.5, 0, 0], abs=0.01)
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types of gazebo_msgs are those that Gazebo 9 and 11 speak on the wire."""
+"""The types of gazebo_msgs equal those of Gazebo 9 and 11 on the wire."""
 
 import pytest
 
 from bubblesim import _core
 
-# As other generators' code for gazebo_msgs 2.9 has them: rosserial, rosnodejs, roslisp.
+# Values from the code of other generators for gazebo_msgs 2.9: rosserial, rosnodejs, roslisp.
 MESSAGES = {
     "ContactState": "48c0ffb054b8c444f870cecea1ee50d9",
     "ContactsState": "acbcb1601a8e525bf72509f18e6f668d",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The services that add and remove models, called as other nodes call them."""
+"""The services that add and remove models, called by other nodes."""
 
 import math
 import re
@@ -84,7 +84,7 @@ def test_a_model_is_added_and_removed(simulator: Simulator) -> None:
 
 
 def test_name_and_reference_may_be_given(simulator: Simulator) -> None:
-    # The platform looks along y: what is 3 m ahead of it is at x = 1, y = 5.
+    # The platform faces y: a point 3 m ahead of it is at x = 1, y = 5.
     assert simulator.call("spawn_sdf", sdf=BALL, name="Other", pose=AHEAD, reference="/Platform")["success"]
     assert simulator.x_of("/Other") == pytest.approx(1)
     assert simulator.call("delete_object", object="/Other")["success"]
@@ -112,8 +112,8 @@ BAD_REQUESTS: list[tuple[dict[str, Any], str]] = [
     ({"sdf": BALL.replace("<radius>0.1", "<radius>-1")}, "radius"),
     ({"sdf": BALL.replace("<radius>0.1", "<radius>x")}, "<radius> is 'x'"),
     ({"sdf": BALL.replace('name="Ball"', 'name=""')}, "name"),
-    ({"name": "Platform"}, "/Platform: the world has a model of this name already"),
-    ({"name": "a/b"}, "the name holds a '/'"),
+    ({"name": "Platform"}, "/Platform: a model with this name exists already"),
+    ({"name": "a/b"}, "the name contains '/'"),
     ({"pose": {"position": {"x": math.nan}, "orientation": {"w": 1.0}}}, "the position is (nan, 0, 0)"),
     ({"pose": {"position": {"x": 1e300}, "orientation": {"w": 1.0}}}, "the position is (1e+300, 0, 0)"),
     ({"pose": {"position": {"x": 1.0}}}, "the orientation"),
@@ -154,5 +154,5 @@ def test_a_script_cannot_remove_its_own_model(simulator: Simulator, tmp_path: Pa
     )
     own = BALL.replace("<link", f"<bubblesim:child_script>{script}</bubblesim:child_script><link", 1)
     assert simulator.call("spawn_sdf", sdf=own, name="Own", pose=AHEAD)["success"]
-    simulator.node.wait_for_output("told: a child script cannot remove the model that it belongs to")
+    simulator.node.wait_for_output("told: a child script cannot remove its own model")
     assert simulator.call("delete_object", object="/Own")["success"]

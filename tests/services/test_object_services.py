@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The services that read and set objects, called as other nodes call them."""
+"""The services that read and set objects, called by other nodes."""
 
 import math
 import subprocess
@@ -13,7 +13,7 @@ import yaml
 from node_support import NAME, Node, write
 from ros_support import RosCore, wait_until
 
-# Two links in one plane: the platform turns about z, and a box lies on it without touching anything.
+# Two links in one plane: the platform turns about z, and a box lies on it without contacts.
 SCENE = """\
 <?xml version="1.0"?>
 <sdf version="1.9">
@@ -32,7 +32,7 @@ class Caller:
         self._core = core
 
     def error(self, service: str, **request: Any) -> str:
-        """What rosservice writes when the call fails."""
+        """Return rosservice's error output of a failed call."""
         command = ["rosservice", "call", f"{NAME}/{service}", yaml.safe_dump(request)]
         failed = subprocess.run(command, env=self._core.env, capture_output=True, text=True, check=False)
         assert (failed.returncode, failed.stdout) == (2, "")
@@ -45,7 +45,7 @@ class Caller:
 
 @pytest.fixture
 def call(roscore: RosCore, tmp_path: Path) -> Iterator[Caller]:
-    """A scene without scripts that stands still."""
+    """Run a paused scene without scripts."""
     with Node(roscore.env, tmp_path / "log", write(tmp_path / "two.sdf", SCENE), "--paused") as node:
         wait_until(lambda: f"{NAME}/get_object_state" in roscore.state()["services"], "the services")
         yield Caller(roscore)
@@ -68,7 +68,7 @@ def test_a_pose_that_was_set_is_read_back(call: Caller) -> None:
 
 
 def test_poses_may_be_relative_to_an_object(call: Caller) -> None:
-    # The platform looks along y: what lies at y + 1 is 1 m ahead of it.
+    # The platform faces y: a point at y + 1 is 1 m ahead of it.
     assert position(call("get_object_state", object="/Box", reference="/Platform")) == pytest.approx([1, 0, 0])
     ahead = {"position": {"x": 3.0}, "orientation": {"w": 1.0}}
     assert call("set_object_pose", object="/Box", pose=ahead, reference="/Platform")["success"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The services that put a simulation back to its start, called as other nodes call them."""
+"""The services that reset a simulation, called by other nodes."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -15,7 +15,7 @@ Start = Callable[[str], Node]
 
 @pytest.fixture
 def start(roscore: RosCore, tmp_path: Path) -> Iterator[Start]:
-    """The ball with a script of the test's own, running."""
+    """Run the ball with a test's script."""
     nodes = []
 
     def run(code: str) -> Node:
@@ -101,4 +101,4 @@ def test_a_script_that_asks_in_the_middle_of_itself_is_told_so(start: Start) -> 
             client = simROS.serviceClient('{NAME}/reset_simulation', 'std_srvs/Empty')
             simROS.call(client)
         """)
-    node.wait_for_output("cannot start the simulation anew that it is called from")
+    node.wait_for_output("cannot restart the simulation that runs it")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The topics of CoppeliaSim's helper for ROS, as programs made for it use them."""
+"""The topics of CoppeliaSim's ROS helper, used by programs made for it."""
 
 from node_support import NAME, Node
 from remote_control import Remote, Run
@@ -18,7 +18,7 @@ def passes(node: Node) -> int:
 
 
 def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
-    """Returns how many steps there have been when no more come, and all are heard of, while a service is called."""
+    """Return the number of steps once no more arrive and all are received, while a service is called."""
     remote.send("/enableSyncMode", value=True)
 
     def nothing_goes_on() -> bool:
@@ -36,7 +36,7 @@ def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run
     before = len(remote.heard(DONE))
     remote.send("/triggerNextStep", value=False, count=100)
     wait_until(lambda: len(remote.heard(DONE)) == before + 100, "all to be done")
-    for _ in range(3):  # one by one, as a controller does
+    for _ in range(3):  # one by one, like a controller
         done = len(remote.heard(DONE))
         remote.send("/triggerNextStep", value=True)
         wait_until(lambda goal=done + 1: len(remote.heard(DONE)) == goal, "the step to be done")
@@ -124,7 +124,7 @@ def test_a_script_that_subscribes_to_a_topic_has_it_for_itself(run: Run, roscore
     node.wait_for_output("init")
     remote.press("stop")
     node.wait_for_output("heard")
-    roscore.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")  # takes passes to be answered
+    roscore.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")  # the answer takes some steps
     assert "cleanup" not in node.output
     remote.press("stop")
     node.wait_for_output("cleanup")

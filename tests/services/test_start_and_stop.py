@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulation that is stopped and started by other nodes while its own node lives on."""
+"""A simulation that other nodes stop and start while its node keeps running."""
 
 import re
 import socket
@@ -12,7 +12,7 @@ from node_support import NAME, Node, run_script, write
 from remote_control import Run
 from ros_support import RosCore, free_port, wait_until
 
-MASTER_CONNECTIONS = 2  # that roscpp keeps open between calls, or not, as it happens
+MASTER_CONNECTIONS = 2  # roscpp may keep these open between calls
 RESTARTS = 5
 
 
@@ -35,7 +35,7 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
     code = f"""
         import socket, tempfile
         def sysCall_init():
-            self.server = socket.create_server(('127.0.0.1', {port}))  # left open, as are those below
+            self.server = socket.create_server(('127.0.0.1', {port}))  # not closed, like those below
             print('init', sim.getSimulationTime(), sim.getSimulationState(), sim.getInt32Signal('left over'))
             sim.setInt32Signal('left over', 1)
             sim.setObjectPosition(sim.getObject('.'), [5, 5, 5])
@@ -80,7 +80,7 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run) -> 
                 connection, _ = server.accept()
                 connection.send(str(sim.getSimulationTime()).encode())
                 connection.recv(1)
-                connection.close()  # the first to close: the system holds the port for a minute
+                connection.close()  # closes first, so the system keeps the port for a minute
         def sysCall_sensing(): print('pass')
         def sysCall_cleanup(): print('cleanup')
     """
@@ -89,7 +89,7 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run) -> 
     for starts in range(1, RESTARTS + 1):
         remote.press("start")
         wait_until(lambda starts=starts: count(node, "listens") == starts, "the server")
-        for _ in range(2):  # one after the other
+        for _ in range(2):  # in sequence
             with socket.create_connection(("127.0.0.1", port), timeout=20) as client:
                 assert float(client.recv(100)) >= 0
                 client.send(b"x")
@@ -97,7 +97,7 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run) -> 
         with socket.create_connection(("127.0.0.1", port), timeout=20) as client:  # the server waits for it
             assert float(client.recv(100)) >= 0
             before = count(node, "pass")
-            wait_until(lambda before=before: count(node, "pass") >= before + 3, "passes meanwhile")
+            wait_until(lambda before=before: count(node, "pass") >= before + 3, "steps meanwhile")
             remote.press("stop")
             wait_until(lambda starts=starts: count(node, "cleanup") == starts, "the script to end")
             assert client.recv(1) == b""
@@ -111,7 +111,7 @@ def test_a_start_after_a_stop_reads_the_script_files_again(run: Run, tmp_path: P
     node, remote = run("def sysCall_init(): print('as it was')\ndef sysCall_cleanup(): print('cleanup')\n")
     node.wait_for_output("as it was")
     remote.press("stop")
-    node.wait_for_output("cleanup")  # what is said on two topics may arrive in any order
+    node.wait_for_output("cleanup")  # messages on two topics may arrive in any order
     write(tmp_path / "script.py", "def sysCall_init(): print('edited')\n")
     remote.press("start")
     node.wait_for_output("edited")
@@ -126,7 +126,7 @@ def test_a_pause_lets_scripts_and_time_stand_still(run: Run) -> None:
     remote.press("pause")
     wait_until(lambda: stands_still(node), "the simulation to be paused")
     remote.press("start")
-    wait_until(lambda: count(node, "pass") > 20, "the simulation to go on")
+    wait_until(lambda: count(node, "pass") > 20, "the simulation to continue")
     passes = re.findall(r"^pass (.*)", node.output, re.MULTILINE)
     assert passes == [f"{0.05 * i:.2f}" for i in range(len(passes))]
     assert count(node, "init") == 1

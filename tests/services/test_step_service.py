@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The service that lets a paused simulation run for some steps."""
+"""The service that runs some steps of a paused simulation."""
 
 import signal
 import subprocess
@@ -20,7 +20,7 @@ IDLE = "def sysCall_init(): pass\n"
 
 @pytest.fixture
 def paused(roscore: RosCore, tmp_path: Path) -> Iterator[Paused]:
-    """The ball with a script of the test's own, standing still."""
+    """Run the ball with a test's script, paused."""
     nodes = []
 
     def run(code: str) -> Node:
@@ -61,7 +61,7 @@ def test_scripts_hear_messages_in_the_passes(paused: Paused, roscore: RosCore) -
     assert "heard at" in node.output
 
 
-# The message is sent when the service is at work already, for a message that is there before proves nothing.
+# The message is sent while the service runs: an earlier message would prove nothing.
 PUBLISH_WHILE_STEPPING = """
 import threading, time, rospy
 from bubblesim_msgs.srv import Step
@@ -91,6 +91,6 @@ def test_a_second_request_meanwhile_is_refused_and_a_signal_ends_the_first(pause
     wait_until(lambda: "0.05" in node.output, "the first steps")
     answer = step(roscore, 1)
     assert answer["success"] is False
-    assert "being stepped already" in answer["status_message"]
+    assert "already being stepped" in answer["status_message"]
     assert node.end(signal.SIGTERM) == 0
     stop(first)

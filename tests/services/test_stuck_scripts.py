@@ -9,7 +9,7 @@ from node_support import NAME
 from remote_control import Run
 from ros_support import RosCore, start, stop, wait_until
 
-# What a script does until it does not return; it begins with a line that says so.
+# Scripts that stop returning; each prints a line when it does.
 PYTHON = {
     "sysCall_init": "import time\ndef sysCall_init():\n    print('stuck')\n    time.sleep(1e6)\n",
     "sysCall_actuation": """
@@ -79,14 +79,14 @@ def test_a_stop_by_topic_breaks_it_off_and_a_start_begins_anew(
         caller = start(["rosservice", "call", f"{NAME}/stick"], roscore.env)
     node.wait_for_output("stuck")
     remote.press("stop")
-    node.wait_for_output("was broken off")
+    node.wait_for_output("was interrupted")
     remote.press("start")
     if "request" in where:
         stop(caller)
         wait_until(lambda: node.output.count("ready") == 2, "the script to begin again")
     else:
         wait_until(lambda: node.output.count("stuck") == 2, "the script to begin again")
-    script = re.escape("/Ball was broken off in " + where)
+    script = re.escape("/Ball was interrupted in " + where)
     found = re.search(rf"error: child script of {script} \((.*):(\d+)\) and is disabled: it did not ret", node.output)
     assert found is not None, node.output
     assert "while " in code.splitlines()[int(found[2]) - 1] or "sleep" in code
@@ -105,9 +105,9 @@ def test_a_reset_by_service_breaks_it_off_and_is_carried_out(run: Run, roscore: 
         "--gazebo-compat",
     )
     wait_until(lambda: service in roscore.state()["services"], "the service")
-    node.wait_for_output("the simulation waits for it")
+    node.wait_for_output("the simulation is waiting")
     roscore.run("rosservice", "call", service)
-    assert node.output.count("was broken off in sysCall_actuation") == 1
+    assert node.output.count("was interrupted in sysCall_actuation") == 1
 
 
 def test_those_that_return_go_on(run: Run) -> None:
@@ -124,7 +124,7 @@ def test_those_that_return_go_on(run: Run) -> None:
     node.wait_for_output("slow")
     remote.press("stop")
     node.wait_for_output("cleaned up")
-    assert "broken off" not in node.output
+    assert "interrupted" not in node.output
 
 
 def test_a_clean_up_that_does_not_return_is_broken_off_by_a_second_stop(run: Run) -> None:
@@ -132,7 +132,7 @@ def test_a_clean_up_that_does_not_return_is_broken_off_by_a_second_stop(run: Run
     remote.press("stop")
     node.wait_for_output("stuck")
     remote.press("stop")
-    node.wait_for_output("was broken off in sysCall_cleanup")
+    node.wait_for_output("was interrupted in sysCall_cleanup")
 
 
 def test_other_scripts_go_on_after_a_reset(
@@ -142,7 +142,7 @@ def test_other_scripts_go_on_after_a_reset(
     other.write_text("def sysCall_init(): pass\ndef sysCall_sensing(): print('other', sim.getSimulationTime())\n")
     node, _ = run(PYTHON["sysCall_actuation"], "--child-script", f"/Ramp={other}")
     wait_until(lambda: f"{NAME}/reset" in roscore.state()["services"], "the service")
-    node.wait_for_output("the simulation waits for it")
+    node.wait_for_output("the simulation is waiting")
     assert "other 0" not in node.output
     roscore.run("rosservice", "call", f"{NAME}/reset")
     node.wait_for_output("other 0.1")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Pioneer maps its room by itself, with odometry that is 5 % off, twice as fast as in reality."""
+"""The Pioneer maps its room autonomously, with odometry that is 5 % off, at twice real time."""
 
 import json
 import subprocess
@@ -16,15 +16,15 @@ from bubblesim.navigation.grid_map import GridMap
 from room_truth import Comparison, compare, outlines, picture, truth_of
 from ros_support import DEADLINE, REPOSITORY, SUPPORT, RosCore, start, stop, wait_until
 
-HEIGHTS = (0.1, 0.36)  # m, as launch/pioneer_slam.launch sets them
-RADIUS = 0.3  # m, of the robot and a little
+HEIGHTS = (0.1, 0.36)  # m, as in launch/pioneer_slam.launch
+RADIUS = 0.3  # m, of the robot plus a margin
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was seen of a run."""
+    """Results of a run."""
 
-    seen: dict  # what watch_mapping.py prints
+    seen: dict  # output of watch_mapping.py
     comparison: Comparison
     output: str  # of all nodes
 
@@ -34,7 +34,7 @@ Run = Callable[..., Outcome]
 
 @pytest.fixture
 def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
-    """Explores for some simulated seconds; `first` happens before they are counted."""
+    """Explore for some simulated seconds; call `first` before they are counted."""
     launched = []
 
     def run(seconds: float, first: Callable[[], None] = lambda: None) -> Outcome:
@@ -61,12 +61,12 @@ def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
 
 
 def check(outcome: Outcome) -> None:
-    """What holds at any time of a run."""
+    """Check the conditions that hold at any time of a run."""
     seen = outcome.seen
     assert np.mean(seen["errors"]) <= 0.03
     assert np.max(seen["errors"]) <= 0.1
     assert outcome.comparison.wall_error <= 0.05
-    assert seen["longest_gap"] == pytest.approx(0.1)  # no scan is lost on its way
+    assert seen["longest_gap"] == pytest.approx(0.1)  # no scan is lost in transport
     assert seen["lost"] == 0  # nor in the mapper
     assert "TF_OLD_DATA" not in outcome.output
     assert "dropped" not in outcome.output
@@ -84,14 +84,14 @@ def test_five_minutes_map_the_whole_room(explore: Run) -> None:
     check(outcome)
     assert outcome.seen["done_at"] is not None
     assert outcome.comparison.coverage >= 0.95
-    assert outcome.seen["arrived"]  # how many goals it takes is the explorer's affair
+    assert outcome.seen["arrived"]  # the number of goals does not matter
     assert all(outcome.seen["arrived"])
 
 
 @pytest.mark.long
 def test_a_simulation_that_starts_anew_is_mapped_anew(explore: Run, roscore: RosCore) -> None:
     def start_anew() -> None:
-        roscore.run("rostopic", "echo", "-n", "1", "/go_to/path")  # it is on its way
+        roscore.run("rostopic", "echo", "-n", "1", "/go_to/path")  # it is driving
         for topic in ("/stopSimulation", "/startSimulation"):
             roscore.run("rostopic", "pub", "-1", topic, "std_msgs/Bool", "true")
 

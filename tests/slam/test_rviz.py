@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""RViz with config/pioneer.rviz, on a display that nobody sees, shows the Pioneer, all that it senses, and its map."""
+"""RViz with config/pioneer.rviz, on a virtual display, shows the Pioneer, all its sensor data, and its map."""
 
 import subprocess
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from PIL import Image
 from display_support import Display
 from ros_support import DEADLINE, RosCore, start, stop, wait_until
 
-PATIENCE = 6 * DEADLINE  # software draws slowly
+PATIENCE = 6 * DEADLINE  # software rendering is slow
 
 
 @pytest.fixture
@@ -23,7 +23,7 @@ def display(roscore: RosCore) -> Iterator[Display]:
 
 
 def view(picture: npt.NDArray[np.uint8]) -> npt.NDArray[np.int32]:
-    """The part of RViz's window that shows the world, by the layout of the configuration."""
+    """Return the part of RViz's window that shows the world, by the layout of the configuration."""
     return picture[65:765, 370:1180].astype(np.int32)
 
 
@@ -31,12 +31,12 @@ def shows_all(picture: npt.NDArray[np.uint8]) -> bool:
     world = view(picture)
     red, green, blue = world[..., 0], world[..., 1], world[..., 2]
     rows, columns = red.shape
-    scan = (red > 230) & (green < 30) & (blue < 30)  # as the configuration colours it
-    cloud = (green > 120) & (np.minimum(red, blue) < 60)  # coloured by height: some of it green to yellow
+    scan = (red > 230) & (green < 30) & (blue < 30)  # in the colour of the configuration
+    cloud = (green > 120) & (np.minimum(red, blue) < 60)  # coloured by height: partly green to yellow
     free = (abs(red - green) < 8) & (abs(green - blue) < 8) & (red > 170) & (red < 215)  # of the map
     centre = world[rows // 2 - 30 : rows // 2 + 30, columns // 2 - 30 : columns // 2 + 30]
-    robot = centre.max(axis=2) < 60  # it stands in the middle: black against the map's grey
-    image = picture[545:760, 10:335].astype(np.int32)  # below on the left; while there is none it is black on white
+    robot = centre.max(axis=2) < 60  # in the middle: black on the map's grey
+    image = picture[545:760, 10:335].astype(np.int32)  # bottom left; without an image it is black on white
     coloured = np.ptp(image, axis=2) > 20
     return bool(
         coloured.sum() > 1000 and scan.sum() > 500 and cloud.sum() > 300 and free.sum() > 50_000 and robot.sum() > 150

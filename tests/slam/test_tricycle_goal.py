@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tricycle, which cannot turn on the spot, is sent round the things in its room on a map from files."""
+"""A tricycle, which cannot turn on the spot, drives round the obstacles in its room on a map from files."""
 
 import subprocess
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ GOAL = "{header: {frame_id: map}, pose: {position: {x: -3, y: -2}, orientation: 
 
 
 def draw_room(folder: Path) -> Path:
-    """The room's walls, and two things in it, as the model walled_room has them."""
+    """Draw the room's walls and two obstacles as in the model walled_room."""
     shades = np.full((104, 104), 0, np.uint8)
     shades[2:-2, 2:-2] = 254
     for x, y, size in [(3.4, -1.2, 1.3), (-0.8, 3.2, 0.8), (1.6, -4.0, 1.2), (-4.0, -4.7, 2.0)]:
@@ -33,7 +33,7 @@ def draw_room(folder: Path) -> Path:
 
 @pytest.fixture
 def arrivals(roscore: RosCore, tmp_path: Path) -> Iterator[Path]:
-    """What go_to.py tells at the end of a goal, with all that it needs running."""
+    """Run go_to.py with everything that it needs; its messages at the end of a goal go to the returned file."""
     roscore.set_param("/use_sim_time", True)
     said = tmp_path / "arrived"
     commands = [
@@ -59,7 +59,7 @@ def test_a_tricycle_comes_to_a_goal_behind_it(arrivals: Path, roscore: RosCore, 
     assert "data: True" in arrivals.read_text()
     told = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
     place = yaml.safe_load(told)["pose"]["position"]
-    assert (place["x"], place["y"]) == pytest.approx((-3.0, -2.0), abs=0.5)  # it rolls on for a bit
+    assert (place["x"], place["y"]) == pytest.approx((-3.0, -2.0), abs=0.5)  # it coasts a little
 
 
 def test_the_drawn_room_is_that_of_the_model() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives bridge_probe, the program that holds a RosBridge and obeys lines (see bridge_probe.cpp)."""
+"""Controls bridge_probe, the program that runs a RosBridge and executes commands (see bridge_probe.cpp)."""
 
 import queue
 import signal
@@ -22,7 +22,7 @@ class Probe:
             stderr=subprocess.PIPE,
         )
         self.events: list[str] = []
-        """Lines that are no answers, oldest first: `message ID VALUE`, `paused`, `process_input threw ...`."""
+        """Lines that are not answers, oldest first: `message ID VALUE`, `paused`, `process_input threw ...`."""
         self.errors: list[str] = []
         """Lines on stderr."""
         self._answers: queue.Queue[str] = queue.Queue()
@@ -42,14 +42,14 @@ class Probe:
             thread.join()
 
     def ask(self, *words: object) -> str:
-        """The answer to a command; it begins with `! ` when the bridge threw."""
+        """Return the answer to a command; it begins with `! ` if the bridge threw."""
         assert self.process.stdin is not None
         print(*words, file=self.process.stdin, flush=True)
         answer = self._answers.get(timeout=DEADLINE)
         return answer[2:] if answer.startswith("= ") else answer
 
     def messages(self, endpoint: str) -> list[str]:
-        """What a subscriber has got so far."""
+        """Return what a subscriber has received so far."""
         prefix = f"message {endpoint} "
         return [event[len(prefix) :] for event in self.events if event.startswith(prefix)]
 
@@ -61,7 +61,7 @@ class Probe:
             time.sleep(0.01)
 
     def terminate(self) -> float:
-        """Ends it by SIGTERM; seconds until it is gone."""
+        """End it with SIGTERM; return the seconds until it has ended."""
         begin = time.monotonic()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(timeout=DEADLINE)

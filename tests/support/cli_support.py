@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program bubblesim as tests call it."""
+"""The program bubblesim, run by tests."""
 
 import os
 import subprocess
@@ -12,7 +12,7 @@ from ros_support import DEADLINE, built
 def bubblesim(
     *arguments: object, env: Mapping[str, str] | None = None, cwd: Path | None = None, **changes: str
 ) -> "subprocess.CompletedProcess[str]":
-    """Runs it to its end; `changes` are made to the environment."""
+    """Run it to its end; `changes` are made to the environment."""
     command = [str(built("bubblesim")), *map(str, arguments)]
     environment = {**(os.environ if env is None else env), **changes}
     return subprocess.run(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A display of a test's own, which nobody sees."""
+"""A virtual display for a test."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from ros_support import start, stop
 
 
 class Display:
-    """Xvfb on a free number; `env` has what programs need to show something there."""
+    """Xvfb on a free number; `env` has the variables for programs to use it."""
 
     def __init__(self, env: dict[str, str], size: str = "1280x900x24") -> None:
         read, write = os.pipe()
@@ -26,13 +26,13 @@ class Display:
         self.env = {**env, "DISPLAY": f":{number}", "LIBGL_ALWAYS_SOFTWARE": "1"}
 
     def xdotool(self, *arguments: object) -> str:
-        """Plays keyboard and mouse, or asks for windows."""
+        """Simulate keyboard and mouse, or search windows."""
         return subprocess.run(
             ["xdotool", *map(str, arguments)], env=self.env, capture_output=True, text=True, check=True, timeout=60
         ).stdout
 
     def windows(self, name: str) -> list[str]:
-        """Numbers of the windows that have a name, a regular expression."""
+        """Return the numbers of the windows whose name matches a regular expression."""
         found = subprocess.run(
             ["xdotool", "search", "--onlyvisible", "--name", name],
             env=self.env,
@@ -44,7 +44,7 @@ class Display:
         return found.stdout.split()
 
     def screenshot(self) -> npt.NDArray[np.uint8]:
-        """What is shown: rows x columns x red, green, blue."""
+        """Return the screen content: rows x columns x red, green, blue."""
         return np.asarray(ImageGrab.grab(xdisplay=self.env["DISPLAY"]).convert("RGB"))
 
     def __enter__(self) -> "Display":

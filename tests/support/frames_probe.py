@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints for each frame that is named the x, y, z at which tf has it in the first one; ends when it has all of them."""
+"""Prints the x, y, z of each named frame in the first one, from tf; ends when it has all of them."""
 
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The generator, run as CMake runs it."""
+"""The generator, run as from CMake."""
 
 import subprocess
 from dataclasses import dataclass
@@ -10,17 +10,17 @@ from ros_support import REPOSITORY
 
 @dataclass
 class Generator:
-    """Lists of types and an output folder of a test's own."""
+    """A test's type lists and output folder."""
 
     folder: Path
 
     @property
     def output(self) -> Path:
-        """Where the generated files go."""
+        """Return the folder of the generated files."""
         return self.folder / "build" / "tables"
 
     def run(self, messages: str, services: str = "", *options: str) -> subprocess.CompletedProcess[str]:
-        """Generates from the texts of two lists."""
+        """Generate from the texts of two lists."""
         meta = self.folder / "meta"
         meta.mkdir(exist_ok=True)
         (meta / "messages.txt").write_text(messages)
@@ -35,11 +35,11 @@ class Generator:
         )
 
     def table(self, package: str) -> str:
-        """The generated text of a package."""
+        """Return the generated text of a package."""
         return (self.output / f"package_{package}.cpp").read_text()
 
     def add_package(self, space: str, name: str, files: dict[str, str]) -> Path:
-        """Writes a package of the user's below a folder of the test."""
+        """Write a user package in a folder of the test."""
         package = self.folder / space / name
         for file, text in {"package.xml": f"<package><name>{name}</name></package>", **files}.items():
             (package / file).parent.mkdir(parents=True, exist_ok=True)

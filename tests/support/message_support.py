@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random messages as plain dicts, and the bytes that rospy's own serialization makes of them."""
+"""Random messages as plain dicts, and their bytes from rospy's serialization."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _WIDTHS |= {"byte": ("", 8), "char": ("u", 8)}
 
 @cache
 def genpy_class(name: str) -> type[genpy.Message]:
-    """rospy's class of a message or of a service's half."""
+    """Return rospy's class of a message, or of a service's request or response."""
     if name in HALVES:
         service, half = HALVES[name]
         return getattr(genpy.message.get_service_class(service), f"_{half}_class")
-    # test_msgs has no class unless its package was built: genpy can make one.
+    # test_msgs has a class only if its package was built; genpy can make one.
     return genpy.message.get_message_class(name) or genpy.dynamic.generate_dynamic(name, codec.definition(name))[name]
 
 
@@ -43,7 +43,7 @@ ALL_TYPES = [*codec.message_names(), *HALVES]
 
 @cache
 def values(spelling: str) -> st.SearchStrategy[Any]:
-    """Values of a field type such as "float64[36]"; limits and special numbers are likely."""
+    """Return values of a field type such as "float64[36]"; limits and special numbers are likely."""
     base, is_array, length = parse_type(spelling)
     if is_array:
         least, most = (0, 3) if length is None else (length, length)
@@ -67,7 +67,7 @@ def values(spelling: str) -> st.SearchStrategy[Any]:
 
 @cache
 def messages(name: str) -> st.SearchStrategy[dict[str, Any]]:
-    """Dicts of a message type with all its fields."""
+    """Return dicts of a message type with all its fields."""
     cls = genpy_class(name)
     return st.fixed_dictionaries(
         {field: values(kind) for field, kind in zip(cls.__slots__, cls._slot_types, strict=True)}
@@ -75,7 +75,7 @@ def messages(name: str) -> st.SearchStrategy[dict[str, Any]]:
 
 
 def genpy_message(name: str, message: dict[str, Any]) -> genpy.Message:
-    """A dict as rospy's message object."""
+    """Convert a dict to rospy's message object."""
     cls = genpy_class(name)
     made = cls()
     for field, kind in zip(cls.__slots__, cls._slot_types, strict=True):
@@ -95,14 +95,14 @@ def _genpy_value(spelling: str, value: Any) -> Any:
 
 
 def genpy_bytes(name: str, message: dict[str, Any]) -> bytes:
-    """What rospy would send."""
+    """Return what rospy would send."""
     buffer = io.BytesIO()
     genpy_message(name, message).serialize(buffer)
     return buffer.getvalue()
 
 
 def same(a: Any, b: Any) -> bool:
-    """Equality where numpy arrays equal lists and NaN equals itself."""
+    """Return whether two values are equal; numpy arrays equal lists and NaN equals itself."""
     if isinstance(a, np.ndarray):
         a = a.tolist()
     if isinstance(a, dict):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulator's node as tests run it: to its end, or in the background."""
+"""The simulator's node, run by tests: to its end, or in the background."""
 
 import json
 import os
@@ -16,11 +16,11 @@ from ros_support import DEADLINE, RosCore, built, start, stop, wait_until
 
 NAME = "/sim_ros_interface"
 PREFIX = re.compile(r"^\[/\S+ [0-9.]+ s\] ", re.MULTILINE)
-"""What begins the lines that scripts print: object and simulation time."""
+"""Prefix of the lines that scripts print: object and simulation time."""
 
 
 def clean_environment(**changes: str) -> dict[str, str]:
-    """The environment without a trace of ROS or of a workspace."""
+    """Return the environment without variables of ROS or a workspace."""
     kept = {
         name: value for name, value in os.environ.items() if not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))
     }
@@ -30,7 +30,7 @@ def clean_environment(**changes: str) -> dict[str, str]:
 def run_sim(
     *arguments: object, env: Mapping[str, str] | None = None, timeout: float = 3 * DEADLINE, prefixed: bool = False
 ) -> "subprocess.CompletedProcess[str]":
-    """Runs the node until it ends by itself. The lines that scripts print keep their prefix only when `prefixed`."""
+    """Run the node until it ends by itself. Lines printed by scripts keep their prefix only if `prefixed`."""
     command = [str(built("sim")), *map(str, arguments)]
     run = subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout, check=False)
     if not prefixed:
@@ -39,6 +39,9 @@ def run_sim(
 
 
 _SLOWNESS = re.compile(r"^warning: .* has not returned from .*: the simulation waits for it\n", re.MULTILINE)
+
+
+_SLOWNESS = re.compile(r"^warning: .* has not returned from .*\n", re.MULTILINE)
 
 
 def run_script(
@@ -52,17 +55,15 @@ def run_script(
     prefixed: bool = False,
     slowness: bool = False,
 ) -> "subprocess.CompletedProcess[str]":
-    """Runs a child script in a scene without ROS, as fast as it goes; the script is the file `name` in `folder`.
+    """Run a child script in a scene without ROS, at full speed; the script is the file `name` in `folder`.
 
-    Warnings about slow callbacks, which a busy machine causes, are left out of stderr unless `slowness` is set.
+    Warnings about slow callbacks, which a busy machine causes, are removed from stderr unless `slowness` is set.
     """
     file = write(folder / name, code)
     options = ["--no-ros", "--speed", "max", "--until", until, "--child-script", f"{target}={file}"]
     run = run_sim(scene, *options, *arguments, prefixed=prefixed)
     if not slowness:
-        run.stderr = re.sub(
-            r"^warning: .* has not returned from .*: the simulation waits for it\n", "", run.stderr, flags=re.MULTILINE
-        )
+        run.stderr = _SLOWNESS.sub("", run.stderr)
     return run
 
 
@@ -72,7 +73,7 @@ def write(file: Path, code: str) -> Path:
 
 
 def endless_fall(folder: Path) -> Path:
-    """A scene whose /Ball is about to leave the finite world: it falls where there is no floor."""
+    """Write a scene whose /Ball will diverge: it falls without a floor."""
     return write(
         folder / "fall.sdf",
         """\
@@ -114,7 +115,7 @@ class Node:
         wait_until(lambda: NAME in core.nodes(), "the node to be listed")
 
     def end(self, number: int = signal.SIGINT) -> int:
-        """Sends a signal to the node alone and returns its exit code."""
+        """Send a signal to the node only and return its exit code."""
         self.process.send_signal(number)
         return self.process.wait(timeout=DEADLINE)
 
@@ -128,7 +129,7 @@ class Node:
 
 
 def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
-    """The JSON object that a probe, code of a Python node, prints at its end."""
+    """Return the JSON object that a probe, code of a Python node, prints at its end."""
     told = folder / "told"
     with told.open("w") as output:
         process = start(["/usr/bin/python3", str(write(folder / "probe.py", probe))], env, stdout=output)
@@ -141,14 +142,14 @@ def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
 
 
 def processes_with(text: str, *, started_by: Node | None = None) -> list[str]:
-    """Command lines of running processes that contain `text`; only those that a node has started, if it is given."""
+    """Return the command lines of running processes that contain `text`; if given, only those started by a node."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             command = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
             session = int((folder / "stat").read_text().rpartition(")")[2].split()[3])
         except OSError:
-            continue  # ended meanwhile
+            continue  # ended in the meantime
         if text in command and (started_by is None or session == started_by.process.pid):
             found.append(command)
     return found

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the fixtures of these tests are."""
+"""Types of the fixtures of these tests."""
 
 import subprocess
 from collections.abc import Callable

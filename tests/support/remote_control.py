@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A node at the other end of the simulation's topics, in a process of its own."""
+"""A node at the other end of the simulation's topics, in its own process."""
 
 import re
 import subprocess
@@ -13,7 +13,7 @@ from ros_support import start, stop, wait_until
 
 
 class Remote:
-    """Presses Start, Pause and Stop, and notes what it hears; connected when it has been made."""
+    """Sends Start, Pause and Stop, and records received values; connected once it is constructed."""
 
     def __init__(self, env: dict[str, str], log: Path, *hears: str) -> None:
         """`hears` are topics with their types in std_msgs, such as /simulationTime=Float32."""
@@ -24,7 +24,7 @@ class Remote:
         wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
 
     def press(self, what: str) -> None:
-        """`start`, `pause` or `stop`."""
+        """Send `start`, `pause` or `stop`."""
         self.send(f"/{what}Simulation", value=True)
 
     def send(self, topic: str, *, value: bool, count: int = 1) -> None:
@@ -33,7 +33,7 @@ class Remote:
         self._process.stdin.flush()
 
     def heard(self, topic: str) -> list[str]:
-        """The values heard so far, as they are printed."""
+        """Return the values received so far, as printed."""
         return re.findall(rf"^{topic} (\S+)$", self._log.read_text(), re.MULTILINE)
 
     def __enter__(self) -> "Remote":
@@ -43,9 +43,9 @@ class Remote:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         assert self._process.stdin is not None
-        self._process.stdin.close()  # ends what it does; it would not look at a signal while it reads
+        self._process.stdin.close()  # ends its loop; it does not handle signals while it reads
         stop(self._process)
 
 
 Run = Callable[..., tuple[Node, Remote]]
-"""The fixture `run`: a script's code, options of the node, and `hear`, as Remote takes it."""
+"""The fixture `run`: a script's code, options of the node, and `hear`, as for Remote."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node of remote_control.py: publishes Bools as it reads from stdin, a topic, a value and a number of messages in
-each line, and prints what it hears on those of its arguments, topic=Type of std_msgs."""
+"""The node of remote_control.py: publishes Bools as read from stdin, a topic, a value and a number of messages per
+line, and prints the messages on its arguments, topic=Type of std_msgs."""
 
 import sys
 import time

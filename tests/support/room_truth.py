@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a map of a scene should look like: the outlines of its things at the height of a robot, from its files."""
+"""The expected map of a scene: the outlines of its objects at the height of a robot, from its files."""
 
 import math
 import xml.etree.ElementTree as ElementTree
@@ -13,13 +13,13 @@ import numpy.typing as npt
 
 from bubblesim.navigation.grid_map import GridMap
 
-CELL = 0.01  # m, of the truth's picture
-MARGIN = 0.5  # m around the outermost things
+CELL = 0.01  # m, of the expected map
+MARGIN = 0.5  # m around the outermost objects
 
 
 @dataclass(frozen=True)
 class Place:
-    """Upright in the world: m, rad."""
+    """Planar pose in the world: m, m, rad."""
 
     x: float = 0.0
     y: float = 0.0
@@ -27,14 +27,14 @@ class Place:
     heading: float = 0.0
 
     def then(self, text: str | None) -> "Place":
-        """A pose as SDFormat writes it, seen from here. Its roll and pitch are left out."""
+        """Apply a pose in SDFormat's form. Ignores its roll and pitch."""
         x, y, z, _, _, heading = map(float, (text or "0 0 0 0 0 0").split())
         cosine, sine = math.cos(self.heading), math.sin(self.heading)
         return Place(self.x + cosine * x - sine * y, self.y + sine * x + cosine * y, self.z + z, self.heading + heading)
 
 
 def outlines(scene: Path, low: float, high: float, *, leave_out: str) -> list[npt.NDArray[np.float64]]:
-    """Corners of what stands between two heights, as lidars see it. All but one model."""
+    """Return the corners of all shapes between two heights, as seen by lidars, except those of one model."""
     world = ElementTree.parse(scene).getroot().find("world")
     assert world is not None
     found: list[npt.NDArray[np.float64]] = []
@@ -65,7 +65,7 @@ def _outlines_of_model(
 
 
 def _shape(geometry: ElementTree.Element | None) -> tuple[npt.NDArray[np.float64], float] | None:
-    """Corners from above, and height; None for what has none (the floor)."""
+    """Return corners from above, and height; None for shapes without corners (the floor)."""
     assert geometry is not None
     box, cylinder, sphere = (geometry.find(kind) for kind in ("box", "cylinder", "sphere"))
     if box is not None:
@@ -81,7 +81,7 @@ def _shape(geometry: ElementTree.Element | None) -> tuple[npt.NDArray[np.float64
 
 
 def truth_of(shapes: list[npt.NDArray[np.float64]]) -> GridMap:
-    """The map that has a cell of a centimetre occupied where something is."""
+    """Return the map with occupied cells of one centimetre where shapes are."""
     corners = np.concatenate(shapes)
     low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
     columns, rows = np.ceil((high - low) / CELL).astype(int)
@@ -93,14 +93,14 @@ def truth_of(shapes: list[npt.NDArray[np.float64]]) -> GridMap:
 
 @dataclass(frozen=True)
 class Comparison:
-    """How good a map is."""
+    """Quality of a map."""
 
-    wall_error: float  # m, from the map's walls to the nearest true surface, on average
-    coverage: float  # share of the floor that the robot can come to which the map has as free
+    wall_error: float  # m, mean distance of the map's walls to the nearest true surface
+    coverage: float  # share of the reachable floor that is free in the map
 
 
 def compare(grid: GridMap, truth: GridMap, start: tuple[float, float], radius: float) -> Comparison:
-    """A map beside the truth, for a round robot that began at a place."""
+    """Compare a map with the expected one, for a round robot that started at `start`."""
     occupied = truth.occupied.astype(np.uint8)
     surface = occupied - cv2.erode(occupied, np.ones((3, 3), np.uint8))
     to_surface = cv2.distanceTransform(1 - surface, cv2.DIST_L2, 5) * CELL
@@ -110,7 +110,7 @@ def compare(grid: GridMap, truth: GridMap, start: tuple[float, float], radius: f
     reach = (truth.clearance() > radius).astype(np.uint8)
     _, labels = cv2.connectedComponents(reach, connectivity=4)
     middle = (labels == labels[truth.cell_of(start)]).astype(np.uint8)
-    floor = np.argwhere(middle)[::7]  # each seventh square centimetre is enough
+    floor = np.argwhere(middle)[::7]  # every seventh square centimetre is enough
     seen = 0
     for row, column in floor:
         cell = grid.cell_of(truth.centre_of((int(row), int(column))))
@@ -119,7 +119,7 @@ def compare(grid: GridMap, truth: GridMap, start: tuple[float, float], radius: f
 
 
 def picture(grid: GridMap, truth: GridMap) -> npt.NDArray[np.uint8]:
-    """The truth in grey on the left, the map on the right: walls black, free white, unknown beige."""
+    """Draw the expected map in grey on the left, the map on the right: walls black, free white, unknown beige."""
     rows, columns = truth.cells.shape
     left = np.where(truth.occupied[..., None], (90, 90, 90), (255, 255, 255)).astype(np.uint8)
     right = np.full((rows, columns, 3), (170, 205, 225), np.uint8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rospy node at the other end of a robot's topics, in a process of its own."""
+"""A rospy node at the other end of a robot's topics, in its own process."""
 
 import base64
 import json
@@ -16,7 +16,7 @@ Message = dict[str, Any]
 
 
 class Peer:
-    """Says and hears messages as dicts; bytes are bytes."""
+    """Publishes and receives messages as dicts; bytes stay bytes."""
 
     def __init__(self, core: RosCore, log: Path) -> None:
         self._log = log
@@ -32,14 +32,14 @@ class Peer:
             )
 
     def say(self, topic: str, message_type: str, message: Message) -> None:
-        """Publishes once the topic has a subscriber."""
+        """Publish once the topic has a subscriber."""
         self._send(do="say", topic=topic, type=message_type, message=message)
 
     def drive(self, topic: str, forward: float, turning: float) -> None:
         self.say(topic, "geometry_msgs/Twist", {"linear": {"x": forward}, "angular": {"z": turning}})
 
     def heard(self, topic: str, message_type: str = "") -> list[Message]:
-        """All messages since the topic was first asked for, which has to name its type."""
+        """Return all messages since the first call for the topic, which must give its type."""
         if topic not in self._subscribed:
             self._subscribed.add(topic)
             self._send(do="hear", topic=topic, type=message_type)
@@ -47,13 +47,13 @@ class Peer:
         return self._heard.setdefault(topic, [])
 
     def next(self, topic: str, message_type: str = "", *, count: int = 1) -> Message:
-        """The count-th message after those heard so far."""
+        """Return the count-th message after those received so far."""
         before = len(self.heard(topic, message_type))
         wait_until(lambda: len(self.heard(topic)) >= before + count, f"{topic}, {count} times")
         return self.heard(topic)[-1]
 
     def wait_for(self, topic: str, message_type: str, holds: Callable[[Message], bool], what: str) -> Message:
-        """The first message from now on of which `holds` is true."""
+        """Return the first message from now on for which `holds` is true."""
         before = len(self.heard(topic, message_type))
         found: list[Message] = []
 
@@ -65,7 +65,7 @@ class Peer:
         return found[0]
 
     def call(self, service: str, **request: Any) -> Message:
-        """The response of a service, when it is there."""
+        """Return the response of a service, once it is available."""
         number = len(self._heard.setdefault("response", []))
         self._send(do="call", topic=service, request=request)
         wait_until(lambda: len(self.heard("response")) > number, f"a response of {service}")
@@ -81,7 +81,7 @@ class Peer:
             log.seek(self._read)
             for line in log:
                 if not line.endswith(b"\n"):
-                    break  # not written to its end yet
+                    break  # not written completely yet
                 self._read += len(line)
                 topic, message = json.loads(line, object_hook=_with_bytes)
                 self._heard.setdefault(topic, []).append(message)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The process behind ros_peer.Peer: commands as JSON lines in, messages as JSON lines out."""
+"""The process of ros_peer.Peer: reads commands as JSON lines, writes messages as JSON lines."""
 
 import base64
 import json

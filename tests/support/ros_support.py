@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real ROS processes for tests: a master on a port of its own, and the places of what was built.
+"""Real ROS processes for tests: a master on its own port, and the paths of the built files.
 
 Use as a pytest fixture: ``from ros_support import roscore`` in a conftest.py or test module.
 """
@@ -21,12 +21,12 @@ import pytest
 SUPPORT = Path(__file__).resolve().parent
 REPOSITORY = SUPPORT.parents[1]
 DEADLINE = 20.0
-"""Seconds after which something that should happen counts as missing; long, because machines may be busy."""
+"""Seconds after which an expected event counts as missing; long, because machines may be busy."""
 
 
 def built(name: str) -> Path:
-    """Path of the built program or library `name`: in BUBBLESIM_BUILD_DIR (searched in depth), else in the workspace
-    that scripts/setup makes."""
+    """Return the path of the built program or library `name`: in BUBBLESIM_BUILD_DIR (searched recursively), or else in
+    the workspace made by scripts/setup."""
     directory = os.environ.get("BUBBLESIM_BUILD_DIR")
     if directory:
         found = [path for path in sorted(Path(directory).rglob(name)) if path.is_file()]
@@ -40,8 +40,8 @@ def built(name: str) -> Path:
 
 
 def _worker_ports() -> Iterator[int]:
-    """Ports for the tests of this process: below those that the kernel gives to others, and apart from those of the
-    other processes that run tests (the workers of pytest-xdist)."""
+    """Yield ports for the tests of this process: below the kernel's ephemeral ports, and distinct from those of the
+    other test processes (the workers of pytest-xdist)."""
     worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
     first = 10000 + 2000 * (worker % 10)
     return itertools.cycle(range(first + os.getpid() % 1000, first + 2000))
@@ -51,7 +51,7 @@ _PORTS = _worker_ports()
 
 
 def free_port() -> int:
-    """A port of 127.0.0.1 on which nobody listens, and which no other test is given."""
+    """Return a port of 127.0.0.1 that is not in use and that no other test gets."""
     return next(port for port in _PORTS if _is_free(port))
 
 
@@ -66,7 +66,7 @@ def _is_free(port: int) -> bool:
 
 
 def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:
-    """Returns as soon as `condition` holds; fails the test, naming `what`, when it does not in time."""
+    """Return as soon as `condition` holds; fail the test with `what` at the timeout."""
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:
@@ -75,7 +75,7 @@ def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLI
 
 
 def ros_environment(port: int, log_directory: Path) -> dict[str, str]:
-    """What a process needs to talk to the master on `port` of this machine."""
+    """Return the environment for a process to use the master on `port` of this machine."""
     return {
         **os.environ,
         "PATH": "/usr/bin:" + os.environ.get("PATH", ""),  # Debian's python3 first: ROS is built for it
@@ -87,14 +87,14 @@ def ros_environment(port: int, log_directory: Path) -> dict[str, str]:
 
 
 def start(command: list[str], env: dict[str, str], **options: object) -> "subprocess.Popen[str]":
-    """A process in a group of its own, with signals as a shell in the foreground would give it."""
+    """Start a process in its own group, with signals as in a foreground shell."""
     return subprocess.Popen(  # type: ignore[call-overload, no-any-return]
         command, env=env, text=True, start_new_session=True, restore_signals=True, **options
     )
 
 
 def stop(process: "subprocess.Popen[str]") -> None:
-    """Ends the process and everything that it started."""
+    """End the process and everything that it started."""
     for number in (signal.SIGINT, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
@@ -125,8 +125,8 @@ class RosCore:
         stop(self.process)
 
     def state(self) -> dict[str, dict[str, list[str]]]:
-        """The master's books: {"publishers": {topic: [node, ...]}, "subscribers": ..., "services": ...}; empty while
-        it does not answer."""
+        """Return the master's registrations: {"publishers": {topic: [node, ...]}, "subscribers": ..., "services": ...};
+        empty while it does not answer."""
         kinds = ("publishers", "subscribers", "services")
         try:
             books = self._ask_master("getSystemState", "/test")
@@ -147,26 +147,26 @@ class RosCore:
         self._ask_master("setParam", "/test", name, value)
 
     def run(self, *command: str) -> str:
-        """Output of a ROS tool that ends by itself, such as `rosnode list`."""
+        """Return the output of a ROS tool that ends by itself, such as `rosnode list`."""
         return subprocess.run(
             command, env=self.env, text=True, stdout=subprocess.PIPE, timeout=2 * DEADLINE, check=True
         ).stdout
 
     def pause(self) -> None:
-        """Makes the master hang, as an overloaded machine does: connections open, answers never come."""
+        """Make the master hang, like an overloaded machine: it accepts connections but does not answer."""
         os.kill(self._master_pid, signal.SIGSTOP)
 
     def resume(self) -> None:
         os.kill(self._master_pid, signal.SIGCONT)
 
     def kill(self) -> None:
-        """Ends the master without notice."""
+        """Kill the master."""
         os.kill(self._master_pid, signal.SIGKILL)
         stop(self.process)
 
 
 class RestartableCore:
-    """A roscore that can be killed without notice and started again on its port."""
+    """A roscore that can be killed and started again on its port."""
 
     def __init__(self, directory: Path) -> None:
         self._directory = directory

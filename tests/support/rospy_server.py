@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A service /paint of rospy, std_srvs/SetBool: echoes true, refuses false by raising."""
+"""A rospy service /paint, std_srvs/SetBool: echoes true, rejects false by raising."""
 
 import rospy
 from std_srvs.srv import SetBool, SetBoolRequest, SetBoolResponse

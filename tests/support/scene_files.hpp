@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene files that a test writes itself.
+// Scene files that a test writes.
 #pragma once
 
 #include <unistd.h>
@@ -12,7 +12,7 @@ namespace bubblesim::test {
 
 namespace fs = std::filesystem;
 
-/// A file of the test's own, gone when the test ends.
+/// A temporary file, deleted at the end of the test.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& text)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes built in code, as the loader would hand them over.
+// Small scenes built in code, like those of the loader.
 #pragma once
 
 #include <cmath>
@@ -85,7 +85,7 @@ inline SceneDescription scene(std::vector<ModelDescription> models, const Vector
   return scene;
 }
 
-/// A model that stands at `pose` with one sensor looking along its x, after `others`; without gravity.
+/// A model at `pose` with one sensor that looks along its x axis, after `others`; without gravity.
 template <class Kind>
 SceneDescription with_sensor(const std::string& name, const Kind& kind, std::vector<ModelDescription> others,
                              const Pose& pose = {}) {
@@ -106,7 +106,7 @@ inline SceneDescription jointed(JointDescription joint) {
   return scene({robot}, Vector3::Zero);
 }
 
-/// How `b` is turned relative to `a`: the angle about `axis`, in -pi..pi.
+/// The rotation of `b` relative to `a`: the angle about `axis`, in -pi..pi.
 inline double turn_about(const Vector3& axis, const Pose& a, const Pose& b) {
   const Quaternion relative = a.Rot().Inverse() * b.Rot();
   const double sine = Vector3(relative.X(), relative.Y(), relative.Z()).Dot(axis);

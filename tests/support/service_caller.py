@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls services as rosservice does, many of them from one process: starting one for each call takes a second."""
+"""Calls services like rosservice, many of them from one process: starting one per call takes a second."""
 
 import json
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Takes lines [service, request] in JSON on stdin, calls as rosservice does, writes each response as a line of JSON:
+"""Reads lines [service, request] in JSON from stdin, calls like rosservice, writes each response as a line of JSON:
 {"error": TEXT} for a call that failed.
 """
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of triangles that stand for shapes whose behaviour is known.
+// Meshes of shapes with known behaviour.
 #pragma once
 
 #include "bubblesim/triangle_mesh.hpp"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a node commands on cmd_vel, by `rostopic echo`."""
+"""Commands of a node on cmd_vel, recorded with `rostopic echo`."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from ros_support import RosCore, start, stop
 
 
 class Velocities:
-    """Listens from when it is made."""
+    """Subscribes from its construction on."""
 
     def __init__(self, core: RosCore, file: Path) -> None:
         self._file = file
@@ -15,13 +15,13 @@ class Velocities:
             self._listener = start(["rostopic", "echo", "-p", "/cmd_vel"], core.env, stdout=output)
 
     def all(self) -> list[tuple[float, float]]:
-        """Forward and turning of each command so far."""
+        """Return forward and turning velocity of each command so far."""
         lines = self._file.read_text().splitlines()
         rows = [line.split(",") for line in lines[1:] if line.count(",") == lines[0].count(",")]
         return [(float(row[1]), float(row[6])) for row in rows]
 
     def last(self) -> tuple[float, float] | None:
-        """Of the last command, None before the first."""
+        """Return forward and turning velocity of the last command, None before the first."""
         return (self.all() or [None])[-1]
 
     def close(self) -> None:

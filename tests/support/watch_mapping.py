@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watches the Pioneer map its room; run by test_pioneer_slam.py. Arguments: simulated seconds, file for the map.
+"""Monitors the Pioneer's mapping of its room; run by test_pioneer_slam.py. Arguments: simulated seconds, map file.
 
-Prints, as JSON: when the explorer was done (None: it was not), the errors of the estimated places, the gaps between
-scans, how many scans came, and how many of them the mapper lost. When the room is explored before the time is up, the
-robot drives round in it by goals.
+Prints as JSON: when the explorer finished (None if it did not), the errors of the estimated poses, the gaps between
+scans, the number of scans, and the number that the mapper lost. If exploration ends before the time is up, the robot
+drives to goals in the room.
 """
 
 import json
@@ -60,7 +60,7 @@ for message in truth:
     position = message.pose.pose.position
     errors.append(math.hypot(place.x - position.x, place.y - position.y))
 
-# The mapper answers each scan with a correction that it sends a tenth of a second ahead.
+# The mapper answers each scan with a correction stamped a tenth of a second later.
 answered = {round(correction.header.stamp.to_sec() - 0.1, 3) for correction in corrections}
 first, last = min(answered), max(answered)
 stamps = [round(stamp, 3) for stamp in stamps]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A catkin workspace with bubblesim's message types in it, and no more of bubblesim: real tools, quick to build."""
+"""A catkin workspace with only bubblesim's message types: real tools, quick to build."""
 
 import os
 import shutil
@@ -46,18 +46,18 @@ class Workspace:
 
     @property
     def project(self) -> Path:
-        """Root of bubblesim's sources in the workspace."""
+        """Return the root of bubblesim's sources in the workspace."""
         return self.folder / "src" / "bubblesim"
 
     @property
     def env(self) -> dict[str, str]:
-        """Of a shell that has not sourced any other workspace."""
+        """Return the environment of a shell that has not sourced any other workspace."""
         others = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")
         env = {name: value for name, value in os.environ.items() if name not in others}
         return {**env, "PATH": f"/usr/bin:{env['PATH']}"}
 
     def create(self, messages: str) -> None:
-        """Makes the workspace with a list of messages."""
+        """Make the workspace with a list of messages."""
         self.project.mkdir(parents=True)
         shutil.copytree(REPOSITORY / "meta", self.project / "meta")
         for name in ("include", "msg", "python", "src"):
@@ -70,20 +70,20 @@ class Workspace:
             self.run("catkin", "init")
 
     def add_package(self, name: str, messages: dict[str, str]) -> None:
-        """Writes a package of the user's that builds its messages as usual."""
+        """Write a user package that builds its messages as usual."""
         self.write(f"{name}/package.xml", _MANIFEST.format(name=name))
         self.write(f"{name}/CMakeLists.txt", _USERS_PACKAGE.format(name=name, files=" ".join(messages)))
         for file, text in messages.items():
             self.write(f"{name}/msg/{file}", text)
 
     def write(self, path: str, text: str) -> None:
-        """Writes a file below the source space."""
+        """Write a file in the source space."""
         file = self.folder / "src" / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
 
     def run(self, *command: str | Path) -> subprocess.CompletedProcess[str]:
-        """Runs a program at the workspace's root."""
+        """Run a program at the workspace's root."""
         return subprocess.run(
             command,
             cwd=self.folder,
@@ -95,7 +95,7 @@ class Workspace:
         )
 
     def build(self) -> None:
-        """Builds all packages."""
+        """Build all packages."""
         tool = (
             ["catkin_make", "-C", str(self.folder)]
             if self.tool == "catkin_make"
@@ -105,11 +105,11 @@ class Workspace:
         assert result.returncode == 0, result.stdout
 
     def add_message(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Runs the program add_message on this workspace's lists."""
+        """Run the program add_message on this workspace's lists."""
         program = REPOSITORY / "scripts" / "add_message"
         return self.run(sys.executable, program, "--project", self.project, *arguments)
 
     def compiled(self, text: str) -> bool:
-        """Whether a text is in the built library."""
+        """Return whether a text is in the built library."""
         library = self.folder / "devel" / "lib" / "libbubblesim_messages.so"
         return text.encode() in library.read_bytes()

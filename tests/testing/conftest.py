@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The fixtures that users have, too."""
+"""Fixtures that are also provided to users."""
 
 from bubblesim.testing.plugin import _programs, controller, ros_master, sim
 

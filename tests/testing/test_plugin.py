@@ -42,7 +42,7 @@ TAKES_THE_WALL_CLOCK = """\
     from rosgraph_msgs.msg import Clock
     from std_msgs.msg import Float32
     master = rosgraph.Master("/mine")
-    while "/sim_ros_interface/step" not in str(master.getSystemState()):  # which takes simulated time
+    while "/sim_ros_interface/step" not in str(master.getSystemState()):  # takes simulated time
         time.sleep(0.01)
     master.setParam("/use_sim_time", False)
     rospy.init_node("mine")
@@ -62,12 +62,12 @@ CLOCK_LATER = """heard = threading.Event()
 
 @pytest.fixture
 def ten(tmp_path: Path) -> str:
-    """A controller that answers ten times, and then no more."""
+    """Write a controller that answers ten times, and then no more."""
     return f"/usr/bin/python3 {write(tmp_path / 'ten.py', ANSWERS_TEN.format(then='pass'))}"
 
 
 def all_messages(bag: Path) -> list[tuple[str, float, str]]:
-    """Topic, simulated seconds and content of each."""
+    """Return topic, simulated seconds and content of each message."""
     with rosbag.Bag(str(bag)) as opened:
         return [(topic, stamp.to_sec(), str(message)) for topic, message, stamp in opened.read_messages()]
 
@@ -99,7 +99,7 @@ def test_equal_runs_give_equal_bags(controller: StartController, sim: StartSimul
         tricycle.close()
         program.stop()
         bags.append(tricycle.bag)
-    for first, second in itertools.zip_longest(*map(all_messages, bags)):  # tells more than the sums do
+    for first, second in itertools.zip_longest(*map(all_messages, bags)):  # shows more than the checksums
         assert first == second
     assert len({hashlib.sha256(bag.read_bytes()).hexdigest() for bag in bags}) == 1
 
@@ -115,8 +115,8 @@ def test_the_controller_drives_and_its_messages_are_known(controller: StartContr
     with pytest.raises(LookupError, match="did you mean /Tricycle"):
         tricycle.position("/Tricycl")
     speeds = tricycle.messages("/speed")
-    assert len(speeds) == 98  # 100 steps; the first goes before anybody is connected, the last is not answered yet
-    assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, and 5 % more with each answer
+    assert len(speeds) == 98  # 100 steps; the first has no subscriber yet, the last no answer yet
+    assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, 5 % more with each answer
     assert speeds[1][0] - speeds[0][0] == pytest.approx(0.05)
 
 
@@ -134,7 +134,7 @@ def test_a_controller_may_hear_the_clock(
 def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartController, sim: StartSimulator) -> None:
     controller(ten)
     tricycle = sim("tricycle", lockstep=["/speed"])
-    with pytest.raises(RunError, match=r"no answer on /speed for 5 s: its publisher is there, but does not answer"):
+    with pytest.raises(RunError, match=r"no message on /speed for 5 s: its publisher does not publish"):
         tricycle.run(5.0)
     assert tricycle.time == pytest.approx(0.6)
 
@@ -145,29 +145,33 @@ def test_a_controller_that_ends_is_told_with_its_last_words(
     code = ANSWERS_TEN.format(then="rospy.signal_shutdown('enough')")
     controller(f"/usr/bin/python3 {write(tmp_path / 'ten.py', code)}")
     tricycle = sim("tricycle", lockstep=["/speed"])
-    with pytest.raises(RunError, match=r"the controller ten.py ended with exit code 1; it said:\n *out of petrol"):
+    with pytest.raises(
+        RunError, match=r"the controller ten.py ended with exit code 1; its last output:\n *out of petrol"
+    ):
         tricycle.run(5.0)
 
 
 def test_a_topic_that_no_script_hears_is_told(sim: StartSimulator) -> None:
     tricycle = sim("tricycle", lockstep=["/spede"])
-    with pytest.raises(RunError, match=r"no step comes, for no script subscribes to /spede, which --lockstep names"):
+    with pytest.raises(RunError, match=r"lockstep waits: no script subscribes to /spede, given by --lockstep"):
         tricycle.run(1.0)
 
 
 def test_a_missing_controller_is_told(sim: StartSimulator) -> None:
     tricycle = sim("tricycle", lockstep=TOPICS)
-    with pytest.raises(RunError, match="waits for a controller that publishes /speed and /steering"):
+    with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)
 
 
 def test_a_scene_that_is_not_there_is_told(sim: StartSimulator) -> None:
-    with pytest.raises(RunError, match=r"the simulator ended with exit code 2; it said:\n.*did you mean tricycle\?"):
+    with pytest.raises(
+        RunError, match=r"the simulator ended with exit code 2; its last output:\n.*did you mean tricycle\?"
+    ):
         sim("tricycel")
 
 
 def test_a_controller_that_is_not_there_is_told(controller: StartController) -> None:
-    with pytest.raises(RunError, match="cannot be started: no_such_program"):
+    with pytest.raises(RunError, match="cannot start the controller: no_such_program"):
         controller("no_such_program")
 
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a ROS message type is made of: the one description that the generator writes, the codec walks and the bridge
-// announces.
+// Description of a ROS message type: written by the generator, used by the codec, announced by the bridge.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace bubblesim::messages {
 
-/// How one value of a field lies on the wire (http://wiki.ros.org/msg, "Field Types").
+/// Wire format of one value of a field (http://wiki.ros.org/msg, "Field Types").
 enum class FieldKind : std::uint8_t {
   kBool,
   kInt8,
@@ -45,8 +44,8 @@ struct Field {
   ArrayKind array = ArrayKind::kNone;
   std::uint32_t fixed_length = 0;        ///< of a kFixed array
   const MessageType* message = nullptr;  ///< of a kMessage field; owned by the registry
-  /// Index of `name` among all field names known to the process (see field_key()): adapters keep their own
-  /// form of the name, such as an interned Python string, in a table under this index.
+  /// Index of `name` among all field names known to the process (see field_key()). Adapters keep their own form of the
+  /// name, such as an interned Python string, in a table under this index.
   std::uint32_t key = 0;
 };
 
@@ -55,9 +54,9 @@ struct Constant {
   std::variant<bool, std::int64_t, std::uint64_t, double, std::string> value;
 };
 
-/// One message, or one half of a service. Lives as long as the process once the registry has handed it out.
+/// A message, or the request or response of a service. Once returned by the registry, it lives as long as the process.
 struct MessageType {
-  std::string name;         ///< `geometry_msgs/Twist`; halves of services: `std_srvs/SetBoolRequest`
+  std::string name;         ///< `geometry_msgs/Twist`; of a service: `std_srvs/SetBoolRequest`
   std::string md5;          ///< as genmsg computes it; peers compare it when they connect
   std::string definition;   ///< full text with nested types, as rosbag stores it
   bool has_header = false;  ///< first field is std_msgs/Header: roscpp writes its sequence number
@@ -72,11 +71,11 @@ struct ServiceType {
   const MessageType* response = nullptr;
 };
 
-/// Bytes that one value of a kind takes, or 0 when that depends on the value (strings, messages).
+/// Bytes of one value of a kind; 0 when the size depends on the value (strings, messages).
 std::uint32_t wire_size(FieldKind kind);
 
-/// Bytes of a message, a field or one element of an array field when it has its default value. No value takes fewer,
-/// and the defaults are all zero bytes: 0, false, "", time 0, no elements.
+/// Bytes of a message, a field or one element of an array field with its default value. This is the minimum size. The
+/// defaults are all zero bytes: 0, false, "", time 0, no elements.
 std::size_t default_size(const MessageType& type);
 std::size_t default_size(const Field& field);
 std::size_t default_element_size(const Field& field);
@@ -84,7 +83,7 @@ std::size_t default_element_size(const Field& field);
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);
 
-/// The kind of that spelling; std::invalid_argument when there is none.
+/// The kind with that spelling; std::invalid_argument for an unknown spelling.
 FieldKind kind_of(std::string_view name);
 
 }  // namespace bubblesim::messages

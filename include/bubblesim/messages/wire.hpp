@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROS wire bytes while they are written (WireBuffer) and while they are read (WireView).
-// Little-endian, unaligned, as http://wiki.ros.org/msg says; this code runs on little-endian machines only.
+// Buffers for writing (WireBuffer) and reading (WireView) ROS wire bytes. Little-endian, unaligned
+// (http://wiki.ros.org/msg); the code requires a little-endian machine.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace bubblesim::messages {
 
-/// Grows as bytes are appended. It keeps `kPrefix` bytes free in front for the length that TCPROS puts there, so that
-/// the bridge can hand the storage to roscpp without copying it.
+/// A growing byte buffer. It keeps `kPrefix` bytes free in front for the length field of TCPROS, so the bridge can pass
+/// the storage to roscpp without copying.
 class WireBuffer {
  public:
   static constexpr std::size_t kPrefix = 4;
@@ -33,7 +33,7 @@ class WireBuffer {
   void put_bytes(const void* data, std::size_t size) {
     if (size != 0) std::memcpy(extend(size), data, size);
   }
-  /// Makes room for `size` more bytes and returns where they start; valid until the next call.
+  /// Appends `size` bytes and returns their address; valid until the next call.
   std::uint8_t* extend(std::size_t size) {
     if (size_ + size > capacity_) grow(size);
     std::uint8_t* place = storage_.get() + size_;
@@ -44,25 +44,25 @@ class WireBuffer {
   /// The message without the prefix.
   const std::uint8_t* data() const { return storage_ ? storage_.get() + kPrefix : nullptr; }
   std::size_t size() const { return storage_ ? size_ - kPrefix : 0; }
-  /// Forgets the content, keeps the storage.
+  /// Clears the content, keeps the storage.
   void clear() { size_ = kPrefix; }
-  /// Gives the storage away (prefix first, then size() bytes) and leaves the buffer empty.
+  /// Returns the storage (prefix first, then size() bytes) and leaves the buffer empty.
   std::unique_ptr<std::uint8_t[]> release();
 
  private:
   void grow(std::size_t extra);
 
   std::unique_ptr<std::uint8_t[]> storage_;
-  std::size_t size_ = kPrefix;  // used bytes, the prefix included
+  std::size_t size_ = kPrefix;  // used bytes, including the prefix
   std::size_t capacity_ = 0;
 };
 
-/// A message that ends before its fields do, or goes on after them.
+/// A message is shorter or longer than its fields.
 struct WireError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads bytes that somebody else owns; throws WireError instead of reading past their end.
+/// Reads bytes that it does not own; throws WireError at their end.
 class WireView {
  public:
   WireView(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}

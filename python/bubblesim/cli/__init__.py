@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program bubblesim: each of its commands is a file here, which says how it is called and does it."""
+"""The program bubblesim: each command is one module here, with its arguments and its implementation."""

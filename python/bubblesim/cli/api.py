@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim api: the functions that child scripts may call, as their reference pages have them."""
+"""bubblesim api: show the functions that child scripts can call, as on their reference pages."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _WIDTH = 100
 
 
 def add_parser(commands: Any) -> None:
-    """How the command is called."""
+    """Add the command's arguments."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "api",
-        help="show what child scripts may call",
-        description="Shows a function of child scripts: its arguments, what they take, what it does. A part of a name "
-        "shows all functions that have it; without a name, or with that of a module, a line for each.",
+        help="show the functions for child scripts",
+        description="Shows a function for child scripts: its arguments, their types and a description. Part of a name "
+        "shows all functions that contain it; no name, or the name of a module, lists one line per function.",
         epilog="examples: bubblesim api getObject; bubblesim api simROS; bubblesim api simROS2.createClient",
     )
     parser.add_argument(
@@ -48,7 +48,7 @@ def _show(options: argparse.Namespace) -> int:
     if not chosen:
         near = difflib.get_close_matches(wanted.rpartition(".")[2], {f.name for f in known.values()}, n=5)
         hint = f"; did you mean {', '.join(near)}?" if near else "; `bubblesim api` lists them all"
-        print(f"error: scripts have no function '{wanted}'{hint}", file=sys.stderr)
+        print(f"error: there is no script function '{wanted}'{hint}", file=sys.stderr)
         return 2
     print("\n\n".join(_described(name, function) for name, function in chosen.items()))
     return 0

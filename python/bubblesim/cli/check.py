@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim check: what is wrong with scenes and models."""
+"""bubblesim check: validate scenes and models."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from bubblesim import checking
 
 
 def add_parser(commands: Any) -> None:
-    """How the command is called."""
+    """Add the command's arguments."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "check",
-        help="say what is wrong with scenes and models",
+        help="validate scenes and models",
         description=checking.DESCRIPTION,
         epilog=checking.EPILOG,
     )

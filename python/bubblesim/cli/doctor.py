@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim doctor: why something will not work, and the cure."""
+"""bubblesim doctor: diagnose the installation and suggest fixes."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _COLORS = {"ok": "green", "warning": "yellow", "problem": "red"}
 
 
 def add_parser(commands: Any) -> None:
-    """How the command is called."""
+    """Add the command's arguments."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "doctor",
-        help="find out why something will not work",
-        description="Looks at this machine as this terminal sees it: Python, the build, message types, the ROS master, "
-        "network names, ports. Says what is wrong, and the command that cures it; about all, or what is named.",
-        epilog="exit codes: 0 nothing is wrong, or only what many do not need (warning); 1 there is a problem",
+        help="diagnose problems of the installation",
+        description="Checks the environment of this terminal: Python, the build, message types, the ROS master, "
+        "network names, ports. Prints each problem with the command that fixes it. Without ABOUT, checks all.",
+        epilog="exit codes: 0 no problems, or only warnings about optional features; 1 problems found",
     )
     parser.add_argument("about", nargs="*", metavar="ABOUT", help=", ".join(_ABOUT))
     parser.set_defaults(command=_examine, parser=parser)
@@ -39,14 +39,14 @@ def _examine(options: argparse.Namespace) -> int:
     }
     unknown = [about for about in options.about if about not in checks]
     if unknown:
-        raise ValueError(f"doctor knows nothing about '{unknown[0]}', but about {', '.join(checks)}")
+        raise ValueError(f"unknown check '{unknown[0]}'; the checks are {', '.join(checks)}")
     problems = False
     for check in itertools.chain.from_iterable(checks[about] for about in options.about or _ABOUT):
         for finding in check():
             level = finding.level.value
             print(f"{painted(f'{level:8}', _COLORS[level], sys.stdout)} {finding.text}")
             if finding.cure:
-                print(f"{'':8} cure: {finding.cure}")
+                print(f"{'':8} fix: {finding.cure}")
             problems = problems or finding.level is Level.PROBLEM
             sys.stdout.flush()
     return int(problems)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program bubblesim: finds the command that is meant and runs it."""
+"""The program bubblesim: select a command and run it."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _FAILED, _BAD_INPUT = 1, 2
 _DESCRIPTION = """\
 Runs robot scenes and helps to write them. Begin with:
 
-  bubblesim scenes                       the scenes that are there
+  bubblesim scenes                       list the scenes
   bubblesim run tricycle --roscore       run one, with a ROS master
-  bubblesim new-scene mine               make one of your own
-  bubblesim check my/robot.sdf           what is wrong with a file
-  bubblesim api getObject                what a script may call
+  bubblesim new-scene mine               create a new scene
+  bubblesim check my/robot.sdf           validate a file
+  bubblesim api getObject                show a function for scripts
   bubblesim test test_mine.py            test a controller in the simulator
-  bubblesim doctor                       why ROS or Python will not work"""
+  bubblesim doctor                       diagnose problems of ROS or Python"""
 _EPILOG = """\
-exit codes: 0 fine, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` has those of the node.
-Data goes to stdout, everything else to stderr. NO_COLOR=1 switches colours off."""
+exit codes: 0 success, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` returns those of the
+node. Data goes to stdout, everything else to stderr. NO_COLOR=1 disables colours."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command that the arguments (default: those of the process) name; its exit code."""
+    """Run the command given by the arguments (default: those of the process); return the exit code."""
     parser = argparse.ArgumentParser(
         prog="bubblesim",
         description=_DESCRIPTION,
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     given = list(sys.argv[1:] if arguments is None else arguments)
-    # The one that is meant is enough: what some of them need takes long to load.
+    # Add only the requested command if it is known: some commands load slowly.
     for command in given[:1] if given[:1] and given[0] in _COMMANDS else _COMMANDS:
         importlib.import_module(f"bubblesim.cli.{command.replace('-', '_')}").add_parser(commands)
     options, others = parser.parse_known_args(given)
@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options.all_arguments = given
     try:
         code: int = options.command(options)
-    except ValueError as error:  # those about scenes among them
+    except ValueError as error:  # includes SceneError
         print(f"error: {error}", file=sys.stderr)
         return _BAD_INPUT
     except RunError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim scenes: the scenes that are there."""
+"""bubblesim scenes: list the scenes."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)
 
 
 def add_parser(commands: Any) -> None:
-    """How the command is called."""
+    """Add the command's arguments."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "scenes",
         help="list the scenes",
-        description="Lists the scenes: a name that `bubblesim run` takes, and what it is.",
-        epilog="Folders of your own are searched first: BUBBLESIM_SCENE_PATH=FOLDER:FOLDER",
+        description="Lists the scenes: the name for `bubblesim run` and a description.",
+        epilog="Additional folders, searched first: BUBBLESIM_SCENE_PATH=FOLDER:FOLDER",
     )
     parser.set_defaults(command=_list_scenes, parser=parser)
 
@@ -37,7 +37,7 @@ def _file(name: str) -> Path:
 
 
 def summary(file: Path) -> str:
-    """What a scene's file says about it: the first sentence of its first comment, but for the licence."""
+    """Return the first sentence of the first comment in a scene's file, except the licence."""
     comments = (" ".join(text.split()) for text in _COMMENT.findall(file.read_text(errors="replace")))
-    said = next((text for text in comments if not text.startswith("SPDX")), "")
-    return re.split(r"(?<=\.)\s", said, maxsplit=1)[0].removesuffix(".")
+    sentences = next((text for text in comments if not text.startswith("SPDX")), "")
+    return re.split(r"(?<=\.)\s", sentences, maxsplit=1)[0].removesuffix(".")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Colours, where somebody sees them."""
+"""Coloured terminal output."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _CODES = {"bold": "1", "red": "31", "green": "32", "yellow": "33"}
 
 
 def painted(text: str, color: str, stream: TextIO) -> str:
-    """The text in a colour if the stream is a terminal and NO_COLOR is not set, else as it is."""
+    """Return the text in a colour if the stream is a terminal and NO_COLOR is not set, else unchanged."""
     if not stream.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
         return text
     return f"\033[{_CODES[color]}m{text}\033[0m"

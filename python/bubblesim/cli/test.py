@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bubblesim test: regression tests of controllers."""
+"""bubblesim test: run regression tests of controllers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 _PASSED, _FAILED, _BAD_INPUT = 0, 1, 2
 _EXAMPLE = """\
-A test is a function of Python, such as this one in test_mine.py:
+A test is a Python function, for example in test_mine.py:
 
   def test_it_keeps_clear_of_the_walls(sim, controller):
       controller("rosrun bubblesim tricycle_avoid.py")
@@ -22,16 +22,16 @@ A test is a function of Python, such as this one in test_mine.py:
       x, y, _ = tricycle.position("/Tricycle")
       assert abs(x) < 3 and abs(y) < 3
 
-exit codes: 0 all passed, 1 some failed, 2 there were none, or they could not be run"""
+exit codes: 0 all passed, 1 some failed, 2 no tests found, or they could not be run"""
 
 
 def add_parser(commands: Any) -> None:
-    """How the command is called."""
+    """Add the command's arguments."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "test",
         help="test a controller in the simulator",
-        description="Runs tests by pytest, with fixtures that run the simulator in step with a controller: `sim`, "
-        "`controller` and `ros_master`. Options are pytest's, such as -k NAME, -x and -v.",
+        description="Runs tests with pytest and fixtures that run the simulator in lockstep with a controller: `sim`, "
+        "`controller` and `ros_master`. All options of pytest are accepted, such as -k NAME, -x and -v.",
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         usage="bubblesim test FILE ... [option ...]",
@@ -44,7 +44,7 @@ def add_parser(commands: Any) -> None:
 def _test(options: argparse.Namespace) -> int:
     command = [_python(), "-m", "pytest", "-p", "bubblesim.testing.plugin", *options.files, *options.other_options]
     process = subprocess.Popen(command)
-    # Ctrl-C and a closed terminal reach pytest, too, which ends what it has started: that is waited for.
+    # Ctrl-C and a closed terminal also reach pytest, which ends the programs it started; wait for that.
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     code = process.wait()
@@ -52,6 +52,6 @@ def _test(options: argparse.Namespace) -> int:
 
 
 def _python() -> str:
-    """That of the active virtual environment, in which the controller's packages are."""
+    """Return the Python of the active virtual environment, which has the controller's packages."""
     active = Path(os.environ.get("VIRTUAL_ENV", ""), "bin", "python")
     return str(active) if os.environ.get("VIRTUAL_ENV") and active.is_file() else sys.executable

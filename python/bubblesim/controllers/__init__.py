@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Controllers as plain Python: what they see goes in, what they command comes out. scripts/ adds the ROS."""
+"""Controllers without ROS: sensor values in, commands out. The nodes in scripts/ add the ROS interface."""

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cars whose two front wheels steer so that no wheel has to slip (Ackermann's steering)."""
+"""Cars with two steered front wheels that roll without slipping (Ackermann steering)."""
 
 import math
 
 
 def front_wheel_angles(wheelbase: float, track: float, angle: float) -> tuple[float, float]:
-    """Angles of the left and the right front wheel, rad, that turn as one wheel between them at ``angle`` would.
+    """Return the angles of the left and the right front wheel, rad, equivalent to one middle wheel at ``angle``.
 
-    All axles meet on the line through the rear axle (R. Rajamani, Vehicle Dynamics and Control, section 2.2).
+    All wheel axles meet on the line through the rear axle (R. Rajamani, Vehicle Dynamics and Control, section 2.2).
 
     :param wheelbase: m, from the rear to the front axle.
     :param track: m, between the front wheels.
@@ -19,6 +19,6 @@ def front_wheel_angles(wheelbase: float, track: float, angle: float) -> tuple[fl
 
 
 def rear_wheel_speeds(wheelbase: float, track: float, speed: float, angle: float) -> tuple[float, float]:
-    """Speeds of the rims of the left and the right rear wheel, m/s, where their middle runs at ``speed``."""
+    """Return the rim speeds of the left and the right rear wheel, m/s, when their midpoint moves at ``speed``."""
     slower = track / 2 / wheelbase * math.tan(angle)
     return speed * (1.0 - slower), speed * (1.0 + slower)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives BubbleRob: straight on, and backwards in a curve for a while after its nose has sensed something."""
+"""Drives BubbleRob: straight on, and backwards in a curve for a while after its nose has detected something."""
 
 import math
 from dataclasses import dataclass, field
@@ -21,16 +21,16 @@ BACKING_TIME = 3.0  # s of simulated time
 
 
 class BubbleRob:
-    """Decides the wheel speeds from the simulated time and the nose."""
+    """Computes the wheel speeds from the simulated time and the nose sensor."""
 
     def __init__(self) -> None:
-        """Starts driving forward."""
+        """Start driving forward."""
         self._backing_since: float | None = None
 
     def update(self, time: float, sensed: bool) -> WheelSpeeds:
-        """Wheel speeds at this simulated time (s), given whether the nose senses something."""
+        """Return the wheel speeds at this simulated time (s); ``sensed``: whether the nose detects something."""
         since = self._backing_since
-        if since is not None and not since <= time < since + BACKING_TIME:  # over, or the simulation started anew
+        if since is not None and not since <= time < since + BACKING_TIME:  # over, or the simulation restarted
             since = None
         if since is None and sensed:
             since = time
@@ -39,14 +39,14 @@ class BubbleRob:
 
 
 class Wheel(Enum):
-    """The two topics that drive BubbleRob."""
+    """The wheels, each with its topic."""
 
     LEFT = "left"
     RIGHT = "right"
 
     @property
     def other(self) -> "Wheel":
-        """The wheel on the other side."""
+        """Return the wheel on the other side."""
         return Wheel.RIGHT if self is Wheel.LEFT else Wheel.LEFT
 
 
@@ -60,24 +60,24 @@ class Order:
 
 @dataclass
 class HandOver:
-    """Yields the wheels to whoever else publishes to them, and takes them back when they are gone.
+    """Stops publishing while another node publishes to the wheels' topics, and resumes when that node is gone.
 
-    Two publishers on a topic would otherwise fight, message by message.
+    Otherwise the commands of two publishers on a topic would alternate.
     """
 
     own_name: str  # of this node, as messages carry it
-    drivers: set[str] = field(default_factory=set)  # the others that drive now
+    drivers: set[str] = field(default_factory=set)  # other nodes that publish now
 
     @property
     def yielded(self) -> bool:
-        """Whether somebody else drives."""
+        """Return whether another node is publishing."""
         return bool(self.drivers)
 
-    def heard(self, wheel: Wheel, speed: float, publisher: str) -> list[Order]:
-        """A message arrived for a wheel. Returns what to publish in answer.
+    def on_command(self, wheel: Wheel, speed: float, publisher: str) -> list[Order]:
+        """Handle a message for a wheel. Return the messages to publish in response.
 
-        Our own last commands may have arrived behind the other's first one, so this is said again, and the wheel that
-        the other has not spoken for is stopped. Only the first message of a driver is answered.
+        Our last commands may have arrived after the other node's first one. So its command is repeated, and the wheel
+        that it has not commanded is stopped. Only the first message of a publisher has a response.
         """
         if publisher in (self.own_name, *self.drivers):
             return []
@@ -85,8 +85,8 @@ class HandOver:
         self.drivers.add(publisher)
         return [Order(wheel, speed), Order(wheel.other, 0.0)] if first else []
 
-    def connected(self, publishers: set[str]) -> bool:
-        """Names all that publish to the wheels now. Returns whether this gave the wheels back to us."""
+    def set_publishers(self, publishers: set[str]) -> bool:
+        """Update the set of current publishers. Return whether we are in control again because of this."""
         was_yielded = self.yielded
         self.drivers &= publishers
         return was_yielded and not self.yielded

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a joystick of Linux tells: the events of /dev/input/js*, as the kernel's Documentation/input/joydev has them."""
+"""Linux joystick events of /dev/input/js*, described in the kernel's Documentation/input/joydev."""
 
 import struct
 from dataclasses import dataclass, field
@@ -11,14 +11,14 @@ FULL = 32767
 
 @dataclass
 class Joystick:
-    """The state of axes and buttons; those that have told nothing are at rest."""
+    """The state of axes and buttons; zero and released before their first event."""
 
-    axes: dict[int, float] = field(default_factory=dict)  # -1 to 1; to the right and to oneself are positive
+    axes: dict[int, float] = field(default_factory=dict)  # -1 to 1; right and towards the user are positive
     buttons: dict[int, bool] = field(default_factory=dict)
     _rest: bytes = b""
 
     def feed(self, data: bytes) -> None:
-        """Takes what was read, of any length."""
+        """Process data read from the device, of any length."""
         data = self._rest + data
         whole = len(data) - len(data) % EVENT.size
         self._rest = data[whole:]

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Driving by keys: what is pressed goes in, the velocity to drive at comes out."""
+"""Keyboard teleoperation: pressed keys in, velocity out."""
 
 from dataclasses import dataclass
 
 STEP = 1.1  # of a speed key: ten per cent
 
-# Forward, to the left and turning to the left, as shares of the speeds.
+# Forward, left and turning left, as fractions of the speeds.
 DIRECTIONS = {
     "u": (1, 0, 1), "i": (1, 0, 0), "o": (1, 0, -1),
     "j": (0, 0, 1), "k": (0, 0, 0), "l": (0, 0, -1),
     "m": (-1, 0, -1), ",": (-1, 0, 0), ".": (-1, 0, 1),
-    # With shift, for what can move sideways.
+    # With shift: holonomic motion.
     "U": (1, 1, 0), "I": (1, 0, 0), "O": (1, -1, 0),
     "J": (0, 1, 0), "K": (0, 0, 0), "L": (0, -1, 0),
     "M": (-1, 1, 0), "<": (-1, 0, 0), ">": (-1, -1, 0),
@@ -36,7 +36,7 @@ Any other key stops. Ctrl-C ends.
 
 @dataclass(frozen=True)
 class Velocity:
-    """Of the robot's base, REP 103."""
+    """Velocity of the robot's base, REP 103."""
 
     forward: float = 0.0  # m/s
     left: float = 0.0  # m/s
@@ -48,21 +48,21 @@ STANDING = Velocity()
 
 @dataclass
 class KeyboardTeleop:
-    """Remembers the speeds, and how long ago a key was pressed. Times are in seconds, of any clock that never jumps."""
+    """Keeps the speeds and the time of the last key. Times are in seconds, of any monotonic clock."""
 
     speed: float = 0.5  # m/s
     turn: float = 1.0  # rad/s
     speed_limit: float = 1000.0
     turn_limit: float = 1000.0
-    patience: float | None = 0.6  # s without a key, after which it stops; None: it goes on
+    timeout: float | None = 0.6  # s without a key before it stops; None: never stop
 
     def __post_init__(self) -> None:
-        """Stands still."""
+        """Start at rest."""
         self._direction = (0, 0, 0)
         self._pressed_at = 0.0
 
     def press(self, key: str, now: float) -> bool:
-        """A key was pressed. Returns whether the speeds have changed."""
+        """Handle a key. Return whether the speeds have changed."""
         self._pressed_at = now
         if key in SPEEDS:
             linear, angular = SPEEDS[key]
@@ -74,8 +74,8 @@ class KeyboardTeleop:
         return False
 
     def velocity(self, now: float) -> Velocity:
-        """What to drive at."""
-        if self.patience is not None and now - self._pressed_at > self.patience:
+        """Return the velocity to drive at."""
+        if self.timeout is not None and now - self._pressed_at > self.timeout:
             self._direction = (0, 0, 0)
         forward, left, turning = self._direction
         return Velocity(forward * self.speed, left * self.speed, turning * self.turn)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How what stands on a floor moves: its velocity, its pose, from the one to the other."""
+"""Planar motion: velocity, pose, and integration of a velocity."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Velocity:
-    """Of a robot's reference point, between its unsteered wheels."""
+    """Velocity of a robot's reference point, midway between its unsteered wheels."""
 
     linear: float  # m/s, forward
     angular: float  # rad/s, to the left
 
     def require_finite(self) -> None:
-        """Raises ValueError when one is not finite."""
+        """Raise ValueError if a component is not finite."""
         if not (math.isfinite(self.linear) and math.isfinite(self.angular)):
-            raise ValueError(f"a velocity of {self.linear} m/s and {self.angular} rad/s is not finite")
+            raise ValueError(f"the velocity must be finite, found {self.linear} m/s and {self.angular} rad/s")
 
 
 @dataclass(frozen=True)
 class Pose2D:
-    """Where the reference point is, in the odometry's frame."""
+    """Pose of the reference point in the odometry frame."""
 
     x: float = 0.0  # m
     y: float = 0.0  # m
@@ -30,7 +30,7 @@ class Pose2D:
 
 
 def moved(pose: Pose2D, velocity: Velocity, dt: float) -> Pose2D:
-    """Pose after ``dt`` seconds at a constant velocity: along an arc, exactly."""
+    """Return the pose after ``dt`` seconds at a constant velocity: the exact arc."""
     turned = velocity.angular * dt
     half = turned / 2
     chord = velocity.linear * dt * (math.sin(half) / half if half else 1.0)

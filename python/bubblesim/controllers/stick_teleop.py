@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Driving by a stick that is pushed somewhere, with the mouse on a screen or in a hand."""
+"""Teleoperation with a virtual or real stick."""
 
 import math
 from dataclasses import dataclass
@@ -9,19 +9,19 @@ from bubblesim.controllers.keyboard_teleop import Velocity
 
 @dataclass(frozen=True)
 class StickTeleop:
-    """What the stick means at its ends."""
+    """Maximum speeds and dead zone of the stick."""
 
     speed: float = 0.5  # m/s
     turn: float = 1.0  # rad/s
-    dead_zone: float = 0.1  # share of the way that counts as none
+    dead_zone: float = 0.1  # fraction of the range that counts as zero
 
     def __post_init__(self) -> None:
-        """Raises ValueError for what no stick can have."""
+        """Raise ValueError for invalid settings."""
         if not (math.isfinite(self.speed) and math.isfinite(self.turn) and 0.0 <= self.dead_zone < 1.0):
-            raise ValueError("speed and turn must be finite, and dead_zone from 0 to below 1")
+            raise ValueError("speed and turn must be finite, and dead_zone at least 0 and less than 1")
 
     def velocity(self, forward: float, left: float) -> Velocity:
-        """For a stick that is pushed so, from -1 to 1; what is beyond counts as that."""
+        """Return the velocity for a stick position, each axis from -1 to 1; values beyond are clamped."""
         return Velocity(forward=self.speed * self._share(forward), turning=self.turn * self._share(left))
 
     def _share(self, way: float) -> float:

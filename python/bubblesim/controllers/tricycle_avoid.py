@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives a tricycle around obstacles by a single sonar that looks ahead."""
+"""Drives a tricycle around obstacles with a single forward sonar."""
 
 import math
 from dataclasses import dataclass
@@ -7,48 +7,48 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Settings:
-    """What the controller may be tuned by."""
+    """Parameters of the controller."""
 
     full_speed: float = 1.0  # rad/s of the front wheel
-    slow_speed: float = 0.5  # rad/s, while something is near
+    slow_speed: float = 0.5  # rad/s, near an obstacle
     near: float = 1.0  # m
     avoiding_steering: float = math.radians(70.0)  # rad, positive to the left
-    recovery: float = 0.05  # share by which a step straightens and speeds up
-    patience: float = 1.0  # s without a reading, after which it stops
+    recovery: float = 0.05  # fraction by which each step straightens and speeds up
+    patience: float = 1.0  # s without a reading before it stops
 
 
 @dataclass(frozen=True)
 class Command:
-    """What the tricycle should do."""
+    """A command to the tricycle."""
 
     steering: float  # rad
     speed: float  # rad/s of the front wheel
 
 
 def is_reading(distance: float) -> bool:
-    """Whether a sonar may report this distance: metres, or +Inf when it hears no echo (REP 117)."""
+    """Return whether this is a valid sonar distance: metres, or +Inf without an echo (REP 117)."""
     return distance >= 0.0  # False for NaN
 
 
 class TricycleAvoid:
-    """Turns away from what is near, otherwise straightens and speeds up little by little."""
+    """Steers away from near obstacles, otherwise gradually straightens and speeds up."""
 
     def __init__(self, settings: Settings | None = None) -> None:
-        """Starts straight and slow; None takes the default settings."""
+        """Start straight and slow; None means the default settings."""
         self.settings = settings or Settings()
-        self.stopped = False  # for want of readings
+        self.stopped = False  # because readings are missing
         self._command = Command(steering=0.0, speed=self.settings.slow_speed)
         self._silence = 0.0
 
     def update(self, distance: float | None, dt: float) -> Command | None:
-        """One step for a reading; with None (nothing heard) it only counts the time and stops when that gets long.
+        """Process one reading; with None (no reading) only count the time, and stop when the timeout is exceeded.
 
         Args:
-            distance: what the sonar measured, m, or None.
+            distance: the measured distance, m, or None.
             dt: time since the last call, s.
 
         Returns:
-            The new command, or None when the last one stands.
+            The new command, or None if the last one is unchanged.
         """
         if distance is None or not is_reading(distance):
             return self._wait(dt)
@@ -66,7 +66,7 @@ class TricycleAvoid:
         return self._command
 
     def _wait(self, dt: float) -> Command | None:
-        self._silence += max(dt, 0.0)  # simulated time jumps back when the simulation starts anew
+        self._silence += max(dt, 0.0)  # simulated time jumps back when the simulation restarts
         if self.stopped or self._silence < self.settings.patience:
             return None
         self.stopped = True

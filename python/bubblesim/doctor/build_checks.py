@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether Python and the node that was built work, by running them."""
+"""Check Python and the built node by running them."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from bubblesim.running.places import node_program
 from bubblesim.running.processes import RunError
 
 _SOURCE = "source the setup.bash of the workspace that bubblesim was built in"
-_PATIENCE = 30.0  # s
+_TIMEOUT = 30.0  # s
 _IN_LUA = "function sysCall_init() end"
 
 
 def check_python() -> Iterator[Finding]:
-    """ROS is built for Debian's Python, and its numpy."""
+    """Check that Python and numpy are those that ROS is built for."""
     version = ".".join(map(str, sys.version_info[:3]))
     if sys.base_prefix != "/usr":
-        yield problem(f"Python {version} is {sys.executable}, not Debian's", "PATH=/usr/bin:$PATH bubblesim doctor")
+        yield problem(f"Python {version} ({sys.executable}) is not Debian's", "PATH=/usr/bin:$PATH bubblesim doctor")
     else:
         yield ok(f"Python {version}, {sys.executable}")
     if int(np.__version__.partition(".")[0]) >= 2:
         yield problem(
-            f"numpy {np.__version__} in {Path(np.__file__).parent} breaks what Debian has built for numpy 1: cv_bridge",
+            f"numpy {np.__version__} in {Path(np.__file__).parent} is incompatible with Debian's cv_bridge (numpy 1)",
             f"{sys.executable} -m pip install 'numpy<2'",
         )
     else:
@@ -38,15 +38,15 @@ def check_python() -> Iterator[Finding]:
 
 
 def check_package() -> Iterator[Finding]:
-    """Rosrun and roslaunch look for the package."""
+    """Check that rosrun and roslaunch find the package."""
     try:
         yield ok(f"rosrun finds bubblesim in {rospkg.RosPack().get_path('bubblesim')}")
     except rospkg.ResourceNotFound:
-        yield problem("rosrun and roslaunch do not find bubblesim: ROS_PACKAGE_PATH does not lead to it", _SOURCE)
+        yield problem("rosrun and roslaunch do not find bubblesim: it is not in ROS_PACKAGE_PATH", _SOURCE)
 
 
 def check_node() -> Iterator[Finding]:
-    """The node runs, and a script in each language."""
+    """Check that the node runs, and a script in each language."""
     try:
         node = str(node_program())
     except RunError as error:
@@ -73,10 +73,10 @@ def check_node() -> Iterator[Finding]:
 
 
 def _run(command: list[str]) -> str:
-    """What went wrong, or nothing."""
+    """Return the error, or an empty string."""
     try:
-        run = subprocess.run(command, capture_output=True, text=True, timeout=_PATIENCE, check=False)
+        run = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
-    said = " ".join(run.stderr.split())
-    return "" if run.returncode == 0 else f"exit code {run.returncode}: {said}"
+    output = " ".join(run.stderr.split())
+    return "" if run.returncode == 0 else f"exit code {run.returncode}: {output}"

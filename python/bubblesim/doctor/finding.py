@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a check has found."""
+"""Findings of checks."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 
 class Level(enum.Enum):
-    """How bad it is."""
+    """Severity of a finding."""
 
     OK = "ok"
-    WARNING = "warning"  # something does not work that many do not need
+    WARNING = "warning"  # an optional feature does not work
     PROBLEM = "problem"
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What is so, and what to do about it unless it is well."""
+    """A result of a check, and how to fix it if it is not ok."""
 
     level: Level
     text: str
@@ -25,15 +25,15 @@ class Finding:
 
 
 def ok(text: str) -> Finding:
-    """That all is well."""
+    """Return a finding: ok."""
     return Finding(Level.OK, text)
 
 
 def warning(text: str, cure: str) -> Finding:
-    """That something does not work that many do not need."""
+    """Return a finding: an optional feature does not work."""
     return Finding(Level.WARNING, text, cure)
 
 
 def problem(text: str, cure: str) -> Finding:
-    """That something does not work."""
+    """Return a finding: something does not work."""
     return Finding(Level.PROBLEM, text, cure)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether rospy has the message types of the build, and the same ones."""
+"""Check that rospy has the message types of the build with the same definitions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bubblesim.doctor.finding import Finding, ok, problem, warning
 
 
 def check_messages() -> Iterator[Finding]:
-    """Each listed type, as a class of Python."""
+    """Check each listed type as a Python class."""
     names: list[str] = _core.messages.message_names()
     missing: dict[str, list[str]] = defaultdict(list)
     others = []
@@ -26,12 +26,12 @@ def check_messages() -> Iterator[Finding]:
             others.append(name)
     for package, types in missing.items():
         yield warning(
-            f"nodes in Python cannot use {', '.join(types)}: there is no module {package}.msg that has them",
+            f"nodes in Python cannot use {', '.join(types)}: no module {package}.msg defines them",
             f"apt-get install python3-{package.replace('_', '-')}; or build and source the workspace of {package}",
         )
     if others:
         yield problem(
-            f"the build and Python have different definitions of {', '.join(others)}: nobody will hear the other",
+            f"the build and Python have different definitions of {', '.join(others)}: their nodes cannot communicate",
             "build again: scripts/setup in a clone, or `catkin build` in your workspace",
         )
     if not missing and not others:

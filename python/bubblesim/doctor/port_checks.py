@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the ports that scenes serve are free."""
+"""Check that the ports used by scenes are free."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _SERVED = {5000: "tricycle_socket"}  # on 127.0.0.1, by scene
 
 
 def check_ports() -> Iterator[Finding]:
-    """Each port of a scene that comes with bubblesim."""
+    """Check each port of the scenes of bubblesim."""
     for port, scene in _SERVED.items():
         try:
             socket.create_server(("127.0.0.1", port)).close()
         except OSError as error:
             yield warning(
-                f"port {port}, which the scene {scene} serves, cannot be had: {error.strerror}",
-                f"ss -ltnp 'sport = :{port}' tells who has it: end that",
+                f"cannot bind port {port}, which the scene {scene} needs: {error.strerror}",
+                f"ss -ltnp 'sport = :{port}' shows the process that uses it; end that process",
             )
         else:
             yield ok(f"port {port} is free for the scene {scene}")

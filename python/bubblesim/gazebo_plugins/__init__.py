@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plugins of Gazebo's robots do, as ROS users know it."""
+"""Gazebo plugins, with the ROS interface of the originals."""

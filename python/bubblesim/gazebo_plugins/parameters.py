@@ -15,60 +15,60 @@ _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 
 
 class ParameterError(ValueError):
-    """What is wrong with the parameters of a plugin, a line for each."""
+    """Problems of the parameters of a plugin, one line each."""
 
 
 class Parameters:
-    """Names are taken as they are in ROS 1, wheelSeparation, and in ROS 2, wheel_separation.
+    """Names are accepted as in ROS 1, wheelSeparation, and as in ROS 2, wheel_separation.
 
-    What a parameter says wrongly is kept for ``check``, so that all of it is told at once.
+    Invalid values are collected, and ``check`` raises an error for all of them.
     """
 
     def __init__(self, plugin: Any) -> None:
         """:param plugin: a ``bubblesim._core.PluginDescription``."""
         self.plugin = plugin
         self._found = {_key(parameter.name): parameter for parameter in reversed(plugin.parameters)}
-        self._asked: set[str] = {"ros_debug_level", "always_on", "ignition::corrected_offsets"}
+        self._read: set[str] = {"ros_debug_level", "always_on", "ignition::corrected_offsets"}
         self._problems: list[str] = []
         self.hints: list[str] = []
 
     @property
     def title(self) -> str:
-        """What to call the plugin in a report: its place, name and file name."""
+        """Return a title for messages: place, name and file name of the plugin."""
         return f"{where(self.plugin)}: plugin '{self.plugin.name}' ({self.plugin.filename})"
 
     def text(self, name: str, default: str) -> str:
-        """A text, without spaces around it."""
+        """Return a text without surrounding whitespace."""
         found = self.given(name)
         return default if found is None else found
 
     def given(self, name: str) -> str | None:
-        """The text of a parameter, None when the plugin does not have it."""
+        """Return the text of a parameter, None if the plugin does not have it."""
         parameter = self._take(name)
         return None if parameter is None else parameter.text.strip()
 
     def number(self, name: str, default: float, least: float = -math.inf) -> float:
-        """A finite number, ``least`` or more."""
-        return self._converted(name, *_number_of_at_least(least), default)
+        """Return a finite number of at least ``least``."""
+        return self._converted(name, *_number_reader(least), default)
 
     def length(self, name: str, default: float) -> float:
-        """A number above 0."""
+        """Return a number above 0."""
         return self.number(name, default, least=math.ulp(0.0))
 
     def lengths(self, name: str, default: float, count: int) -> list[float]:
-        """Numbers above 0, of ``count`` elements of that name; if there are fewer, the last one counts for the rest."""
-        self._asked.add(_key(name))
+        """Return numbers above 0 of ``count`` elements of that name; if there are fewer, the last one is repeated."""
+        self._read.add(_key(name))
         elements = [each for each in self.plugin.parameters if _key(each.name) == _key(name)][:count]
-        found = [self._value(name, each, *_number_of_at_least(math.ulp(0.0)), default) for each in elements]
+        found = [self._value(name, each, *_number_reader(math.ulp(0.0)), default) for each in elements]
         found = found or [default]
         return found + found[-1:] * (count - len(found))
 
-    def flag(self, name: str, default: bool) -> bool:  # a default, as in the other readers
-        """True or false; 1 and 0 will do."""
+    def flag(self, name: str, default: bool) -> bool:  # a default, as in the other functions
+        """Return true or false; 1 and 0 are accepted."""
         return self._converted(name, lambda text: _FLAGS[text.lower()], "true or false", default)
 
     def numbers(self, name: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """As many finite numbers as the default has."""
+        """Return as many finite numbers as the default has."""
 
         def read(text: str) -> tuple[float, ...]:
             numbers = tuple(map(float, text.split()))
@@ -79,7 +79,7 @@ class Parameters:
         return self._converted(name, read, f"{len(default)} numbers", default)
 
     def deviations(self, name: str) -> tuple[float, ...]:
-        """Standard deviations: one for all axes, or three along x, y and z."""
+        """Return standard deviations: one for all axes, or three along x, y and z."""
 
         def read(text: str) -> tuple[float, ...]:
             numbers = tuple(map(float, text.split()))
@@ -87,53 +87,53 @@ class Parameters:
                 raise ValueError
             return numbers
 
-        return self._converted(name, read, "one number or three (x, y and z) of at least 0", (0.0,))
+        return self._converted(name, read, "one or three numbers (x, y and z) of at least 0", (0.0,))
 
     def choice(self, name: str, default: str, options: Mapping[str, _Value]) -> _Value:
-        """One of some words; what stands for it."""
+        """Return the value of one of several words."""
         return self._converted(name, options.__getitem__, " or ".join(options), options[default])
 
     def names(self, name: str) -> list[str]:
-        """The words of all elements of that name; commas and spaces part them."""
-        self._asked.add(_key(name))
+        """Return the words of all elements of that name, separated by commas or spaces."""
+        self._read.add(_key(name))
         texts = [each.text for each in self.plugin.parameters if _key(each.name) == _key(name)]
         return [word for text in texts for word in re.split(r"[,\s]+", text) if word]
 
     def ignore(self, *names: str) -> None:
-        """Parameters that are known and do nothing here."""
-        self._asked.update(map(_key, names))
+        """Accept parameters that have no effect here."""
+        self._read.update(map(_key, names))
 
     def child(self, name: str, below: str) -> str | None:
-        """The text of an element within another, None when there is none."""
+        """Return the text of a nested element, None if there is none."""
         parameter = self._take(name)
         children = parameter.children if parameter is not None else []
         return next((child.text.strip() for child in children if _key(child.name) == _key(below)), None)
 
     def fail(self, name: str, problem: str) -> ParameterError:
-        """To be raised: a parameter, given or left out, with which the plugin cannot work."""
+        """Return the error for a given or missing parameter without which the plugin cannot work."""
         self._note(name, problem)
         return ParameterError("\n".join(self._problems))
 
     def check(self) -> None:
-        """Raise ParameterError for all that was wrong so far."""
+        """Raise ParameterError if any problems were found."""
         if self._problems:
             raise ParameterError("\n".join(self._problems))
 
     def hint_if_missing(self, name: str, text: str) -> None:
-        """Have a line told about a parameter that the plugin does not have."""
+        """Add a hint about a parameter that the plugin does not have."""
         if self.given(name) is None:
             self.hints.append(f"{where(self.plugin)}: plugin '{self.plugin.name}': <{name}> {text}")
 
     def unused(self) -> list[str]:
-        """The names that nobody asked for, with a hint at what was meant."""
+        """Return the names of parameters that were never read, with the nearest known names."""
         return [
-            parameter.name + did_you_mean(nearest_names(key, sorted(self._asked - set(self._found))))
+            parameter.name + did_you_mean(nearest_names(key, sorted(self._read - set(self._found))))
             for key, parameter in self._found.items()
-            if key not in self._asked
+            if key not in self._read
         ]
 
     def _take(self, name: str) -> Any:
-        self._asked.add(_key(name))
+        self._read.add(_key(name))
         return self._found.get(_key(name))
 
     def _converted(self, name: str, convert: Callable[[str], _Value], expected: str, default: _Value) -> _Value:
@@ -156,12 +156,12 @@ class Parameters:
 
 
 def where(described: Any) -> str:
-    """file:line of what a file describes; the line only when it is known."""
+    """Return file:line of an element; only the file if the line is unknown."""
     return f"{described.file}:{described.line}" if described.line else str(described.file)
 
 
-def _number_of_at_least(least: float) -> tuple[Callable[[str], float], str]:
-    """What reads such a number, and what to call it."""
+def _number_reader(least: float) -> tuple[Callable[[str], float], str]:
+    """Return a function that reads such a number, and its description."""
 
     def read(text: str) -> float:
         number = float(text)
@@ -174,5 +174,5 @@ def _number_of_at_least(least: float) -> tuple[Callable[[str], float], str]:
 
 
 def _key(name: str) -> str:
-    """WheelSeparation, wheelSeparation and wheel_separation are one name."""
+    """Return the common key of WheelSeparation, wheelSeparation and wheel_separation."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How often something is done, at most once a step."""
+"""Publish rates, limited by the simulation step."""
 
 from __future__ import annotations
 
 
 class Rate:
-    """Passes at which something is due."""
+    """Selects the steps at which something is due."""
 
     def __init__(self, hertz: float, time_step: float) -> None:
-        """0 Hz stands for each step, which takes ``time_step`` seconds."""
+        """A rate of 0 Hz selects every step; ``time_step`` in seconds."""
         self._period = 1.0 / hertz if hertz > 0 else 0.0
-        self._tolerance = time_step / 2  # a time that lies on a step must not slip to the next by rounding
+        self._tolerance = time_step / 2  # rounding must not shift a due time to the next step
         self._due = 0.0
 
     def due(self, time: float) -> bool:
-        """Whether it is due in the step of this time, to be asked once in a step."""
+        """Return whether it is due in the step of this time; call it once per step."""
         if self._due > time + self._tolerance:
             return False
         self._due = max(self._due + self._period, time)
         return True
 
     def reset(self) -> None:
-        """Time starts again."""
+        """Reset after simulated time restarted."""
         self._due = 0.0

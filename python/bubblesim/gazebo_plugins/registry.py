@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which plugin is which device."""
+"""The class of each plugin."""
 
 from __future__ import annotations
 
 import re
 from pathlib import PurePosixPath
 
-from bubblesim.gazebo_plugins.device import Device
 from bubblesim.gazebo_plugins.drives.ackermann_drive import AckermannDrive
 from bubblesim.gazebo_plugins.drives.diff_drive import DiffDrive
 from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
@@ -20,6 +19,7 @@ from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
 from bubblesim.gazebo_plugins.joints.gz_joint_controllers import GzJointController, GzJointPositionController
 from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.gazebo_plugins.sensors.baro import Baro
 from bubblesim.gazebo_plugins.sensors.block_laser import BlockLaser, VelodyneLaser
 from bubblesim.gazebo_plugins.sensors.bumper import Bumper
@@ -36,8 +36,8 @@ from bubblesim.gazebo_plugins.sensors.range import HectorSonar, Range
 from bubblesim.gazebo_plugins.sensors.ray_sensor import RaySensor
 from bubblesim.messages.names import did_you_mean, nearest_names
 
-# By the name of the library as ``library`` tells it.
-DEVICES: dict[str, type[Device]] = {
+# By the name that ``library`` returns.
+PLUGINS: dict[str, type[Plugin]] = {
     "DiffDrivePlugin": GazeboDiffDrive,
     "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
     "gazebo_ros_ackermann_drive": AckermannDrive,
@@ -77,7 +77,7 @@ DEVICES: dict[str, type[Device]] = {
     "gz-joint-state-publisher-system": GzJointStatePublisher,
 }
 
-# What is a part of the simulator here, or shows something in a window.
+# Built into the simulator here, or part of Gazebo's user interface.
 NOT_NEEDED = frozenset(
     {
         "gazebo_ros_api_plugin",
@@ -102,15 +102,15 @@ NOT_NEEDED = frozenset(
     }
 )
 
-# Why others have no device, and what to do instead.
+# Explanations for plugins that are not supported, with alternatives.
 REASONS = {
-    "gazebo_ros_control": "there is no ros_control here: joints are driven by the drives' plugins, by child scripts "
-    "(sim.setJointTargetVelocity) or by topics that a child script subscribes to",
+    "gazebo_ros_control": "ros_control is not supported: drive the joints with a drive plugin, with a child script "
+    "(sim.setJointTargetVelocity) or with topics that a child script subscribes to",
 }
 
 
 def library(filename: str) -> str:
-    """The library of a file name without what differs between systems and versions.
+    """Return the library of a file name without the parts that depend on system and version.
 
     libgazebo_ros_laser.so -> gazebo_ros_laser; libignition-gazebo6-diff-drive-system.so -> gz-diff-drive-system
     """
@@ -119,7 +119,7 @@ def library(filename: str) -> str:
 
 
 def why_unknown(name: str) -> str:
-    """What to tell about a library that has no device."""
+    """Return the message for a plugin that is not supported."""
     if name in REASONS:
         return REASONS[name]
-    return f"there is no device for it{did_you_mean(nearest_names(name, sorted(DEVICES)))}; the model runs without it"
+    return f"plugin is not supported{did_you_mean(nearest_names(name, sorted(PLUGINS)))}; the model runs without it"

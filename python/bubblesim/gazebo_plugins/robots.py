@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The devices of all models, in the phases of a step."""
+"""The plugins of all models."""
 
 from __future__ import annotations
 
@@ -7,76 +7,76 @@ import sys
 from collections.abc import Iterator
 from typing import Any
 
-from bubblesim.gazebo_plugins.device import Device, PluginContext, StepTime
 from bubblesim.gazebo_plugins.parameters import ParameterError, Parameters
-from bubblesim.gazebo_plugins.registry import DEVICES, library
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext, StepTime
+from bubblesim.gazebo_plugins.registry import PLUGINS, library
 from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
-from bubblesim.gazebo_plugins.sensors.sensor_topic import OwnTopic, SensorTopic
+from bubblesim.gazebo_plugins.sensors.sensor_topic import NoPlugin, SensorTopic
 from bubblesim.gazebo_plugins.transforms import Transforms
 from bubblesim.gazebo_plugins.unknown_plugins import UnknownPlugins, plugins_below
 from bubblesim.output import write_line
 
 
-class Devices:
-    """Made by the simulator's node, which calls ``actuate`` and ``publish`` in every step and tells of models."""
+class GazeboPlugins:
+    """Created by the simulator's node, which calls ``actuate`` and ``publish`` in each step and reports new models."""
 
     def __init__(self, simulation: Any, bridge: Any) -> None:
-        """Make the devices of the models that are there."""
+        """Create the plugins of the models in the world."""
         self._simulation = simulation
         self._bridge = bridge
-        self._pass_time = StepTime(bridge)
+        self._step_time = StepTime(bridge)
         self._transforms = Transforms(bridge)
-        self._devices: list[Device] = []
+        self._plugins: list[Plugin] = []
         self._unknown = UnknownPlugins()
-        for plugin in simulation.plugins:
-            self._unknown.report(plugin)
-        self._systems = {library(plugin.filename) for plugin in simulation.plugins}
-        # A robot's file on its own is taken as gazebo_ros spawns it, with its topics at the root.
+        for description in simulation.plugins:
+            self._unknown.report(description)
+        self._systems = {library(description.filename) for description in simulation.plugins}
+        # A robot file loaded without a world is treated as gazebo_ros spawns it, with topics at the root.
         namespace = "" if simulation.is_model_file else None
         for model in simulation.world.models:
             self.add_model(model, namespace)
 
     def add_model(self, model: int, namespace: str | None = None) -> None:
-        """Make the devices of a model that has come into the world, in a namespace if not each has its own.
+        """Create the plugins of a model added to the world; ``namespace`` is the default of their namespaces.
 
-        Without a bridge there are none; what has none is reported all the same.
+        Without a bridge none are created, but unsupported plugins are still reported.
         """
         world = self._simulation.world
-        with_device: set[int] = set()
+        with_plugin: set[int] = set()
         systems = set(self._systems)
-        for owner, plugin in plugins_below(world, model):
-            systems.add(library(plugin.filename))
-            self._unknown.report(plugin)
-            kind = DEVICES.get(library(plugin.filename))
+        for owner, description in plugins_below(world, model):
+            systems.add(library(description.filename))
+            self._unknown.report(description)
+            kind = PLUGINS.get(library(description.filename))
             if kind is not None and self._bridge is not None:
-                with_device.add(owner)
-                self._make(kind, plugin, owner, model, namespace)
+                with_plugin.add(owner)
+                self._make(kind, description, owner, model, namespace)
         for sensor in self._sensors_below(model) if self._bridge is not None else ():
             if world.sensor_topic(sensor)[0]:
-                self._make(SensorTopic, OwnTopic(world.path(sensor)), sensor, model, namespace)
-            elif sensor not in with_device and publishes_as_gz(world, sensor, systems):
-                self._make(GzSensor, OwnTopic(world.path(sensor), "topic"), sensor, model, namespace)
+                self._make(SensorTopic, NoPlugin(world.path(sensor)), sensor, model, namespace)
+            elif sensor not in with_plugin and publishes_as_gz(world, sensor, systems):
+                self._make(GzSensor, NoPlugin(world.path(sensor), "topic"), sensor, model, namespace)
 
     def remove_model(self, model: int) -> None:
-        """Close the devices of a model that is about to leave the world."""
-        leaving = [device for device in self._devices if device.context.model == model]
-        self._devices = [device for device in self._devices if device.context.model != model]
-        for device in leaving:
-            device.close()
+        """Close the plugins of a model that is about to be removed."""
+        leaving = [plugin for plugin in self._plugins if plugin.context.model == model]
+        self._plugins = [plugin for plugin in self._plugins if plugin.context.model != model]
+        for plugin in leaving:
+            plugin.close()
 
     def reset(self) -> None:
-        """The world was put back to its start."""
+        """Reset all plugins after a world reset."""
         self._each("reset")
 
     def actuate(self) -> None:
-        """Have all devices command their joints."""
+        """Call ``actuate`` of all plugins."""
         self._each("actuate")
 
     def publish(self) -> None:
-        """Have all devices tell what they measure."""
-        if not self._devices:
+        """Publish the results of all plugins."""
+        if not self._plugins:
             return
-        self._pass_time.begin_step()
+        self._step_time.begin_step()
         self._each("publish")
         self._transforms.publish()
 
@@ -86,30 +86,30 @@ class Devices:
         for child in self._simulation.world.children(handle):
             yield from self._sensors_below(child)
 
-    def _make(self, kind: type[Device], plugin: Any, owner: int, model: int, namespace: str | None) -> None:
-        parameters = Parameters(plugin)
-        outside = self._bridge, self._pass_time, self._transforms
+    def _make(self, kind: type[Plugin], description: Any, owner: int, model: int, namespace: str | None) -> None:
+        parameters = Parameters(description)
+        outside = self._bridge, self._step_time, self._transforms
         context = PluginContext(self._simulation, *outside, owner, model, parameters, namespace)
         try:
-            device = kind(context)
-            device.reset()
+            plugin = kind(context)
+            plugin.reset()
         except Exception as error:
             context.close()
             text = f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}"
             write_line(sys.stderr, "\n".join(f"error: {line}" for line in text.splitlines()))
             return
-        self._devices.append(device)
+        self._plugins.append(plugin)
         for hint in parameters.hints:
             write_line(sys.stderr, f"warning: {hint}")
         if unused := parameters.unused():
-            text = f"plugin '{plugin.name}' ({plugin.filename}) has no parameters {', '.join(unused)}"
-            self._unknown.warn(plugin, text)
+            text = f"plugin '{description.name}' ({description.filename}) has unknown parameters: {', '.join(unused)}"
+            self._unknown.warn(description, text)
 
     def _each(self, phase: str) -> None:
-        for device in list(self._devices):
+        for plugin in list(self._plugins):
             try:
-                getattr(device, phase)()
-            except Exception as error:  # one device must not end the others
-                write_line(sys.stderr, f"error: {device.parameters.title} failed in {phase} and is off: {error}")
-                self._devices.remove(device)
-                device.close()
+                getattr(plugin, phase)()
+            except Exception as error:  # an error of one plugin must not end the others
+                write_line(sys.stderr, f"error: {plugin.parameters.title} failed in {phase} and is disabled: {error}")
+                self._plugins.remove(plugin)
+                plugin.close()

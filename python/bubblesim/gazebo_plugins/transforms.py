@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What devices tell on /tf, in one message a step."""
+"""Transforms of plugins on /tf, one message per step."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from bubblesim.ros_messages import transform
 _QUEUE_SIZE = 100
 
 
-def wanted(bridge: Any, publisher: int) -> bool:
-    """Whether somebody listens, or a bag keeps all."""
+def is_needed(bridge: Any, publisher: int) -> bool:
+    """Return whether the topic has subscribers or is recorded to a bag."""
     return bool(bridge.wants_messages(publisher) or getattr(bridge, "keeps_all", False))
 
 
 class Transforms:
-    """Gathers transforms; the topic is there from the first one on."""
+    """Collects transforms; the topic is advertised with the first one."""
 
     def __init__(self, bridge: Any) -> None:
         """Use this bridge."""
@@ -26,15 +26,15 @@ class Transforms:
         self._waiting: list[dict[str, Any]] = []
 
     def add(self, header: dict[str, Any], child: str, pose: Sequence[float]) -> None:
-        """Pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
+        """Add the pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
         if self._publisher is None:
             self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
-        if not wanted(self._bridge, self._publisher):
+        if not is_needed(self._bridge, self._publisher):
             return
         self._waiting.append(transform(header["stamp"], header["frame_id"], child, pose))
 
     def publish(self) -> None:
-        """Send those of this step."""
+        """Publish the transforms of this step."""
         if self._waiting:
             self._bridge.publish(self._publisher, {"transforms": self._waiting})
             self._waiting = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports plugins that have no device."""
+"""Warnings about plugins that are not supported."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.gazebo_plugins.parameters import where
-from bubblesim.gazebo_plugins.registry import DEVICES, NOT_NEEDED, library, why_unknown
+from bubblesim.gazebo_plugins.registry import NOT_NEEDED, PLUGINS, library, why_unknown
 from bubblesim.output import write_line
 
 
 class UnknownPlugins:
-    """Warns once of each place in a file, however many models are made of it."""
+    """Warns once per place in a file, for any number of models created from it."""
 
     def __init__(self) -> None:
         """Nothing is reported yet."""
         self._warned: set[tuple[str, str, int]] = set()
 
     def report(self, plugin: Any) -> None:
-        """Warn of a plugin that has no device and needs one."""
+        """Warn about a plugin that is not supported and has an effect in Gazebo."""
         name = library(plugin.filename)
-        if name not in DEVICES and name not in NOT_NEEDED:
+        if name not in PLUGINS and name not in NOT_NEEDED:
             self.warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}): {why_unknown(name)}")
 
     def warn(self, plugin: Any, text: str) -> None:
@@ -34,7 +34,7 @@ class UnknownPlugins:
 
 
 def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
-    """The plugins of an object and of all below it, each with the object that has it."""
+    """Yield the plugins of an object and of all objects below it, each with its owner."""
     for plugin in world.plugins(handle):
         yield handle, plugin
     for child in world.children(handle):
@@ -42,7 +42,7 @@ def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
 
 
 def report_unknown_plugins(simulation: Any) -> None:
-    """Warn of all plugins of a simulation that have no device."""
+    """Warn about all unsupported plugins of a simulation."""
     unknown = UnknownPlugins()
     for plugin in simulation.plugins:
         unknown.report(plugin)

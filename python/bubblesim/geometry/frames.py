@@ -12,9 +12,9 @@ Vector = list[float]
 
 
 def state_in(world: Any, handle: int, reference: int | None) -> tuple[list[float], Vector, Vector]:
-    """Pose, linear and angular velocity of an object's origin as seen from `reference`, None for the world.
+    """Return pose, linear and angular velocity of an object's origin relative to `reference`, None for the world.
 
-    A moving reference sees p' = R^T (v - v_ref - w_ref x (p - p_ref)), w' = R^T (w - w_ref).
+    For a moving reference: p' = R^T (v - v_ref - w_ref x (p - p_ref)), w' = R^T (w - w_ref).
     """
     pose: list[float] = world.pose(handle)
     linear, angular = world.velocity(handle)
@@ -31,7 +31,7 @@ def state_in(world: Any, handle: int, reference: int | None) -> tuple[list[float
 def state_from(
     world: Any, pose: Sequence[float], linear: Sequence[float], angular: Sequence[float], reference: int | None
 ) -> tuple[Sequence[float], Sequence[float], Sequence[float]]:
-    """Pose, linear and angular velocity in the world, from those as seen from `reference`: the inverse of state_in."""
+    """Return pose, linear and angular velocity in the world from those relative to `reference`; inverse of state_in."""
     if reference is None:
         return pose, linear, angular
     frame = world.pose(reference)
@@ -55,11 +55,11 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> Vector:
 
 
 def into(frame: Sequence[float], vector: Sequence[float]) -> Vector:
-    """A vector in world axes as one in the axes of a frame."""
+    """Transform a vector from world axes into the axes of a frame."""
     columns = zip(*matrix(frame[3:]), strict=True)
     return [sum(x * y for x, y in zip(column, vector, strict=True)) for column in columns]
 
 
 def out_of(frame: Sequence[float], vector: Sequence[float]) -> Vector:
-    """A vector in the axes of a frame as one in world axes."""
+    """Transform a vector from the axes of a frame into world axes."""
     return [sum(x * y for x, y in zip(row, vector, strict=True)) for row in matrix(frame[3:])]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 
 def matrix(quaternion: Sequence[float]) -> list[list[float]]:
-    """3x3 rotation matrix of a unit quaternion."""
+    """Return the 3x3 rotation matrix of a unit quaternion."""
     x, y, z, w = quaternion
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -18,12 +18,12 @@ def matrix(quaternion: Sequence[float]) -> list[list[float]]:
 
 
 def matrix_of_pose(pose: Sequence[float]) -> list[float]:
-    """The upper three rows of the 4x4 matrix of [x, y, z, qx, qy, qz, qw], row by row."""
+    """Return the upper three rows of the 4x4 matrix of [x, y, z, qx, qy, qz, qw], row by row."""
     return [number for row, offset in zip(matrix(pose[3:]), pose[:3], strict=True) for number in (*row, offset)]
 
 
 def euler_angles(quaternion: Sequence[float]) -> list[float]:
-    """[alpha, beta, gamma] with R = Rx(alpha) Ry(beta) Rz(gamma); alpha is 0 where it cannot be told from gamma."""
+    """Return [alpha, beta, gamma] with R = Rx(alpha) Ry(beta) Rz(gamma); alpha is 0 in gimbal lock."""
     r = matrix(quaternion)
     beta = math.asin(max(-1.0, min(1.0, r[0][2])))
     if abs(r[0][2]) > 1 - 1e-12:
@@ -32,7 +32,7 @@ def euler_angles(quaternion: Sequence[float]) -> list[float]:
 
 
 def quaternion_of_euler(angles: Sequence[float]) -> list[float]:
-    """The inverse of :func:`euler_angles`."""
+    """Compute the inverse of :func:`euler_angles`."""
     alpha, beta, gamma = (angle / 2 for angle in angles)
     about_x = [math.sin(alpha), 0.0, 0.0, math.cos(alpha)]
     about_y = [0.0, math.sin(beta), 0.0, math.cos(beta)]
@@ -41,7 +41,7 @@ def quaternion_of_euler(angles: Sequence[float]) -> list[float]:
 
 
 def quaternion_of_rpy(angles: Sequence[float]) -> list[float]:
-    """Of roll, pitch and yaw as URDF and SDFormat have them: Rz(yaw) Ry(pitch) Rx(roll)."""
+    """Return the quaternion of roll, pitch and yaw as in URDF and SDFormat: Rz(yaw) Ry(pitch) Rx(roll)."""
     roll, pitch, yaw = (angle / 2 for angle in angles)
     about_x = [math.sin(roll), 0.0, 0.0, math.cos(roll)]
     about_y = [0.0, math.sin(pitch), 0.0, math.cos(pitch)]
@@ -50,7 +50,7 @@ def quaternion_of_rpy(angles: Sequence[float]) -> list[float]:
 
 
 def product(a: Sequence[float], b: Sequence[float]) -> list[float]:
-    """The rotation b followed by a."""
+    """Return the rotation b followed by a."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return [
@@ -62,10 +62,10 @@ def product(a: Sequence[float], b: Sequence[float]) -> list[float]:
 
 
 def heading_of(x: float, y: float, z: float, w: float) -> float:
-    """Rotation about the vertical axis, rad, of a unit quaternion: the yaw of its roll, pitch and yaw."""
+    """Return the rotation about the vertical axis, rad, of a unit quaternion: the yaw of its roll, pitch and yaw."""
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def quaternion_of_heading(heading: float) -> list[float]:
-    """[x, y, z, w] of a turn about the vertical axis by so many rad."""
+    """Return [x, y, z, w] of a rotation about the vertical axis by this angle, rad."""
     return [0.0, 0.0, math.sin(heading / 2), math.cos(heading / 2)]

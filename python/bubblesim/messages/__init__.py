@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Message types: where their definitions are found on a machine, and how they come to be known to bubblesim.
+"""Message types: find their definitions on this machine and register them.
 
-The build reads its lists with this package, before the compiled module exists: only `runtime` and `listing` need that.
+The build uses this package before the compiled module exists: only `runtime` and `listing` need that module.
 """

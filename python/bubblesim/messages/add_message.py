@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program add_message: lists types for the build, so that they are compiled and checked with it, and builds."""
+"""The program add_message: adds types to the lists of the build and rebuilds, so that they are compiled and checked."""
 
 from __future__ import annotations
 
@@ -20,10 +20,12 @@ _LISTS = {"msg": "messages.txt", "srv": "services.txt"}
 
 
 def main(arguments: list[str]) -> int:
-    """Run the program; returns the exit code."""
+    """Run the program; return the exit code."""
     options = _parse_arguments(arguments)
     if options.project is None or not (options.project / "meta").is_dir():
-        return _fail(["the sources of bubblesim, where its lists are, are not here; tell where: --project DIR"])
+        return _fail(
+            ["bubblesim's sources, which contain the lists, are not found; give their folder with --project DIR"]
+        )
     project: Path = options.project.absolute()
     problems: list[str] = []
     kinds = _find_all(options.types, Specs(machine_index(project)), problems)
@@ -45,9 +47,9 @@ def main(arguments: list[str]) -> int:
 def _parse_arguments(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="add_message",
-        description="Lists message and service types in bubblesim's meta/messages.txt and meta/services.txt, and "
-        "builds what this changes. Types that are not listed work, too, but are read anew in each run.",
-        epilog="exit codes: 0 fine, 1 the build failed, 2 bad usage or a type that cannot be used (nothing is written)",
+        description="Adds message and service types to bubblesim's meta/messages.txt and meta/services.txt, and "
+        "rebuilds. Types that are not listed also work, but their definitions are read in each run.",
+        epilog="exit codes: 0 success, 1 the build failed, 2 bad usage or an unusable type (nothing is written)",
     )
     parser.add_argument("types", nargs="+", metavar="PKG/TYPE", help="PKG/srv/TYPE if a message has the same name")
     parser.add_argument("--no-build", action="store_true", help="only write the lists")
@@ -58,12 +60,12 @@ def _parse_arguments(arguments: list[str]) -> argparse.Namespace:
 
 
 def _find_all(texts: Iterable[str], specs: Specs, problems: list[str]) -> dict[str, str]:
-    """Name and kind ("msg" or "srv") of each type."""
+    """Return name and kind ("msg" or "srv") of each type."""
     kinds: dict[str, str] = {}
     for text in texts:
         name = type_name(text)
         if name is None:
-            problems.append(f"'{text}' is no type name, expected package/Type such as geometry_msgs/Twist")
+            problems.append(f"'{text}' is not a type name, expected package/Type such as geometry_msgs/Twist")
             continue
         kind = _kind_of(text, name, specs.index)
         if kind is None:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the words of a .msg file mean."""
+"""Types in .msg files."""
 
 from __future__ import annotations
 
-# Spelling of a type in a .msg file -> its kind, as message_type.hpp and its kind_name() have it. Anything else names
-# another message.
+# Spelling of a type in a .msg file -> its kind, as in message_type.hpp and its kind_name(). Any other name is another
+# message.
 KINDS = {
     "bool": "bool",
     "int8": "int8",
@@ -28,10 +28,10 @@ HEADER = "std_msgs/Header"
 
 
 def is_builtin(base_type: str) -> bool:
-    """Whether a type has a kind of its own, in contrast to the messages made of such types."""
+    """Return whether a type is a builtin type, not a message."""
     return base_type in KINDS
 
 
 def has_header(field_types: list[str]) -> bool:
-    """Whether roscpp and rospy write the sequence number of such a message: a header comes first."""
+    """Return whether roscpp and rospy write the sequence number of such a message: its first field is a header."""
     return bool(field_types) and field_types[0] == HEADER

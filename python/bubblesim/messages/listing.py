@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program messages: shows which types scripts can use, their checksums, and where each was found."""
+"""The program messages: lists the types that scripts can use, their checksums and definition files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bubblesim.messages.specs import SpecError, Specs
 
 
 def main(arguments: list[str]) -> int:
-    """Run the program; returns the exit code."""
+    """Run the program; return the exit code."""
     options = _parse_arguments(arguments)
     kind = "srv" if options.services else "msg"
     specs = Specs(machine_index())
@@ -35,10 +35,10 @@ def main(arguments: list[str]) -> int:
 def _parse_arguments(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="messages",
-        description="Shows the types that scripts can use: name, md5, state and the file that defines each.",
+        description="Lists the types that scripts can use: name, md5, state and the file that defines each.",
         epilog="states: listed (compiled), outdated (listed, but the definition has changed since the build), run-time "
         "(not listed: read from its definition when a script uses it; 'rosrun bubblesim add_message' lists it). "
-        "exit codes: 0 fine, 1 no type matches, 2 bad usage",
+        "exit codes: 0 success, 1 no type matches, 2 bad usage",
     )
     parser.add_argument("pattern", nargs="?", default="", help="part of a name, or a shell pattern such as '*/Pose*'")
     parser.add_argument("--services", action="store_true", help="service types instead of message types")

@@ -11,14 +11,14 @@ from bubblesim.messages.names import split_name, type_name
 
 @dataclass(frozen=True)
 class Entry:
-    """A line of a list that names a type."""
+    """A line of a list that contains a type."""
 
     place: str  # "meta/messages.txt:12"
     name: str  # "geometry_msgs/Twist"
 
 
 def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str]) -> list[Entry]:
-    """The entries of messages.txt or services.txt; malformed lines go to `problems`, repeated ones to `warnings`."""
+    """Return the entries of a list file; add malformed lines to `problems`, duplicates to `warnings`."""
     entries: dict[str, Entry] = {}
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         text = _content(line)
@@ -27,7 +27,7 @@ def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str
         place = f"{shown_as}:{number}"
         name = type_name(text)
         if name is None:
-            problems.append(f"{place}: '{text}' is no type name, expected package/Type such as geometry_msgs/Twist")
+            problems.append(f"{place}: '{text}' is not a type name, expected package/Type such as geometry_msgs/Twist")
         elif name in entries:
             warnings.append(f"{place}: {name} is listed twice, first at {entries[name].place}; the first line counts")
         else:
@@ -36,10 +36,10 @@ def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str
 
 
 def add_to_list(path: Path, name: str) -> str:
-    """Writes a type into messages.txt or services.txt, sorted among those of its package; says what was done."""
+    """Write a type into messages.txt or services.txt, sorted within its package; return a message about the change."""
     lines = path.read_text(encoding="utf-8").splitlines()
     package = split_name(name)[0]
-    place = None  # index that the new line will have
+    place = None  # index of the new line
     for index, line in enumerate(lines):
         listed = type_name(_content(line)) or ""
         if listed == name:

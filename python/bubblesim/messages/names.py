@@ -7,11 +7,11 @@ import difflib
 import re
 
 _NAME = re.compile(r"([a-z][a-z0-9_]*)/(?:(?:msg|srv)/)?([a-z][a-z0-9_]*)", re.IGNORECASE)
-_LIKELY = 0.75  # likeness, at most 1, from which on a name is worth mentioning
+_LIKELY = 0.75  # minimum similarity, at most 1, for a suggestion
 
 
 def type_name(text: str) -> str | None:
-    """`package/Type`, also of `package/msg/Type` and `package/srv/Type`; None when the text is no type name."""
+    """Return `package/Type`, also for `package/msg/Type` and `package/srv/Type`; None for other texts."""
     match = _NAME.fullmatch(text)
     return f"{match[1]}/{match[2]}" if match else None
 
@@ -23,21 +23,21 @@ def split_name(name: str) -> tuple[str, str]:
 
 
 def nearest_names(name: str, known: list[str]) -> list[str]:
-    """At most two known names that a typo may have turned into `name`, best first; its package may be missing."""
+    """Return at most two known names similar to `name`, best first; its package may be missing."""
     package, short = split_name(name)
 
     def likeness(candidate: str) -> float:
         other_package, other_short = split_name(candidate)
         parts = [(short, other_short)] + ([(package, other_package)] if package else [])
         alike = sum(difflib.SequenceMatcher(None, a.lower(), b.lower()).ratio() for a, b in parts) / len(parts)
-        return max(alike, _LIKELY) if other_short == short else alike  # the right type of another package
+        return max(alike, _LIKELY) if other_short == short else alike  # same type name in another package
 
-    # Package and type are compared apart: a long package name alone must not make two types alike.
+    # Package and type are compared separately: a long common package name does not make two types similar.
     ranked = sorted(((likeness(candidate), candidate) for candidate in known), key=lambda pair: (-pair[0], pair[1]))
     best = [pair for pair in ranked if pair[0] >= _LIKELY][:2]
     return [candidate for score, candidate in best if score > best[0][0] - 0.05]
 
 
 def did_you_mean(candidates: list[str]) -> str:
-    """The end of an error text; empty when there are no candidates."""
+    """Return the end of an error message; empty if there are no candidates."""
     return f"; did you mean {' or '.join(candidates)}?" if candidates else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds the definition texts of messages and services: workspace first, then this project, then what is installed."""
+"""Finds definitions of messages and services: in the workspace, this project and installed packages, in this order."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bubblesim.messages.definition_texts import class_definition, header_definit
 
 @dataclass(frozen=True)
 class Definition:
-    """The text of one .msg or .srv and the file that it came from."""
+    """The text of one .msg or .srv file, and the file."""
 
     text: str
     file: Path
@@ -26,21 +26,21 @@ class Definition:
 
 @dataclass
 class PackageIndex:
-    """Which folders hold the packages of each name, those that win first."""
+    """Folders of the packages by name, in order of precedence."""
 
     folders: dict[str, list[Path]] = field(default_factory=dict)
     include_folders: list[Path] = field(default_factory=list)
     python_folders: list[Path] = field(default_factory=list)
-    watched: list[Path] = field(default_factory=list)  # a package added here may shadow another
+    watched: list[Path] = field(default_factory=list)  # a package added here may take precedence over another
 
     def add(self, name: str, folder: Path) -> None:
-        """Adds a package behind those of the same name that are known."""
+        """Add a package after the known ones of the same name."""
         known = self.folders.setdefault(name, [])
         if folder not in known:
             known.append(folder)
 
     def add_source_space(self, folder: Path) -> None:
-        """Adds the packages anywhere below a folder, by the names in their package.xml."""
+        """Add the packages anywhere below a folder, by the names in their package.xml."""
         self.watched.append(folder)
         for relative in sorted(find_package_paths(str(folder), exclude_subspaces=True)):
             name = _package_name(folder / relative / "package.xml")
@@ -48,23 +48,23 @@ class PackageIndex:
                 self.add(name, (folder / relative).resolve())
 
     def add_share(self, folder: Path) -> None:
-        """Adds the packages directly below a folder such as /usr/share; they are called as their folders are."""
+        """Add the packages directly below a folder such as /usr/share, named like their folders."""
         for kind in ("msg", "srv"):
             for definitions in sorted(folder.glob(f"*/{kind}")):
                 self.add(definitions.parent.name, definitions.parent)
 
     def find(self, name: str, kind: str) -> Definition | None:
-        """The definition of `package/Type`; kind is "msg" or "srv"."""
+        """Return the definition of `package/Type`; kind is "msg" or "srv"."""
         package, _, short = name.partition("/")
         for folder in self.folders.get(package, []):
             file = folder / kind / f"{short}.{kind}"
             if file.is_file():
-                # Comments may be in any encoding, and the text takes part in no checksum but as it is.
+                # Comments may have any encoding, and the checksum is computed from the original bytes.
                 return Definition(file.read_text(encoding="utf-8", errors="surrogateescape"), file)
         return self._find_in_generated(package, short, kind)
 
     def names(self, kind: str) -> list[str]:
-        """All names that find() would find among .msg or .srv files (headers left out)."""
+        """Return all names that find() finds in .msg or .srv files (not in headers)."""
         return sorted(
             {
                 f"{package}/{file.stem}"
@@ -75,12 +75,12 @@ class PackageIndex:
         )
 
     def has_package(self, package: str) -> bool:
-        """Whether a package has definitions, be it only in C++ headers."""
+        """Return whether a package has definitions, including C++ headers."""
         found = any((folder / kind).is_dir() for folder in self.folders.get(package, []) for kind in ("msg", "srv"))
         return found or any((folder / package).is_dir() for folder in self.include_folders)
 
     def _find_in_generated(self, package: str, short: str, kind: str) -> Definition | None:
-        """Debian has packages with message headers but without the .msg files, which are in ros-*-msgs."""
+        """Find a definition in generated code: some Debian packages have no .msg files, which are in ros-*-msgs."""
         halves = [short] if kind == "msg" else [f"{short}Request", f"{short}Response"]
         for include in self.include_folders:
             headers = [include / package / f"{half}.h" for half in halves]
@@ -96,7 +96,7 @@ class PackageIndex:
 
 
 def _joined(texts: list[str | None], halves: list[str], file: Path) -> Definition | None:
-    """The definition that has its halves in `texts`, None when one of them is missing."""
+    """Return the definition joined from `texts`, None if one is missing."""
     found = [text for text in texts if text is not None]
     return Definition("---\n".join(found), file) if len(found) == len(halves) else None
 
@@ -104,10 +104,10 @@ def _joined(texts: list[str | None], halves: list[str], file: Path) -> Definitio
 def build_index(
     project: Path | None, build: Path | None, prefixes: Iterable[Path], package_path: Iterable[Path]
 ) -> PackageIndex:
-    """Looks through everything in the order in which it wins.
+    """Search all places in order of precedence.
 
-    project: root of this project, None when only its installation is there; build: its build folder, which may be the
-    only one of the two inside the workspace; prefixes: CMAKE_PREFIX_PATH; package_path: ROS_PACKAGE_PATH.
+    project: root of this project, None for an installation; build: its build folder, possibly the only one of the two
+    inside the workspace; prefixes: CMAKE_PREFIX_PATH; package_path: ROS_PACKAGE_PATH.
     """
     index = PackageIndex(python_folders=[Path(entry) for entry in sys.path if entry])
     workspaces = (find_workspace(start) for start in (project, build) if start)
@@ -129,7 +129,7 @@ def build_index(
 
 
 def machine_index(project: Path | None = None) -> PackageIndex:
-    """What a program finds that runs in the present environment; project: root of other sources than its own."""
+    """Return the index of the current environment; project: root of other sources than these."""
     prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
     package_path = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
     return build_index(
@@ -141,13 +141,13 @@ def machine_index(project: Path | None = None) -> PackageIndex:
 
 
 def project_root() -> Path | None:
-    """The root of this project's sources, None when this is an installation."""
-    root = Path(__file__).absolute().parents[3]  # not resolved: the workspace may have links to the sources
+    """Return the root of this project's sources, None for an installation."""
+    root = Path(__file__).absolute().parents[3]  # not resolved: the workspace may contain links to the sources
     return root if (root / "meta" / "messages.txt").is_file() else None
 
 
 def find_workspace(start: Path) -> Path | None:
-    """The catkin workspace that a folder lies in."""
+    """Return the catkin workspace that contains a folder, or None."""
     for folder in [start, *start.parents]:
         if (folder / ".catkin_tools").exists() or _is_of_catkin_make(folder):
             return folder
@@ -155,7 +155,7 @@ def find_workspace(start: Path) -> Path | None:
 
 
 def _is_of_catkin_make(folder: Path) -> bool:
-    """It marks a workspace only when all is configured; a link to its own CMake file is there before."""
+    """Check for catkin_make: it marks a workspace only after configuration, but links its CMake file before."""
     is_marked = (folder / ".catkin_workspace").exists()
     return is_marked or (folder / "src" / "CMakeLists.txt").resolve().name == "toplevel.cmake"
 
@@ -164,7 +164,7 @@ def _package_name(manifest: Path) -> str | None:
     try:
         return (ElementTree.parse(manifest).findtext("name") or "").strip() or None
     except (OSError, ElementTree.ParseError):
-        return None  # catkin reports a broken package.xml better than we could
+        return None  # catkin reports broken package.xml files
 
 
 def _source_space(workspace: Path) -> Path:
@@ -176,7 +176,7 @@ def _source_space(workspace: Path) -> Path:
 
 
 def _devel_source_spaces(prefix: Path) -> Iterator[Path]:
-    """A devel space names the source folders that it was built from in its .catkin file."""
+    """Yield the source folders of a devel space, listed in its .catkin file."""
     marker = prefix / ".catkin"
     if marker.is_file():
         for entry in marker.read_text(encoding="utf-8").split(";"):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes types that are not listed known to the running process, from their definitions on this machine.
+"""Registers types that are not listed in the running process, from their definitions on this machine.
 
-The compiled module calls add_message() and add_service() when it meets a name that it does not know.
+The compiled module calls add_message() and add_service() for unknown names.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ _added: set[tuple[str, str]] = set()  # kind, name
 
 
 def add_message(name: str) -> None:
-    """Add a message, or half of a service, with all that it contains; MessageError says why that cannot be done."""
+    """Add a message, or half of a service, with its nested types; raise MessageError if that fails."""
     _add(name, "msg")
 
 
 def add_service(name: str) -> None:
-    """Add a service with all that it contains; MessageError says why that cannot be done."""
+    """Add a service with its nested types; raise MessageError if that fails."""
     _add(name, "srv")
 
 
@@ -37,7 +37,7 @@ def _add(given_name: str, kind: str) -> None:
     if name is None:
         hint = did_you_mean(_similar(specs, given_name, kind))
         expected = f"expected package/Type such as geometry_msgs/Twist{hint}"
-        raise _core.MessageError(f"'{given_name}' is no type name, {expected}")
+        raise _core.MessageError(f"'{given_name}' is not a type name, {expected}")
     if kind == "msg" and not specs.index.find(name, "msg") and (service := _service_of_half(specs, name)):
         name, kind = service, "srv"
     if not specs.index.find(name, kind):
@@ -47,10 +47,10 @@ def _add(given_name: str, kind: str) -> None:
     except SpecError as error:
         raise _core.MessageError(str(error)) from error
     with _lock:
-        _hand_over(specs)
+        _register(specs)
         if (kind, name) not in _added:
             _added.add((kind, name))
-            _tell(name, file)
+            _report_unlisted(name, file)
 
 
 def _service_of_half(specs: Specs, name: str) -> str | None:
@@ -62,7 +62,7 @@ def _service_of_half(specs: Specs, name: str) -> str | None:
     return None
 
 
-def _hand_over(specs: Specs) -> None:
+def _register(specs: Specs) -> None:
     messages = [_message_tuple(specs, spec) for spec in specs.messages.values()]
     services = [
         (name, specs.md5(spec), _message_tuple(specs, spec.request), _message_tuple(specs, spec.response))
@@ -74,7 +74,7 @@ def _hand_over(specs: Specs) -> None:
         for service in services:
             _core.messages.add_service(*service)
     except ValueError as error:
-        cure = "its definition has changed since bubblesim was built or started; build it again: catkin build bubblesim"
+        cure = "its definition has changed since bubblesim was built or started; rebuild: catkin build bubblesim"
         raise _core.MessageError(f"{error}: {cure}") from error
 
 
@@ -86,7 +86,7 @@ def _message_tuple(specs: Specs, spec: Any) -> tuple[Any, ...]:
 
 
 def _bytes_of(value: Any) -> Any:
-    """Texts as they are in the file; other values are left alone."""
+    """Return texts as bytes, as in the file; return other values unchanged."""
     return value.encode("utf-8", errors="surrogateescape") if isinstance(value, str) else value
 
 
@@ -94,11 +94,11 @@ def _unknown(specs: Specs, name: str, kind: str) -> str:
     what, other = ("message", "service") if kind == "msg" else ("service", "message")
     if specs.index.find(name, "srv" if kind == "msg" else "msg"):
         return f"{name} is a {other} type, expected a {what} type"
-    unknown = f"{name} is not among the {what} types of this build, and this machine has no definition of it"
+    unknown = f"{name} is not a {what} type of this build, and no definition was found on this machine"
     if hint := did_you_mean(_similar(specs, name, kind)):
-        return unknown + hint  # a cure for a type that there is would only distract
+        return unknown + hint  # with a similar name, how to add the type is not useful
     return (
-        f"{unknown}; to add it, install its package or put it into the workspace, and list it in "
+        f"{unknown}; to add it, install its package or add that to the workspace, and list it in "
         f"meta/{what}s.txt: rosrun bubblesim add_message {name}"
     )
 
@@ -108,7 +108,7 @@ def _similar(specs: Specs, name: str, kind: str) -> list[str]:
     return nearest_names(name, sorted({*listed, *specs.index.names(kind)}))
 
 
-def _tell(name: str, file: Path) -> None:
+def _report_unlisted(name: str, file: Path) -> None:
     print(
         f"info: {name} is not listed; using its definition from {file}. "
         f"List it with: rosrun bubblesim add_message {name}",

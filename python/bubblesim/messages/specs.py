@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the definitions of types with all that they contain, and says what is wrong with them."""
+"""Loads the definitions of types with their nested types, and reports errors in them."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from bubblesim.messages.packages import Definition, PackageIndex
 
 
 class SpecError(Exception):
-    """A type that cannot be used; the text says why and what to do."""
+    """A type that cannot be used; the text states why and what to do."""
 
 
 @dataclass
 class Specs:
-    """genmsg's description of every needed type; loading adds to it."""
+    """genmsg's descriptions of the loaded types."""
 
     index: PackageIndex
     context: Any = field(default_factory=genmsg.MsgContext.create_default)
-    messages: dict[str, Any] = field(default_factory=dict)  # name -> genmsg.MsgSpec, behind all that it contains
+    messages: dict[str, Any] = field(default_factory=dict)  # name -> genmsg.MsgSpec, after its nested types
     services: dict[str, Any] = field(default_factory=dict)  # name -> genmsg.SrvSpec
     files: set[Path] = field(default_factory=set)
 
     def load_list(self, entries: list[Entry], kind: str, problems: list[str]) -> None:
-        """Loads listed messages ("msg") or services ("srv"); what cannot be loaded goes to `problems`."""
+        """Load listed messages ("msg") or services ("srv"); add errors to `problems`."""
         for entry in entries:
             try:
                 self.load(entry.name, kind)
@@ -42,7 +42,7 @@ class Specs:
                 problems.append(f"{entry.place}: {error}")
 
     def load(self, name: str, kind: str) -> Path:
-        """Loads one message ("msg") or service ("srv"), and returns the file that defines it."""
+        """Load one message ("msg") or service ("srv"); return the file that defines it."""
         definition = self.index.find(name, kind)
         if definition is None:
             raise SpecError(self.not_found(name, kind))
@@ -53,25 +53,25 @@ class Specs:
         return definition.file
 
     def md5(self, spec: Any) -> str:
-        """The checksum by which peers know a loaded message or service."""
+        """Return the checksum of a loaded message or service."""
         return str(genmsg.gentools.compute_md5(self.context, spec))
 
     def full_text(self, spec: Any) -> str:
-        """The definition of a loaded message, followed by those of the types that it contains."""
+        """Return the definition of a loaded message, followed by those of its nested types."""
         return str(genmsg.gentools.compute_full_text(self.context, spec))
 
     def not_found(self, name: str, kind: str) -> str:
-        """Why there is no such type, and what may have been meant."""
+        """Return the error for an unknown type, with similar names."""
         what = "message" if kind == "msg" else "service"
         package, short = split_name(name)
         if self.index.find(name, "srv" if kind == "msg" else "msg"):
             place = "meta/services.txt" if kind == "msg" else "meta/messages.txt"
-            return f"{name} is a {'service' if kind == 'msg' else 'message'}: it belongs into {place}"
+            return f"{name} is a {'service' if kind == 'msg' else 'message'}: list it in {place}"
         hint = did_you_mean(nearest_names(name, self.index.names(kind)))
         if self.index.has_package(package):
             return f"{package} has no {what} {short}{hint}"
-        cure = hint or f"; install ros-{package.replace('_', '-')} or put the package into the workspace"
-        return f"there is no package {package}{cure}"
+        cure = hint or f"; install ros-{package.replace('_', '-')} or add the package to the workspace"
+        return f"package {package} is not found{cure}"
 
     def _load_message(self, name: str, definition: Definition, inside: tuple[str, ...]) -> None:
         spec = _parse(genmsg.msg_loader.load_msg_from_string, self.context, definition, name)
@@ -103,10 +103,10 @@ class Specs:
         place = _place(definition, _line_of_type(definition.text, name))
         package, short = split_name(name)
         near = nearest_names(name, self.index.names("msg"))
-        if package == split_name(inside[-1])[0]:  # may be written without its package, as builtin types are
+        if package == split_name(inside[-1])[0]:  # could be a misspelt builtin type
             near = difflib.get_close_matches(short.lower(), KINDS, n=1) or near
-        cure = did_you_mean(near) or "; install its package or put it into the workspace"
-        return f"{name}, which {' > '.join(inside)} contains ({place}), is not found{cure}"
+        cure = did_you_mean(near) or "; install its package or add it to the workspace"
+        return f"{name}, used in {' > '.join(inside)} ({place}), is not found{cure}"
 
 
 def _parse(load: Callable[..., Any], context: Any, definition: Definition, name: str) -> Any:
@@ -119,12 +119,12 @@ def _parse(load: Callable[..., Any], context: Any, definition: Definition, name:
 
 
 def _bad_lines(text: str, name: str) -> list[tuple[int, str]]:
-    """Numbers of the lines that cannot be used, and why: genmsg stops at the first and does not tell its number."""
+    """Return numbers and errors of all invalid lines: genmsg stops at the first and does not report its number."""
     problems: list[tuple[int, str]] = []
     good_lines: list[str] = []
     for number, line in enumerate(text.split("\n"), start=1):
         if line.startswith("---"):
-            good_lines.clear()  # the response of a service may have the same fields as its request
+            good_lines.clear()  # request and response of a service may have fields of the same name
             continue
         try:
             genmsg.msg_loader.load_msg_from_string(genmsg.MsgContext(), "\n".join([*good_lines, line]), name)
@@ -136,7 +136,7 @@ def _bad_lines(text: str, name: str) -> list[tuple[int, str]]:
 
 
 def _line_of_type(text: str, name: str) -> int:
-    """Number of the line that has a field of a message type; 0 when there is none."""
+    """Return the number of the line that has a field of a message type; 0 if there is none."""
     for number, line in enumerate(text.split("\n"), start=1):
         spelling = line.partition("#")[0].strip().partition(" ")[0].partition("[")[0]
         if spelling and spelling in (name, split_name(name)[1]):
@@ -145,6 +145,6 @@ def _line_of_type(text: str, name: str) -> int:
 
 
 def _place(definition: Definition, number: int) -> str:
-    """A line of a definition's file; generated files have other lines than the definition."""
+    """Return file:line of a definition; only the file for generated files, whose lines differ."""
     is_source = definition.file.suffix in (".msg", ".srv")
     return f"{definition.file}:{number}" if number and is_source else str(definition.file)

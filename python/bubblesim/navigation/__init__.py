@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps of the plane and driving on them: pure logic, which the nodes in scripts connect to topics."""
+"""Maps of the plane and navigation without ROS; the nodes in scripts/ connect them to topics."""

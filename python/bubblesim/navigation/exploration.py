@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where to look next: the frontiers between what is free and what is unknown (Yamauchi 1997)."""
+"""Exploration: the frontiers between free and unknown cells (Yamauchi 1997)."""
 
 import math
 from dataclasses import dataclass, field
@@ -12,20 +12,20 @@ from bubblesim.navigation.grid_map import UNKNOWN, GridMap
 from bubblesim.navigation.path_planning import Footprint, passable
 from bubblesim.navigation.planar import Point
 
-SAME = 0.3  # m: viewpoints that are closer to each other count as one
+SAME = 0.3  # m: viewpoints closer to each other than this are the same
 
 
 @dataclass(frozen=True)
 class Frontier:
-    """A line of free cells beside unknown ones."""
+    """A connected line of free cells next to unknown ones."""
 
     length: float  # m
-    viewpoint: Point  # the place nearest to its middle where the robot can be
-    distance: float  # m from the robot to there, as the crow flies
+    viewpoint: Point  # the reachable place nearest to its middle
+    distance: float  # m, straight line from the robot
 
 
 def frontiers(grid: GridMap, place: Point, footprint: Footprint, shortest: float) -> list[Frontier]:
-    """Frontiers of at least a length that the robot can come to from its place, the nearest first."""
+    """Return the reachable frontiers of at least the length ``shortest``, the nearest first."""
     reachable = _reachable(grid, place, footprint)
     if not reachable.any():
         return []
@@ -48,7 +48,7 @@ def frontiers(grid: GridMap, place: Point, footprint: Footprint, shortest: float
 
 
 def _reachable(grid: GridMap, place: Point, footprint: Footprint) -> npt.NDArray[np.bool_]:
-    """Cells that hang together with the passable one nearest to the robot."""
+    """Return the cells connected to the passable cell nearest to the robot."""
     open_cells = passable(grid, footprint)
     if not open_cells.any():
         return open_cells
@@ -61,24 +61,24 @@ def _reachable(grid: GridMap, place: Point, footprint: Footprint) -> npt.NDArray
 
 @dataclass
 class Explorer:
-    """Chooses one viewpoint after the other, until there is nothing left to see."""
+    """Chooses viewpoints until no frontier is left."""
 
     footprint: Footprint
-    shortest: float = 0.2  # m of a frontier that is worth going to
+    shortest: float = 0.2  # m, minimum length of a frontier
     goal: Point | None = None  # where to drive
-    in_vain: list[Point] = field(default_factory=list)  # where nothing more was seen
+    rejected: list[Point] = field(default_factory=list)  # viewpoints without new information
 
     def update(self, grid: GridMap, place: Point) -> bool:
-        """Looks for a goal when there is none, or its frontier is known by now. Returns whether the goal is another."""
+        """Choose a goal if there is none, or if its frontier is known. Return whether the goal has changed."""
         before = self.goal
         seen = [frontier.viewpoint for frontier in frontiers(grid, place, self.footprint, self.shortest)]
         if before is None or all(math.dist(point, before) > SAME for point in seen):
-            left = [point for point in seen if all(math.dist(point, other) > SAME for other in self.in_vain)]
+            left = [point for point in seen if all(math.dist(point, other) > SAME for other in self.rejected)]
             self.goal = left[0] if left else None
         return self.goal != before
 
-    def leave(self) -> None:
-        """The robot is at the goal, or cannot come there: what is still unknown from there stays so."""
+    def discard_goal(self) -> None:
+        """Discard the goal: it is reached or unreachable. A frontier that is still unknown is not tried again."""
         if self.goal is not None:
-            self.in_vain.append(self.goal)
+            self.rejected.append(self.goal)
         self.goal = None

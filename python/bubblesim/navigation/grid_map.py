@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map of the plane as a grid of cells, as nav_msgs/OccupancyGrid has it."""
+"""A map of the plane as a grid of cells, like nav_msgs/OccupancyGrid."""
 
 import math
 from dataclasses import dataclass, replace
@@ -11,17 +11,17 @@ import numpy.typing as npt
 
 from bubblesim.navigation.planar import Point, heading_of
 
-OCCUPIED = 65  # per cent from which a cell counts as a wall, as map_server has it
-FREE = 25  # per cent up to which a cell counts as free
+OCCUPIED = 65  # per cent, minimum of an occupied cell, as in map_server
+FREE = 25  # per cent, maximum of a free cell
 UNKNOWN = -1
 
 Cell = tuple[int, int]
-"""Row and column; row 0 is that at the map's origin."""
+"""Row and column; row 0 is at the map's origin."""
 
 
 @dataclass(frozen=True)
 class GridMap:
-    """Cells hold per cent of occupancy, -1 where nothing is known. Lengths in m, angles in rad."""
+    """Cells hold the occupancy in per cent, -1 if unknown. Lengths in m, angles in rad."""
 
     cells: npt.NDArray[np.int8]  # rows x columns
     resolution: float  # of a cell
@@ -29,7 +29,7 @@ class GridMap:
 
     @classmethod
     def from_message(cls, message: Any) -> "GridMap":
-        """Of a nav_msgs/OccupancyGrid."""
+        """Convert a nav_msgs/OccupancyGrid."""
         info = message.info
         cells = np.asarray(message.data, dtype=np.int8)
         origin = (info.origin.position.x, info.origin.position.y, heading_of(info.origin.orientation))
@@ -37,16 +37,16 @@ class GridMap:
 
     @property
     def occupied(self) -> npt.NDArray[np.bool_]:
-        """Where there are walls."""
+        """Return a mask of the occupied cells."""
         return self.cells >= OCCUPIED
 
     @property
     def free(self) -> npt.NDArray[np.bool_]:
-        """Where there is surely nothing."""
+        """Return a mask of the free cells."""
         return (self.cells >= 0) & (self.cells <= FREE)
 
     def cell_of(self, point: Point) -> Cell:
-        """The cell that a point lies in, which may be outside of the map."""
+        """Return the cell of a point, which may be outside of the map."""
         x, y, heading = self.origin
         dx, dy = point[0] - x, point[1] - y
         cosine, sine = math.cos(heading), math.sin(heading)
@@ -55,19 +55,19 @@ class GridMap:
         return math.floor(row), math.floor(column)
 
     def centre_of(self, cell: Cell) -> Point:
-        """The middle of a cell."""
+        """Return the centre of a cell."""
         x, y, heading = self.origin
         along, up = (cell[1] + 0.5) * self.resolution, (cell[0] + 0.5) * self.resolution
         cosine, sine = math.cos(heading), math.sin(heading)
         return x + cosine * along - sine * up, y + sine * along + cosine * up
 
     def has(self, cell: Cell) -> bool:
-        """Whether a cell is one of the map's."""
+        """Return whether a cell is on the map."""
         rows, columns = self.cells.shape
         return 0 <= cell[0] < rows and 0 <= cell[1] < columns
 
     def clearance(self) -> npt.NDArray[np.float32]:
-        """For each cell, how far it is to the nearest wall."""
+        """Return for each cell the distance to the nearest occupied cell."""
         if not self.occupied.any():
             return np.full(self.cells.shape, np.inf, dtype=np.float32)
         open_space = np.where(self.occupied, 0, 255).astype(np.uint8)
@@ -75,7 +75,7 @@ class GridMap:
         return distances * np.float32(self.resolution)
 
     def with_obstacles(self, points: list[Point]) -> "GridMap":
-        """The same with walls where something has been met."""
+        """Return a copy with occupied cells at the points."""
         cells = self.cells.copy()
         for cell in map(self.cell_of, points):
             if self.has(cell):

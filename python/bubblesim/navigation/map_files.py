@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads maps as ROS's map_server does: a yaml file beside a picture."""
+"""Reads maps in the format of ROS's map_server: a yaml file and an image."""
 
 import math
 from pathlib import Path
@@ -17,23 +17,23 @@ REQUIRED = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "
 
 
 class MapFileError(ValueError):
-    """A map that cannot be read: which file, and why."""
+    """A map cannot be read; the text states the file and the reason."""
 
 
 def read_map(file: Path) -> GridMap:
-    """The map that a yaml file describes. Raises MapFileError."""
+    """Read the map described by a yaml file. Raise MapFileError on failure."""
     try:
         description = yaml.safe_load(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise MapFileError(f"{file}: {error}") from error
     if not isinstance(description, dict):
-        raise MapFileError(f"{file}: is no list of names and values")
+        raise MapFileError(f"{file}: must be a mapping of names to values")
     missing = [name for name in REQUIRED if name not in description]
     if missing:
-        raise MapFileError(f"{file}: lacks {', '.join(missing)}")
+        raise MapFileError(f"{file}: missing: {', '.join(missing)}")
     mode = description.get("mode", "trinary")
     if mode not in MODES:
-        raise MapFileError(f"{file}: mode is {mode!r}, which is none of {', '.join(MODES)}")
+        raise MapFileError(f"{file}: mode is {mode!r}, expected one of {', '.join(MODES)}")
     try:
         resolution, occupied, free, x, y, heading = map(
             float,
@@ -46,11 +46,11 @@ def read_map(file: Path) -> GridMap:
         )
         negate = bool(int(description["negate"]))
     except (TypeError, ValueError) as error:
-        raise MapFileError(f"{file}: {error}; origin is [x, y, yaw], the others are numbers") from error
+        raise MapFileError(f"{file}: {error}; origin must be [x, y, yaw], the others numbers") from error
     if not (math.isfinite(resolution) and resolution > 0 and all(map(math.isfinite, (x, y, heading)))):
-        raise MapFileError(f"{file}: resolution must be above 0, and origin finite")
+        raise MapFileError(f"{file}: resolution must be greater than 0, and origin finite")
     if mode != "raw" and not 0 <= free < occupied <= 1:
-        raise MapFileError(f"{file}: free_thresh must be below occupied_thresh, both from 0 to 1")
+        raise MapFileError(f"{file}: free_thresh must be less than occupied_thresh, both from 0 to 1")
     shades, seen = _picture(file, file.parent / str(description["image"]))
     if negate:
         shades = 255 - shades
@@ -59,12 +59,12 @@ def read_map(file: Path) -> GridMap:
 
 
 def _picture(file: Path, image: Path) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
-    """Shades from 0 to 255, and where the picture is not transparent."""
+    """Return the grey values from 0 to 255, and a mask of the pixels that are not transparent."""
     pixels: Any = cv2.imread(str(image), cv2.IMREAD_UNCHANGED)
     if pixels is None:
-        raise MapFileError(f"{file}: its picture {image} cannot be read")
+        raise MapFileError(f"{file}: cannot read image {image}")
     if pixels.dtype != np.uint8:
-        raise MapFileError(f"{file}: its picture {image} has not 8 bits a channel")
+        raise MapFileError(f"{file}: image {image} must have 8 bits per channel")
     channels = pixels.reshape(*pixels.shape[:2], -1)
     has_alpha = channels.shape[2] in (2, 4)
     seen = channels[:, :, -1] > 0 if has_alpha else np.ones(channels.shape[:2], dtype=bool)
@@ -73,7 +73,7 @@ def _picture(file: Path, image: Path) -> tuple[npt.NDArray[np.float64], npt.NDAr
 
 
 def _raw(shades: npt.NDArray[np.float64]) -> npt.NDArray[np.int8]:
-    """Shades are per cent; what is none is unknown."""
+    """Interpret grey values as per cent; others are unknown."""
     return np.where(shades <= 100, shades, -1).astype(np.int8)
 
 

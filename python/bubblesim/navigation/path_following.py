@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Driving along a path by pure pursuit (Coulter 1992, CMU-RI-TR-92-01), and stopping before what is in the way."""
+"""Path following by pure pursuit (Coulter 1992, CMU-RI-TR-92-01), and stopping for obstacles."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -14,29 +14,29 @@ ALIGNED = 0.1  # rad
 
 @dataclass(frozen=True)
 class Driver:
-    """How a robot drives. Lengths in m."""
+    """Driving parameters of a robot. Lengths in m."""
 
     max_speed: float = 0.4  # m/s
     max_turn: float = 0.8  # rad/s
-    acceleration: float = 0.4  # m/s2, by which it slows down before the end
-    lookahead: float = 0.4  # along the path, to the point that it steers for
-    turning_radius: float = 0.0  # the smallest; 0 for a robot that turns on the spot
+    acceleration: float = 0.4  # m/s2, for slowing down before the end
+    lookahead: float = 0.4  # along the path, distance to the target point
+    turning_radius: float = 0.0  # minimum; 0 for a robot that turns on the spot
     radius: float = 0.3  # of the robot
-    tolerance: float = 0.1  # to the goal, within which it has arrived
+    tolerance: float = 0.1  # distance at which the goal is reached
 
 
 def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | None:
-    """What to drive at to stay on the path, None when the robot is at its end."""
-    left_over = math.dist((pose.x, pose.y), path[-1])
-    if left_over <= driver.tolerance:
+    """Return the velocity to follow the path, None at its end."""
+    remaining = math.dist((pose.x, pose.y), path[-1])
+    if remaining <= driver.tolerance:
         return None
     forward, left = seen_from(pose, _target(path, pose, driver.lookahead))
     angle = math.atan2(left, forward)
-    speed = min(driver.max_speed, math.sqrt(2 * driver.acceleration * left_over))
+    speed = min(driver.max_speed, math.sqrt(2 * driver.acceleration * remaining))
     if driver.turning_radius == 0.0 and abs(angle) > math.pi / 4:
         return _turn(angle, driver)
     curvature = 2 * left / (forward**2 + left**2)
-    if forward < 0.0:  # behind: as tight a curve as it can
+    if forward < 0.0:  # behind: use the tightest curve
         curvature = math.copysign(1 / driver.turning_radius, left)
     elif driver.turning_radius > 0.0:
         curvature = math.copysign(min(abs(curvature), 1 / driver.turning_radius), curvature)
@@ -45,13 +45,13 @@ def follow(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity | No
 
 
 def face(path: Sequence[Point], pose: Pose2D, driver: Driver) -> Velocity:
-    """A turn on the spot towards the path, which makes room beside; STANDING when it looks there, or cannot turn so."""
+    """Return a turn on the spot towards the path; STANDING if aligned, or if the robot cannot turn on the spot."""
     forward, left = seen_from(pose, _target(path, pose, driver.lookahead))
     return turn(math.atan2(left, forward), driver)
 
 
 def turn(angle: float, driver: Driver) -> Velocity:
-    """A turn on the spot by an angle; STANDING when that is small, or the robot cannot turn so."""
+    """Return a turn on the spot by an angle; STANDING if it is small, or if the robot cannot turn on the spot."""
     return STANDING if driver.turning_radius > 0.0 or abs(angle) < ALIGNED else _turn(angle, driver)
 
 
@@ -60,7 +60,7 @@ def _turn(angle: float, driver: Driver) -> Velocity:
 
 
 def _target(path: Sequence[Point], pose: Pose2D, lookahead: float) -> Point:
-    """The point of the path that is `lookahead` further than the one nearest to the robot."""
+    """Return the point of the path that is `lookahead` beyond the one nearest to the robot."""
     here = (pose.x, pose.y)
     nearest = min(range(len(path)), key=lambda index: math.dist(path[index], here))
     for index in range(nearest, len(path)):
@@ -70,7 +70,7 @@ def _target(path: Sequence[Point], pose: Pose2D, lookahead: float) -> Point:
 
 
 def is_blocked(command: Velocity, obstacles: Iterable[Point], driver: Driver) -> bool:
-    """Whether something, as the robot sees it, is in the way of one that drives on so until it could stop."""
+    """Return whether an obstacle, in the robot's frame, is in the way within the braking distance of a command."""
     if command.linear <= 0.0:
         return False
     reach = driver.radius + 0.1 + command.linear**2 / (2 * driver.acceleration)

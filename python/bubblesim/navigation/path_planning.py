@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The shortest way through a map for a round robot, by A* (Hart, Nilsson, Raphael 1968) on the map's cells."""
+"""Shortest path through a map for a round robot, by A* (Hart, Nilsson, Raphael 1968) on the map's cells."""
 
 import heapq
 import math
@@ -15,49 +15,49 @@ STEPS = [(dr, dc, math.hypot(dr, dc)) for dr in (-1, 0, 1) for dc in (-1, 0, 1) 
 
 
 class NoPathError(Exception):
-    """There is no way to a goal: why."""
+    """There is no path to a goal; the text states why."""
 
 
 @dataclass(frozen=True)
 class Footprint:
-    """How much room a robot takes, m."""
+    """Space needed by a robot, m."""
 
-    radius: float  # closer than this to a wall it never goes
-    comfort: float  # within this of a wall each step costs more, up to thrice
+    radius: float  # minimum distance to walls
+    comfort: float  # distance to walls below which a step costs more, up to three times
 
 
 def passable(grid: GridMap, footprint: Footprint) -> npt.NDArray[np.bool_]:
-    """Cells where the robot's middle may be."""
+    """Return the cells where the robot's centre can be."""
     return grid.free & (grid.clearance() > footprint.radius)
 
 
 def is_clear(grid: GridMap, path: list[Point], footprint: Footprint) -> bool:
-    """Whether a robot can be at all points of a path."""
+    """Return whether a robot can be at all points of a path."""
     may_pass = passable(grid, footprint)
     return all(grid.has(cell) and may_pass[cell] for cell in map(grid.cell_of, path))
 
 
 def plan(grid: GridMap, start: Point, goal: Point, footprint: Footprint) -> list[Point]:
-    """Points of the cheapest path, first and last included. Raises NoPathError.
+    """Return the points of the cheapest path, including start and goal. Raise NoPathError if there is none.
 
-    A robot that stands closer to a wall than it should may still leave: cells about the start that are not walls are
-    passable, too.
+    A robot that is too close to a wall can leave: if its cell is not passable, all cells around it without walls are
+    treated as passable.
     """
     first, last = grid.cell_of(start), grid.cell_of(goal)
     clearance = grid.clearance()
     may_pass = grid.free & (clearance > footprint.radius)
     for cell, what in ((first, "the robot"), (last, "the goal")):
         if not grid.has(cell):
-            raise NoPathError(f"{what} is outside of the map")
+            raise NoPathError(f"{what} is outside the map")
     if not may_pass[last]:
-        raise NoPathError("the goal is not free, or too close to a wall")
-    _let_leave(may_pass, grid, first, footprint.radius)
+        raise NoPathError("the goal is not on a free cell, or too close to a wall")
+    _free_start(may_pass, grid, first, footprint.radius)
     closeness = np.clip((footprint.comfort - clearance) / max(footprint.comfort - footprint.radius, 1e-6), 0.0, 1.0)
     cells = _search(may_pass, 1.0 + 2.0 * closeness, first, last)
     return [start, *(grid.centre_of(cell) for cell in cells[1:-1]), goal]
 
 
-def _let_leave(may_pass: npt.NDArray[np.bool_], grid: GridMap, first: Cell, radius: float) -> None:
+def _free_start(may_pass: npt.NDArray[np.bool_], grid: GridMap, first: Cell, radius: float) -> None:
     reach = math.ceil(2 * radius / grid.resolution)
     rows = slice(max(first[0] - reach, 0), first[0] + reach + 1)
     columns = slice(max(first[1] - reach, 0), first[1] + reach + 1)
@@ -67,7 +67,7 @@ def _let_leave(may_pass: npt.NDArray[np.bool_], grid: GridMap, first: Cell, radi
 
 
 def _search(may_pass: npt.NDArray[np.bool_], cost: npt.NDArray[np.float64], first: Cell, last: Cell) -> list[Cell]:
-    passable_rows, costs = np.pad(may_pass, 1).tolist(), np.pad(cost, 1).tolist()  # lists: faster cell by cell
+    passable_rows, costs = np.pad(may_pass, 1).tolist(), np.pad(cost, 1).tolist()  # lists: faster element access
     start, goal = (first[0] + 1, first[1] + 1), (last[0] + 1, last[1] + 1)  # in the padded map
     best = {start: 0.0}
     came_from: dict[Cell, Cell] = {}
@@ -94,4 +94,4 @@ def _search(may_pass: npt.NDArray[np.bool_], cost: npt.NDArray[np.float64], firs
                 best[beside] = reached
                 came_from[beside] = cell
                 heapq.heappush(queue, (reached + math.dist(beside, goal), beside))
-    raise NoPathError("walls, or what is not known yet, lie between the robot and the goal")
+    raise NoPathError("walls or unknown cells separate the robot from the goal")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points and poses in the plane, also those that ROS's messages hold: transforms and scans."""
+"""Points and poses in the plane, and their conversion from ROS messages: transforms and scans."""
 
 import math
 from typing import Any
@@ -14,30 +14,30 @@ Point = tuple[float, float]
 
 
 def seen_from(pose: Pose2D, point: Point) -> Point:
-    """A point as the robot sees it: forward, left."""
+    """Transform a point into the robot's frame: forward, left."""
     dx, dy = point[0] - pose.x, point[1] - pose.y
     cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
     return cosine * dx + sine * dy, cosine * dy - sine * dx
 
 
 def placed(pose: Pose2D, seen: Point) -> Point:
-    """Where a point is that a robot sees: the inverse of seen_from."""
+    """Transform a point from the robot's frame: the inverse of seen_from."""
     cosine, sine = math.cos(pose.heading), math.sin(pose.heading)
     return pose.x + cosine * seen[0] - sine * seen[1], pose.y + sine * seen[0] + cosine * seen[1]
 
 
 def heading_of(rotation: Any) -> float:
-    """rad about z, of a geometry_msgs/Quaternion."""
+    """Return the rotation about z, rad, of a geometry_msgs/Quaternion."""
     return rotations.heading_of(rotation.x, rotation.y, rotation.z, rotation.w)
 
 
 def pose_of(transform: Any) -> Pose2D:
-    """The plane's part of a geometry_msgs/Transform."""
+    """Return the planar part of a geometry_msgs/Transform."""
     return Pose2D(transform.translation.x, transform.translation.y, heading_of(transform.rotation))
 
 
 def hits(scan: Any, lidar: Pose2D) -> list[Point]:
-    """What a sensor_msgs/LaserScan has met, by a lidar that is so placed."""
+    """Return the points hit in a sensor_msgs/LaserScan; ``lidar`` is the lidar's pose in the target frame."""
     ranges = np.asarray(scan.ranges)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)) + lidar.heading
     met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)

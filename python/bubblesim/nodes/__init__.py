@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the nodes in scripts share. Needs rospy."""
+"""Common code of the nodes in scripts/. Needs rospy."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The life of a rospy node."""
+"""Running a rospy node."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from bubblesim.program import BY_CTRL_C, run_program
 
 Node = TypeVar("Node")
 
-_GRACE = 5.0  # s, that rospy's shutdown may take after a signal
+_GRACE = 5.0  # s allowed for rospy's shutdown after a signal
 
 
 def run_node(
     name: str, description: str | None, make: Callable[[], Node], run: Callable[[Node], object] = lambda _: rospy.spin()
 ) -> int:
-    """Makes a node and runs it until it is told to stop; its exit code: 2 for parameters that cannot be used.
+    """Create a node and run it until shutdown; return its exit code: 2 for invalid parameters.
 
-    :param make: reads the parameters and connects the topics; what it raises about a value is told as one of them.
+    :param make: reads the parameters and connects the topics; a ValueError is reported as an invalid parameter.
     """
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.parse_args(rospy.myargv(sys.argv)[1:])
@@ -42,7 +42,7 @@ def run_node(
 
 
 def run_ros_program(main: Callable[[], int]) -> int:
-    """Run the program of a node; its exit code. Ctrl-C shows no traceback, also while it waits for a master."""
+    """Run the program of a node; return its exit code. Ctrl-C shows no traceback, also while waiting for a master."""
     _bound_the_shutdown()
     report = threading.excepthook
 
@@ -55,7 +55,7 @@ def run_ros_program(main: Callable[[], int]) -> int:
     def run() -> int:
         try:
             return main()
-        except rospy.ROSException:  # what waits in rospy ends by one
+        except rospy.ROSException:  # raised in rospy's waiting functions at shutdown
             if rospy.is_shutdown():
                 return 0
             raise
@@ -64,10 +64,10 @@ def run_ros_program(main: Callable[[], int]) -> int:
 
 
 def _bound_the_shutdown() -> None:
-    """End the process some seconds after SIGINT or SIGTERM at the latest.
+    """Limit the time to end after SIGINT or SIGTERM.
 
-    rospy's handler of signals calls the master through a proxy whose lock is not reentrant, so a signal that comes
-    during another call of the master blocks it for ever. The wake-up descriptor is written before handlers run.
+    rospy's signal handler calls the master through a proxy whose lock is not reentrant, so a signal during another call
+    of the master blocks it forever. The wake-up descriptor is written before handlers run.
     """
     reader, writer = socket.socketpair()
     writer.setblocking(False)

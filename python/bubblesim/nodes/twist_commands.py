@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Velocities for a robot, on the topic cmd_vel."""
+"""Velocity commands on the topic cmd_vel."""
 
 import threading
 import time
@@ -11,30 +11,30 @@ from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
 
 
 class TwistCommands:
-    """Publishes velocities, and a last one to stand still when the node ends.
+    """Publishes velocities, and a final zero velocity when the node ends.
 
     Parameters of the node: ~stamped (TwistStamped instead of Twist), ~frame_id.
     """
 
     def __init__(self) -> None:
-        """Connects the topic; the node must be initialised."""
+        """Advertise the topic; the node must be initialised."""
         self._stamped = bool(rospy.get_param("~stamped", False))
         self._frame_id = str(rospy.get_param("~frame_id", ""))
         self._publisher = rospy.Publisher("cmd_vel", TwistStamped if self._stamped else Twist, queue_size=1)
-        self._lock = threading.Lock()  # the end comes on another thread
+        self._lock = threading.Lock()  # _end runs on another thread
         self._ended = False
         self._standing = True
         rospy.on_shutdown(self._end)
 
     def publish(self, velocity: Velocity) -> None:
-        """Send one command."""
+        """Publish one command."""
         with self._lock:
             self._standing = velocity == STANDING
             if not self._ended:
                 self._send(velocity)
 
     def follow(self, velocity: Velocity) -> None:
-        """Send a command, but to stand still only once: others may drive while this one does not."""
+        """Publish a command, but zero velocity only once, so that other nodes can drive while this one is idle."""
         if velocity != STANDING or not self._standing:
             self.publish(velocity)
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What looks on while a simulation runs: recording, lockstep."""
+"""Observers of a running simulation: recording, lockstep."""

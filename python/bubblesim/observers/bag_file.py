@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bag that stays readable when there is no room for more of it."""
+"""A bag that stays readable when the disk is full."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import rosbag
 
 
 class _WholeWrites(io.FileIO):
-    """Writes all that it is given, or fails and keeps nothing back to be written later."""
+    """Writes all data at once, or fails without buffering the rest."""
 
     def write(self, data: bytes | bytearray | memoryview) -> int:  # type: ignore[override]
-        """Write all of it; OSError when that cannot be done."""
+        """Write all data; raise OSError on failure."""
         left = memoryview(data)
         while left:
             left = left[super().write(left) :]
@@ -21,24 +21,24 @@ class _WholeWrites(io.FileIO):
 
 
 class BagFile(rosbag.Bag):  # type: ignore[misc]
-    """A bag to write. Messages come in chunks of 768 KiB; after an error, those of the chunks before can be kept."""
+    """A bag opened for writing. It is written in chunks of 768 KiB; after an error, complete chunks can be kept."""
 
     def __init__(self, file: Path) -> None:
-        """Open it, in the place of one of before; OSError when that cannot be done."""
+        """Open it, replacing an existing file; raise OSError on failure."""
         self._chunk_open = False
         super().__init__(_WholeWrites(file, "w+"), "w")
 
     def close_at_last_chunk(self) -> bool:
-        """After an error: leave out the chunk that is not finished, write the index, and close.
+        """After an error: drop the incomplete chunk, write the index, and close.
 
-        Where the index does not fit, chunks before are left out, too. Whether the bag can be read.
+        If there is no space for the index, earlier chunks are dropped, too. Return whether the bag is readable.
         """
         finished = bool(self._chunks) and self._chunks[-1] is self._curr_chunk_info
         if finished and not self._chunk_open:
-            end = self._index_data_pos  # the error came while the index was written
+            end = self._index_data_pos  # the error occurred while writing the index
         else:
             end = self._curr_chunk_info.pos
-            if finished:  # it came while the chunk was ended
+            if finished:  # the error occurred while closing the chunk
                 self._chunks.pop()
         self._chunk_open = False
         self._curr_chunk_connection_indexes.clear()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes what scripts publish and hear into a bag."""
+"""Records the messages of scripts to a bag."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CLOCK = "rosgraph_msgs/Clock"
 
 @dataclass(frozen=True)
 class _Definition:
-    """What rosbag asks of a message's class."""
+    """The attributes of a message class that rosbag reads."""
 
     _md5sum: str
     _full_text: str
@@ -30,79 +30,79 @@ class _Definition:
 class BagRecorder:
     """An observer of a bridge.
 
-    All messages of a step bear its time, those that came first, by topic: so that equal runs give equal bags, although
-    connections are differently quick.
+    All messages of a step are stamped with its time. Received messages are written first, sorted by topic. So equal
+    runs write equal bags, independent of the delays of connections.
     """
 
     def __init__(self, file: Path, bridge: Any) -> None:
-        """Open the bag, which takes the place of one of before.
+        """Open the bag, replacing an existing file.
 
-        :raises OSError: when that cannot be done.
+        :raises OSError: if that fails.
         """
         self._bag: BagFile | None = BagFile(file)
         self._file = file
         self._bridge = bridge
         self._definitions: dict[str, _Definition] = {}
-        self._heard: list[tuple[str, str, bytes]] = []
+        self._received: list[tuple[str, str, bytes]] = []
         self._published: list[tuple[str, str, bytes, genpy.Time]] = []
 
     def advertised(self, publisher: int) -> None:
-        """Nothing to write."""
+        """Do nothing."""
 
     def subscribed(self, topic: str, subscriber: int) -> None:
-        """Nothing to write."""
+        """Do nothing."""
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
-        """Keep it until the step is over."""
+        """Store the message until the end of the step."""
         if self._bag is None:
             return
         self._published.append((topic, message_type, _core.messages.encode(message_type, message), self._now()))
 
-    def heard(self, topic: str, message_type: str, message: Any) -> None:
-        """Keep it until the step is over."""
+    def received(self, topic: str, message_type: str, message: Any) -> None:
+        """Store the message until the end of the step."""
         if self._bag is not None:
-            self._heard.append((topic, message_type, _core.messages.encode(message_type, message)))
+            self._received.append((topic, message_type, _core.messages.encode(message_type, message)))
 
     def input_processed(self) -> None:
-        """Nothing to write."""
+        """Do nothing."""
 
-    def pass_done(self) -> None:
-        """Write all of the step, and the time that it had."""
+    def step_done(self) -> None:
+        """Write the messages of the step, and its time."""
         if self._bag is not None:
-            with self._ending_at_an_error():
-                self._write_pass(self._bag)
-        self._heard.clear()
+            with self._stopped_on_error():
+                self._write_step(self._bag)
+        self._received.clear()
         self._published.clear()
 
     @contextlib.contextmanager
-    def _ending_at_an_error(self) -> Iterator[None]:
-        """The simulation goes on without a bag when there is no room for it."""
+    def _stopped_on_error(self) -> Iterator[None]:
+        """Continue without a bag if writing fails."""
         try:
             yield
         except OSError as error:
             bag, self._bag = self._bag, None
             kept = bag is not None and bag.close_at_last_chunk()
-            state = "what was written before can be read" if kept else "it cannot be read"
-            write_line(sys.stderr, f"error: the recording ends: {self._file}: {error.strerror}; {state}")
+            state = "the file contains the messages before" if kept else "the file is not readable"
+            write_line(sys.stderr, f"error: recording stopped: {self._file}: {error.strerror}; {state}")
 
-    def _write_pass(self, bag: BagFile) -> None:
+    def _write_step(self, bag: BagFile) -> None:
         sec, nanosec = self._bridge.now()
         clock = _core.messages.encode(_CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
-        self._heard.sort(key=lambda message: message[0])
+        self._received.sort(key=lambda message: message[0])
         now = self._now()
-        of_now = [(*message, now) for message in [("/clock", _CLOCK, clock), *self._heard]]
+        of_now = [(*message, now) for message in [("/clock", _CLOCK, clock), *self._received]]
         for topic, message_type, data, time in [*of_now, *self._published]:
             definition = self._definition(message_type)
             bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
 
     def _now(self) -> genpy.Time:
         sec, nanosec = self._bridge.now()
-        return genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # a bag knows no time 0
+        return genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # bags do not allow time 0
 
     def close(self) -> None:
-        """Write the bag's index, without which it cannot be read."""
+        """Close the bag; this writes its index."""
         if self._bag is not None:
-            with self._ending_at_an_error():
+            with self._stopped_on_error():
                 self._bag.close()
 
     def _definition(self, message_type: str) -> _Definition:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Passes in step with a controller: each waits for the answer to the last one, however quick the machine is."""
+"""Lockstep with a controller: each step waits for the response to the previous one, independent of real time."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from typing import Any
 from bubblesim._core import RunState
 from bubblesim.output import write_line
 
-_LATE = 5.0  # s
-# For so long nothing may have changed among the connections before the first step: who makes its publishers first may
-# still be about to subscribe.
-_SETTLED = 0.4
-# A node on simulated time listens to /clock, too, and may take it for silence when the first that it hears is late. One
-# that does not care for the time is waited for longer, in case it does.
-_SETTLED_WITHOUT_CLOCK = 2.0
+_TIMEOUT = 5.0  # s
+# Before the first step, the connections must be unchanged for this time: a node that advertises first may still be
+# about to subscribe.
+_SETTLING_TIME = 0.4
+# A node on simulated time also subscribes to /clock, and may detect a timeout if its first clock message is late.
+# Without a subscriber of /clock, wait longer for one.
+_SETTLING_TIME_WITHOUT_CLOCK = 2.0
 _POLL = 0.0002  # s
 
 
 class LockStep:
-    """An observer of a bridge. A step is answered when each of the topics has brought a message since it ended.
+    """An observer of a bridge. A step is complete when a message has been received on each topic since its end.
 
-    In the very first step scripts make their topics. Before the next one a publisher of each topic must be connected,
-    a subscriber of something that scripts publish, and one of /clock.
+    Scripts create their topics in the first step. Before the second, a publisher of each topic must be connected, a
+    subscriber of a topic that scripts publish, and one of /clock.
     """
 
     def __init__(self, topics: list[str], bridge: Any, simulation: Any) -> None:
-        """Make the simulation wait for triggers."""
+        """Switch the simulation to triggered steps."""
         self._topics = {topic if topic.startswith("/") else f"/{topic}" for topic in topics}
         self._bridge = bridge
         self._simulation = simulation
-        self._subscribers: dict[str, int] = {}  # of the topics
-        self._publishers: list[int] = []  # of any
-        self._began = False
-        self._awaited: set[str] = set()
+        self._subscribers: dict[str, int] = {}  # by topic
+        self._publishers: list[int] = []  # of all topics
+        self._started = False
+        self._pending: set[str] = set()
         self._since = time.monotonic()
         self._triggered = False
         self._warned = False
@@ -44,99 +44,99 @@ class LockStep:
         simulation.set_synchronous(True)
 
     def advertised(self, publisher: int) -> None:
-        """Somebody may listen, and answer."""
+        """Store the publisher, whose subscribers are checked before the second step."""
         self._publishers.append(publisher)
 
     def subscribed(self, topic: str, subscriber: int) -> None:
-        """A script has started: first somebody must be connected."""
+        """Wait for the connections again: a script has started."""
         if topic in self._topics:
             self._subscribers[topic] = subscriber
-            self._restart(began=False)
+            self._restart(started=False)
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
-        """Nothing to wait for."""
+        """Do nothing."""
 
-    def heard(self, topic: str, message_type: str, message: Any) -> None:
-        """Perhaps an answer."""
-        self._awaited.discard(topic)
+    def received(self, topic: str, message_type: str, message: Any) -> None:
+        """Mark the topic as received."""
+        self._pending.discard(topic)
 
     def input_processed(self) -> None:
-        """Let the next step come when it may, and complain when it waits for long."""
+        """Trigger the next step if it may start; warn once if it waits for too long."""
         if self._simulation.state != RunState.RUNNING or self._triggered:
             return
-        if self.answered():
+        if self.is_ready():
             self._triggered = True
             self._simulation.trigger_step()
-        elif not self._warned and time.monotonic() - self._since > _LATE:
+        elif not self._warned and time.monotonic() - self._since > _TIMEOUT:
             self._warned = True
-            write_line(sys.stderr, f"warning: {self.lateness()}")
+            write_line(sys.stderr, f"warning: {self.timeout_reason()}")
 
-    def pass_done(self) -> None:
-        """From now on the answers count."""
-        self._restart(began=self._simulation.time > 0.0)
+    def step_done(self) -> None:
+        """Wait for new messages from now on."""
+        self._restart(started=self._simulation.time > 0.0)
 
     def close(self) -> None:
-        """Nothing is left behind."""
+        """Do nothing."""
 
-    def answered(self) -> bool:
-        """Whether the next step may come."""
+    def is_ready(self) -> bool:
+        """Return whether the next step may start."""
         if self._simulation.time == 0.0:
-            return True  # in which scripts make their topics
-        if not self._began:
+            return True  # scripts create their topics in the first step
+        if not self._started:
             return self._connected()
-        return not self._awaited
+        return not self._pending
 
     def wait(self) -> str:
-        """Wait for the answers; why they did not come in time, or nothing. Only where messages may be delivered."""
-        end = time.monotonic() + _LATE
-        while not self.answered():
+        """Wait for the messages; return the reason of a timeout, or "". Call it only where input is processed."""
+        end = time.monotonic() + _TIMEOUT
+        while not self.is_ready():
             if time.monotonic() > end:
-                return self.lateness()
+                return self.timeout_reason()
             time.sleep(_POLL)
             self._bridge.process_input()
         return ""
 
-    def lateness(self) -> str:
-        """What is missing, and why that may be."""
-        unheard = self._topics - self._subscribers.keys()
-        if unheard:
-            return f"no step comes, for no script subscribes to {_listed(unheard)}, which --lockstep names"
-        if not self._began:
+    def timeout_reason(self) -> str:
+        """Return which messages are missing, and the likely reason."""
+        unsubscribed = self._topics - self._subscribers.keys()
+        if unsubscribed:
+            return f"lockstep waits: no script subscribes to {_joined(unsubscribed)}, given by --lockstep"
+        if not self._started:
             return (
-                f"the second step waits for a controller that publishes {_listed(self._topics)} and subscribes to what "
-                "scripts publish: does it run, on this master?"
+                f"lockstep waits before the second step for a controller that publishes {_joined(self._topics)} and "
+                "subscribes to a topic of the scripts: is it running, with this master?"
             )
-        missing = {topic for topic in self._awaited if not self._bridge.has_publisher(self._subscribers[topic])}
-        why = "nobody publishes it any more" if missing else "its publisher is there, but does not answer each step"
+        missing = {topic for topic in self._pending if not self._bridge.has_publisher(self._subscribers[topic])}
+        why = "it has no publisher any more" if missing else "its publisher does not publish in each step"
         return (
-            f"the step before {self._simulation.time:.3f} s has had no answer on {_listed(missing or self._awaited)} "
-            f"for {_LATE:g} s: {why}"
+            f"lockstep waits at {self._simulation.time:.3f} s: no message on {_joined(missing or self._pending)} "
+            f"for {_TIMEOUT:g} s: {why}"
         )
 
-    def _restart(self, *, began: bool) -> None:
-        self._began = began
-        self._awaited = set(self._topics)
+    def _restart(self, *, started: bool) -> None:
+        self._started = started
+        self._pending = set(self._topics)
         self._since = time.monotonic()
         self._triggered = self._warned = False
 
     def _connected(self) -> bool:
-        heard = {topic: self._bridge.has_publisher(id_) for topic, id_ in self._subscribers.items()}
-        listened = [self._wanted(publisher) for publisher in self._publishers]
-        if self._topics - heard.keys() or not all(heard.values()) or not any(listened):
+        received = {topic: self._bridge.has_publisher(id_) for topic, id_ in self._subscribers.items()}
+        subscribed_to = [self._has_subscribers(publisher) for publisher in self._publishers]
+        if self._topics - received.keys() or not all(received.values()) or not any(subscribed_to):
             return False
         clock = self._bridge.clock_reaches_others()
-        connections = heard, listened, clock
+        connections = received, subscribed_to, clock
         now = time.monotonic()
         if connections != self._connections:
             self._connections, self._settled_at = connections, now
-        return now - self._settled_at >= (_SETTLED if clock else _SETTLED_WITHOUT_CLOCK)
+        return now - self._settled_at >= (_SETTLING_TIME if clock else _SETTLING_TIME_WITHOUT_CLOCK)
 
-    def _wanted(self, publisher: int) -> bool:
+    def _has_subscribers(self, publisher: int) -> bool:
         try:
             return bool(self._bridge.wants_messages(publisher))
         except ValueError:  # shut down
             return False
 
 
-def _listed(topics: set[str]) -> str:
+def _joined(topics: set[str]) -> str:
     return " and ".join(sorted(topics))

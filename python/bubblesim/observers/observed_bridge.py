@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bridge that tells others which messages go through it: for bags, and for lockstep with a controller."""
+"""A bridge that notifies observers of its messages: for bags, and for lockstep with a controller."""
 
 from __future__ import annotations
 
@@ -9,37 +9,37 @@ from typing import Any, Protocol
 
 
 class Observer(Protocol):
-    """Told of what scripts do with topics."""
+    """Notified of what scripts do with topics."""
 
     def advertised(self, publisher: int) -> None:
-        """A script has made a publisher."""
+        """A script has advertised a topic."""
 
     def subscribed(self, topic: str, subscriber: int) -> None:
-        """A script listens."""
+        """A script has subscribed."""
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
         """A script has published."""
 
-    def heard(self, topic: str, message_type: str, message: Any) -> None:
-        """A message has come, which the script has not seen yet."""
+    def received(self, topic: str, message_type: str, message: Any) -> None:
+        """A message was received, before the script's callback."""
 
     def input_processed(self) -> None:
-        """All that has come was delivered; often, also while nothing runs."""
+        """Pending input was processed; called often, also while the simulation is not running."""
 
-    def pass_done(self) -> None:
-        """A step is over."""
+    def step_done(self) -> None:
+        """A step is complete."""
 
     def close(self) -> None:
-        """There will be nothing more."""
+        """The simulation ends."""
 
 
 class ObservedBridge:
-    """As the bridge that it stands before; see ``bubblesim._core.Bridge``."""
+    """Wraps a bridge; see ``bubblesim._core.Bridge``."""
 
     def __init__(self, bridge: Any, observers: list[Observer], *, keeps_all: bool = False) -> None:
-        """Nothing was published yet.
+        """Create it without publishers.
 
-        :param keeps_all: also what nobody hears is of use.
+        :param keeps_all: an observer uses all messages, also those without subscribers.
         """
         self.observers = observers
         self.keeps_all = keeps_all
@@ -47,11 +47,11 @@ class ObservedBridge:
         self._published: dict[int, tuple[str, str]] = {}  # topic and type by publisher
 
     def __getattr__(self, name: str) -> Any:
-        """All that is not observed."""
+        """Forward all functions that are not observed."""
         return getattr(self._bridge, name)
 
     def advertise(self, topic: str, message_type: str, queue_size: int, latch: bool) -> int:
-        """Make a publisher."""
+        """Advertise a topic and notify the observers."""
         publisher: int = self._bridge.advertise(topic, message_type, queue_size, latch)
         self._published[publisher] = topic, message_type
         for observer in self.observers:
@@ -59,7 +59,7 @@ class ObservedBridge:
         return publisher
 
     def publish(self, publisher: int, message: Any) -> Any:
-        """Publish, and tell of it."""
+        """Publish, and notify the observers."""
         truncations = self._bridge.publish(publisher, message)
         for observer in self.observers:
             observer.published(*self._published[publisher], message)
@@ -68,11 +68,11 @@ class ObservedBridge:
     def subscribe(
         self, topic: str, message_type: str, callback: Callable[[Any], object], *arguments: Any, **named: Any
     ) -> int:
-        """Listen, and tell of what comes."""
+        """Subscribe, and notify the observers of messages."""
 
         def deliver(message: Any) -> None:
             for observer in self.observers:
-                observer.heard(topic, message_type, message)
+                observer.received(topic, message_type, message)
             callback(message)
 
         subscriber: int = self._bridge.subscribe(topic, message_type, deliver, *arguments, **named)
@@ -82,9 +82,9 @@ class ObservedBridge:
 
 
 def observed(bridge: Any, simulation: Any, record: str, lockstep: list[str]) -> ObservedBridge:
-    """The bridge with the observers that the node's options ask for.
+    """Return the bridge with the observers given by the node's options.
 
-    :param record: file of the bag to write; empty: none.
+    :param record: file of the bag to write, empty for none.
     :param lockstep: topics that each step waits for; see LockStep.
     """
     from bubblesim.observers.bag_recorder import BagRecorder

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Running the simulator and what belongs to it as processes, and watching it over ROS topics."""
+"""Running the simulator and other programs as processes, and observing it over ROS topics."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ROS master that a run uses."""
+"""The ROS master of a run."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SIMULATOR_NODE = "/sim_ros_interface"
 
 
 def simulator_runs() -> bool:
-    """Whether the simulator's node is alive; a master also knows nodes that were killed."""
+    """Return whether the simulator's node is alive; the master may list nodes that were killed."""
     try:
         uri = rosgraph.Master(_CALLER).lookupNode(_SIMULATOR_NODE)
         xmlrpc.client.ServerProxy(uri).getPid(_CALLER)
@@ -30,22 +30,22 @@ def simulator_runs() -> bool:
 
 
 def require_master() -> None:
-    """RunError when no master answers at ROS_MASTER_URI."""
+    """Raise RunError if no master responds at ROS_MASTER_URI."""
     if not rosgraph.is_master_online():
         uri = rosgraph.get_master_uri()
-        raise RunError(f"no ROS master answers at {uri}: start `roscore` in another terminal, or add --roscore")
+        raise RunError(f"no ROS master at {uri}: start `roscore` in another terminal, or add --roscore")
 
 
 def provide_master(programs: Programs, stop: Stop) -> bool:
-    """Starts a roscore unless one answers at ROS_MASTER_URI; whether it did."""
+    """Start a roscore unless one runs at ROS_MASTER_URI; return whether it was started."""
     if rosgraph.is_master_online():
         if simulator_runs():
-            raise RunError(f"a simulator runs already on {rosgraph.get_master_uri()}: end it first")
+            raise RunError(f"a simulator is already running on {rosgraph.get_master_uri()}: stop it first")
         return False
     uri = urllib.parse.urlparse(rosgraph.get_master_uri())
     if not rosgraph.network.is_local_address(uri.hostname or ""):
-        raise RunError(f"no master answers at {uri.geturl()}: start it there, or unset ROS_MASTER_URI")
-    print(f"starting a roscore, as none answers at {uri.geturl()}", file=sys.stderr, flush=True)
+        raise RunError(f"no ROS master at {uri.geturl()}: start it there, or unset ROS_MASTER_URI")
+    print(f"no ROS master at {uri.geturl()}: starting a roscore", file=sys.stderr, flush=True)
     programs.start("roscore", "roscore", "-p", str(uri.port or 11311), serves_others=True)
     wait_for(rosgraph.is_master_online, f"the master at {uri.geturl()}", programs, stop)
     return True
@@ -53,7 +53,7 @@ def provide_master(programs: Programs, stop: Stop) -> bool:
 
 @contextlib.contextmanager
 def simulated_time() -> Iterator[None]:
-    """Tells all nodes to take their time from /clock, and takes that back at the end."""
+    """Set /use_sim_time for all nodes, and restore it at the end."""
     master = rosgraph.Master(_CALLER)
     before = master.getParam("/use_sim_time") if master.hasParam("/use_sim_time") else None
     master.setParam("/use_sim_time", True)

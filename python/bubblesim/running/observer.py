@@ -15,10 +15,10 @@ from bubblesim.running.recording import Pose, Recording, Sample
 
 
 class Observer:
-    """Listens to /clock, /tf and /front_sonar. The robot is the first frame that /tf tells of."""
+    """Subscribes to /clock, /tf and /front_sonar. The robot is the first frame on /tf."""
 
     def __init__(self, recording: Recording) -> None:
-        """Becomes a ROS node of this process."""
+        """Initialise the ROS node of this process."""
         self._recording = recording
         self._sim_time: float | None = None
         self._frames: tuple[str, str] | None = None
@@ -43,5 +43,5 @@ class Observer:
                 self._recording.samples.append(Sample(time.monotonic(), self._sim_time, pose))
 
     def close(self) -> None:
-        """Leaves the master before it goes."""
+        """Unregister from the master before it ends."""
         rospy.signal_shutdown("the run is over")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the driven path over the scene, seen from above."""
+"""Plots the driven path over the scene, in top view."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ROBOT_AT_END = {"facecolor": "#e4572e", "edgecolor": "#7a2410", "linewidth": 0.
 
 
 def draw(scene: str, recording: Recording, file: Path) -> None:
-    """Writes a PNG: obstacles filled, the robot where it started and ended, its path coloured by simulated time."""
+    """Write a PNG: obstacles, the robot at start and end, its path coloured by simulated time."""
     shapes = [shape for shape in bubblesim.Simulation(scene).collisions if shape.kind != "plane"]
     obstacles = [outline(shape) for shape in shapes if shape.is_static]
     robot = [outline(shape) for shape in seen_of_robot([shape for shape in shapes if not shape.is_static])]
@@ -54,13 +54,13 @@ def draw(scene: str, recording: Recording, file: Path) -> None:
 
 
 def seen_of_robot(shapes: list[bubblesim.CollisionShape]) -> list[bubblesim.CollisionShape]:
-    """Leaves out the spheres of links that have other shapes: they only model a wheel's contact."""
+    """Return the shapes without the spheres of links that have other shapes: they only model a wheel's contact."""
     with_body = {shape.object_path for shape in shapes if shape.kind != "sphere"}
     return [shape for shape in shapes if shape.kind != "sphere" or shape.object_path not in with_body]
 
 
 def outline(shape: bubblesim.CollisionShape) -> Points:
-    """The shape's outline seen from above, n x 2, metres in the scene's frame."""
+    """Return the shape's outline in top view, n x 2, metres in the scene's frame."""
     circle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
     if shape.kind == "sphere":
         local = shape.size[0] * np.column_stack([np.cos(circle), np.sin(circle), np.zeros_like(circle)])
@@ -93,7 +93,7 @@ def _unit_sphere() -> Points:
 
 
 def convex_hull(points: Points) -> Points:
-    """Corners of the convex hull of points in the plane, counter-clockwise."""
+    """Return the corners of the convex hull of points in the plane, counter-clockwise."""
 
     def half(ordered: Iterable[tuple[float, ...]]) -> list[tuple[float, ...]]:
         chain: list[tuple[float, ...]] = []
@@ -112,7 +112,7 @@ def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> f
 
 
 def moved(points: Points, start: Pose, end: Pose) -> Points:
-    """Points fixed to a body, when the body has gone from one pose to the other."""
+    """Return points fixed to a body after it has moved from one pose to another."""
     angle = end.heading - start.heading
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     return np.asarray((points - [start.x, start.y]) @ turn.T + [end.x, end.y])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the built programs lie."""
+"""Locations of the built programs."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from bubblesim.running.processes import RunError
 
 
 def node_program() -> Path:
-    """The simulator's node, <prefix>/lib/bubblesim/sim, of the build that this Python package belongs to."""
-    # The module lies in <prefix>/lib/python3/dist-packages/bubblesim.
+    """Return the simulator's node, <prefix>/lib/bubblesim/sim, of the build of this Python package."""
+    # This module is in <prefix>/lib/python3/dist-packages/bubblesim.
     core = importlib.util.find_spec("bubblesim._core")  # without loading it
     program = Path((core and core.origin) or "").parents[3] / "bubblesim" / "sim"
     if not program.is_file():
-        raise RunError(f"the node is not built: there is no {program}; build the workspace with ROS")
+        raise RunError(f"the node is not built: file not found: {program}; build the workspace with ROS")
     return program

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Programs that a run needs, and ends together with everything that they started themselves."""
+"""Child processes of a run, ended together with all processes that they started."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ import subprocess
 from pathlib import Path
 from types import TracebackType
 
-_POLITE = signal.SIGINT
-# s that each has to take effect; a roscore itself waits 15 s for its master, which outlives it when it is cut short.
-_PATIENCE = {_POLITE: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
+_FIRST_SIGNAL = signal.SIGINT
+# s to wait after each signal; roscore itself waits 15 s for its master, which would survive if roscore is killed.
+_TIMEOUTS = {_FIRST_SIGNAL: 20.0, signal.SIGTERM: 5.0, signal.SIGKILL: 5.0}
 
 
 class RunError(Exception):
-    """A run cannot go on; the text says why, for its user."""
+    """A run cannot continue; the text states why."""
 
 
 class Program:
-    """A running program in a process group of its own, its output in a file or where ours goes."""
+    """A running program in its own process group; its output goes to a file or to ours."""
 
     def __init__(self, name: str, command: list[str], log: Path | None, *, serves_others: bool = False) -> None:
-        """Starts it; `name` is what messages call it. RunError when it is not there."""
+        """Start it; `name` is used in messages. Raise RunError if it cannot be started."""
         self.name = name
         self.serves_others = serves_others
         self._log = log
-        self._asked = self._stopped = False
+        self._end_requested = self._stopped = False
         with contextlib.ExitStack() as files:
             output = files.enter_context(log.open("w")) if log else None
             try:
@@ -39,58 +39,58 @@ class Program:
                     start_new_session=True,
                 )
             except OSError as error:
-                raise RunError(f"the {name} cannot be started: {command[0]}: {error.strerror}") from error
+                raise RunError(f"cannot start the {name}: {command[0]}: {error.strerror}") from error
 
     @property
     def exit_code(self) -> int | None:
-        """None while it runs; negative: the signal that ended it."""
+        """Return the exit code, None while it runs; negative: the signal that ended it."""
         return self._process.poll()
 
     def check(self) -> None:
-        """Raises RunError, with its last words if they were kept, when it has ended by itself."""
+        """Raise RunError, with its last output if stored, if it has ended by itself."""
         if self._stopped or self.exit_code is None:
             return
-        said = ""
+        output = ""
         if self._log:
-            last_words = self._log.read_text(errors="replace").splitlines()[-15:]
-            said = "; it said:" + "".join(f"\n  {line}" for line in last_words)
-        raise RunError(f"the {self.name} ended with exit code {self.exit_code}{said}")
+            last_lines = self._log.read_text(errors="replace").splitlines()[-15:]
+            output = "; its last output:" + "".join(f"\n  {line}" for line in last_lines)
+        raise RunError(f"the {self.name} ended with exit code {self.exit_code}{output}")
 
-    def ask_to_end(self) -> None:
-        """What `stop` begins with, without waiting."""
-        self._asked = self._stopped = True
+    def request_end(self) -> None:
+        """Send the first signal of `stop`, without waiting."""
+        self._end_requested = self._stopped = True
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, _POLITE)
+            os.killpg(self._process.pid, _FIRST_SIGNAL)
 
     def stop(self) -> None:
-        """Ends the whole group, politely first."""
-        if not self._asked:
-            self.ask_to_end()
-        for number, patience in _PATIENCE.items():
+        """End the whole process group: SIGINT, then SIGTERM, then SIGKILL."""
+        if not self._end_requested:
+            self.request_end()
+        for number, timeout in _TIMEOUTS.items():
             try:
-                if number != _POLITE:
+                if number != _FIRST_SIGNAL:
                     os.killpg(self._process.pid, number)
-                self._process.wait(patience)
+                self._process.wait(timeout)
                 break
             except (ProcessLookupError, subprocess.TimeoutExpired):
                 continue
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)  # what it left behind
+            os.killpg(self._process.pid, signal.SIGKILL)  # remaining processes of the group
 
 
 class Programs:
-    """All of them; as a context manager it ends them with the block: at once, then those that the others need."""
+    """All programs; as a context manager it ends them together, and those with ``serves_others`` afterwards."""
 
     def __init__(self, log_folder: Path) -> None:
-        """Nothing runs yet."""
+        """Create it without programs."""
         self._log_folder = log_folder
         self.running: list[Program] = []
 
     def start(self, name: str, *command: str, shown: bool = False, serves_others: bool = False) -> Program:
-        """Starts a program, which `check` watches from now on.
+        """Start a program; from now on `check` watches it.
 
-        :param shown: its output goes where ours goes.
-        :param serves_others: it ends after the others, as a ROS master should.
+        :param shown: write its output to ours.
+        :param serves_others: end it after the others, for a ROS master.
         """
         log = None if shown else self._log_folder / f"{name.replace(' ', '_')}.log"
         program = Program(name, list(command), log, serves_others=serves_others)
@@ -98,22 +98,22 @@ class Programs:
         return program
 
     def check(self) -> None:
-        """Raises RunError when one has ended."""
+        """Raise RunError if a program has ended."""
         for program in self.running:
             program.check()
 
     def __enter__(self) -> Programs:
-        """Starts a block at whose end all is ended."""
+        """Start a block after which all programs are ended."""
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """Ends all programs."""
+        """End all programs."""
         for serving in (False, True):
             ending = [program for program in self.running if program.serves_others == serving]
             for program in ending:
-                program.ask_to_end()
+                program.request_end()
             for program in ending:
                 program.stop()
         self.running.clear()

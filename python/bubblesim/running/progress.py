@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A line that says what keeps a user waiting."""
+"""A progress line while the user waits."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ import sys
 import time
 from types import TracebackType
 
-_UNNOTICED = 2.0  # s, for which nobody wonders
+_DELAY = 2.0  # s without output
 
 
 class Progress:
-    """On a terminal, a line on stderr as long as the block lasts; nothing before two seconds, nor anywhere else."""
+    """Shows a line on stderr during the block, on terminals only and after two seconds."""
 
     def __init__(self, what: str) -> None:
-        """Begins to count."""
+        """Start the timer."""
         self._what = what
         self._begin = time.monotonic()
         self._shown = -1
 
     def show(self) -> None:
-        """To be called again and again."""
+        """Update the line; call it repeatedly."""
         seconds = int(time.monotonic() - self._begin)
-        if seconds >= _UNNOTICED and seconds != self._shown and sys.stderr.isatty():
+        if seconds >= _DELAY and seconds != self._shown and sys.stderr.isatty():
             self._shown = seconds
             print(f"\r\033[K{self._what} ... {seconds} s", end="", file=sys.stderr, flush=True)
 
     def __enter__(self) -> Progress:
-        """The block that is waited in."""
+        """Start the block."""
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """Takes the line away."""
+        """Clear the line."""
         if self._shown >= 0:
             print("\r\033[K", end="", file=sys.stderr, flush=True)

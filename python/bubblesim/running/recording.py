@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was seen of a run: poses over time, sonar readings, and the figures drawn from them. Knows no ROS."""
+"""Data of a run: poses over time, sonar readings, and statistics of them. Independent of ROS."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Pose:
-    """Where the robot is, metres and radians in the scene's frame."""
+    """Pose of the robot, metres and radians in the scene's frame."""
 
     x: float
     y: float
@@ -20,7 +20,7 @@ class Pose:
 
 @dataclass(frozen=True)
 class Sample:
-    """A pose and when it was."""
+    """A pose with its times."""
 
     wall_time: float  # s
     sim_time: float  # s
@@ -29,28 +29,28 @@ class Sample:
 
 @dataclass
 class Recording:
-    """Grows while it lasts."""
+    """Recorded data of a run."""
 
     samples: list[Sample] = field(default_factory=list)
-    sonar: float | None = None  # last reading, m; +Inf without an echo, None when there is no sonar
+    sonar: float | None = None  # last reading, m; +Inf without an echo, None without a sonar
     closest: float = math.inf  # m
 
     def add_sonar(self, distance: float) -> None:
-        """Takes in a reading, m."""
+        """Add a reading, m."""
         self.sonar = distance
         self.closest = min(self.closest, distance)
 
     def distance(self) -> float:
-        """Length of the path, m."""
+        """Return the length of the path, m."""
         points = [(sample.pose.x, sample.pose.y, sample.pose.z) for sample in self.samples]
         return sum(math.dist(a, b) for a, b in itertools.pairwise(points))
 
     def sim_duration(self) -> float:
-        """Simulated time between the first and the last sample, s."""
+        """Return the simulated time between the first and the last sample, s."""
         return self.samples[-1].sim_time - self.samples[0].sim_time if self.samples else 0.0
 
     def real_time_factor(self, window: float = math.inf) -> float:
-        """Simulated seconds per second, over the last `window` seconds of wall time; NaN while unknown."""
+        """Return simulated seconds per second, over the last `window` seconds of wall time; NaN while unknown."""
         if not self.samples:
             return math.nan
         last = self.samples[-1]
@@ -63,7 +63,7 @@ class Recording:
         return (last.sim_time - first.sim_time) / wall if wall > 0.0 else math.nan
 
     def live_line(self) -> str:
-        """How it is going, in one line."""
+        """Return the current state in one line."""
         sample = self.samples[-1]
         pose = sample.pose
         parts = [
@@ -76,7 +76,7 @@ class Recording:
         return " | ".join(parts)
 
     def summary(self) -> str:
-        """The whole run in a few lines."""
+        """Return a summary of the whole run."""
         lines = [
             f"simulated time     {self.sim_duration():.2f} s",
             f"distance driven    {self.distance():.2f} m",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The end that a user wants, and waiting for something until then."""
+"""Stop requests by signals, and waiting until then."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from collections.abc import Callable
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.progress import Progress
 
-_STARTING_PATIENCE = 30.0  # s
+_START_TIMEOUT = 30.0  # s
 
 
 class Stop:
-    """Becomes true at the first SIGINT, SIGTERM or SIGHUP; a SIGHUP that is ignored, as by nohup, stays so."""
+    """Set by the first SIGINT, SIGTERM or SIGHUP; an ignored SIGHUP, as with nohup, stays ignored."""
 
     def __init__(self) -> None:
-        """Takes the signals over."""
+        """Install the signal handlers."""
         self.requested = False
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
@@ -28,12 +28,12 @@ class Stop:
 
 
 def wait_for(condition: Callable[[], bool], what: str, programs: Programs, stop: Stop) -> None:
-    """Returns when the condition holds or a stop is requested; RunError when it takes too long."""
-    deadline = time.monotonic() + _STARTING_PATIENCE
+    """Return when the condition holds or a stop is requested; raise RunError after a timeout."""
+    deadline = time.monotonic() + _START_TIMEOUT
     with Progress(f"waiting for {what}") as progress:
         while not condition() and not stop.requested:
             programs.check()
             if time.monotonic() > deadline:
-                raise RunError(f"waited {_STARTING_PATIENCE:.0f} s in vain for {what}")
+                raise RunError(f"timeout after {_START_TIMEOUT:.0f} s waiting for {what}")
             progress.show()
             time.sleep(0.05)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Child scripts: what they may call, and the host that runs them."""
+"""Child scripts: the functions for them, and the host that runs them."""

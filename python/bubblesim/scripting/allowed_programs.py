@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The programs that scripts can start, and which of them a script may start that is kept from all others."""
+"""The programs that scripts can start, and the restriction to allowed programs."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pathlib import Path
 
 
 def find_program(file: str) -> Path:
-    """The program that a script means: one of this package, on PATH, or by its absolute path.
+    """Return the program with a name or absolute path: in this package, on PATH, or by its path.
 
-    :raises FileNotFoundError: naming where it was looked for.
+    :raises FileNotFoundError: with the searched folders.
     """
     for folder in _own_folders():
         if (folder / file).is_file():
@@ -20,18 +20,18 @@ def find_program(file: str) -> Path:
     on_path = shutil.which(file)
     if on_path is None:
         raise FileNotFoundError(
-            f"there is no program '{file}' in {' or '.join(map(str, _own_folders()))} or on PATH; "
+            f"program '{file}' not found in {' or '.join(map(str, _own_folders()))} or on PATH; "
             "give the name of an installed program or an absolute path"
         )
     return Path(on_path)
 
 
 def is_allowed(program: Path, allowed: Sequence[str]) -> bool:
-    """Whether a program belongs to a ROS package, this one included, or is among ``allowed``.
+    """Return whether a program belongs to a ROS package, including this one, or is in ``allowed``.
 
     :param allowed: programs by name or path, and folders with programs.
     """
-    place = program.parent.resolve() / program.name  # a link counts where it stands, for the build makes links
+    place = program.parent.resolve() / program.name  # keep a link itself: builds link programs
     if place.parent in [folder.resolve() for folder in _own_folders()]:
         return True
     return (
@@ -42,12 +42,12 @@ def is_allowed(program: Path, allowed: Sequence[str]) -> bool:
 
 
 def _own_folders() -> list[Path]:
-    # In a development or an install space, beside the simulator's own program; from Python, in the source tree.
+    # In a devel or install space, next to the simulator's program; in the source tree, in scripts/.
     return [Path("/proc/self/exe").resolve().parent, Path(__file__).resolve().parents[3] / "scripts"]
 
 
 def _prefixes() -> list[Path]:
-    """The development and install spaces of the workspaces that are sourced, and Debian's."""
+    """Return the devel and install spaces of the sourced workspaces, and Debian's prefix."""
     return [*_folders_in("CMAKE_PREFIX_PATH"), Path("/usr")]
 
 
@@ -56,12 +56,12 @@ def _folders_in(variable: str) -> list[Path]:
 
 
 def _has_source(folder: Path, program: Path) -> bool:
-    """Whether a program lies in the source of a package below a folder, as those in Python do."""
+    """Return whether a program is in the source of a package below a folder, as Python programs are."""
     return any(place.is_relative_to(folder) and (place / "package.xml").is_file() for place in program.parents)
 
 
 def _has_installed(prefix: Path, program: Path) -> bool:
-    """Whether a program lies where the build puts those of a ROS package: PREFIX/lib/PACKAGE."""
+    """Return whether a program is in the folder of installed programs of a ROS package: PREFIX/lib/PACKAGE."""
     package = program.parent.name
     return program.parent == prefix / "lib" / package and (prefix / "share" / package / "package.xml").is_file()
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How other nodes control a running simulation."""
+"""ROS services and topics to control a running simulation."""

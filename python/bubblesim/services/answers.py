@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How services report what is wrong with a request."""
+"""Error handling of services."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Message = dict[str, Any]
 
 
 def report_errors(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
-    """Report errors in the response's success and status_message, where callers look for them."""
+    """Report errors in the response's fields success and status_message."""
 
     def guarded(request: Message) -> Message:
         try:
@@ -24,7 +24,7 @@ def report_errors(answer: Callable[[Message], Message]) -> Callable[[Message], M
 
 
 def failing(answer: Callable[[Message], Message]) -> Callable[[Message], Message]:
-    """Have the call fail with what is wrong: an answer would hide it among values that mean nothing."""
+    """Let the call fail with the error message, because a response would contain meaningless values."""
 
     def guarded(request: Message) -> Message:
         try:
@@ -36,12 +36,12 @@ def failing(answer: Callable[[Message], Message]) -> Callable[[Message], Message
 
 
 def answering_empty(action: Callable[[], None]) -> Callable[[object], None]:
-    """Make the answer of a std_srvs/Empty, which has no place to report errors in: the call fails then."""
+    """Return the handler of a std_srvs/Empty service; the call fails on errors, because the response has no fields."""
 
     def answer(request: object) -> None:
         try:
             action()
-        except RuntimeError as error:  # a script asks for it in the middle of a step
+        except RuntimeError as error:  # called by a script during a step
             raise _core.ServiceError(str(error)) from None
 
     return answer

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How Gazebo names things: models by their name, links as model::link, the world as "", world or map."""
+"""Names as in Gazebo: models by name, links as model::link, the world as "", world or map."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _WORLD = ("", "world", "map", "/map")
 
 
 def find_entity(world: Any, name: str, *kinds: str) -> int:
-    """The handle of an object of one of these kinds; LookupError names similar ones."""
+    """Return the handle of an object of one of these kinds; raise LookupError with similar names."""
     handle = find_object(world, name.replace("::", "/"))
     if world.kind(handle) not in kinds:
         raise LookupError(f"'{name}' is a {world.kind(handle)}, not a {' or '.join(kinds)}")
@@ -19,10 +19,10 @@ def find_entity(world: Any, name: str, *kinds: str) -> int:
 
 
 def find_frame(world: Any, name: str) -> int | None:
-    """The handle of a model or link that poses are relative to, None for the world."""
+    """Return the handle of a reference model or link, None for the world."""
     return None if name in _WORLD else find_entity(world, name, "model", "link")
 
 
 def links_of(world: Any, model: int) -> list[int]:
-    """The handles of a model's links."""
+    """Return the handles of a model's links."""
     return [child for child in world.children(model) if world.kind(child) == "link"]

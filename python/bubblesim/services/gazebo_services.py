@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The services that gazebo_ros offers, by its names and types.
+"""The services of gazebo_ros, with its names and types.
 
-They differ where Gazebo's own are not consistent: a velocity that was set relative to a moving frame is read back as it
-was set.
+One difference: a velocity set relative to a moving frame is read back with the same value, which is not so in
+Gazebo.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from bubblesim.services.gazebo_names import find_entity, find_frame
 
 
 class GazeboServices:
-    """Offered as long as the host's bridge is there."""
+    """Advertised during the lifetime of the host's bridge."""
 
     def __init__(self, host: ScriptHost) -> None:
-        """Offer the services below /gazebo."""
+        """Advertise the services below /gazebo."""
         assert host.bridge is not None
         self._host = host
         self._bridge = host.bridge
         self._simulation = host.simulation
         self._world = host.simulation.world
-        self._offer("pause_physics", "std_srvs/Empty", answering_empty(self._simulation.pause))
-        self._offer("unpause_physics", "std_srvs/Empty", answering_empty(self._simulation.start))
+        self._advertise("pause_physics", "std_srvs/Empty", answering_empty(self._simulation.pause))
+        self._advertise("unpause_physics", "std_srvs/Empty", answering_empty(self._simulation.start))
         for name, action in (("reset_world", self._simulation.reset_world), ("reset_simulation", host.restart)):
-            self._bridge.set_priority(self._offer(name, "std_srvs/Empty", answering_empty(action)))
+            self._bridge.set_priority(self._advertise(name, "std_srvs/Empty", answering_empty(action)))
         for name, kind, answer in (
             ("spawn_sdf_model", "SpawnModel", self._spawn),
             ("spawn_urdf_model", "SpawnModel", self._spawn),
@@ -42,9 +42,9 @@ class GazeboServices:
             ("set_link_state", "SetLinkState", self._set_link_state),
             ("get_world_properties", "GetWorldProperties", self._get_world_properties),
         ):
-            self._offer(name, f"gazebo_msgs/{kind}", report_errors(answer))
+            self._advertise(name, f"gazebo_msgs/{kind}", report_errors(answer))
 
-    def _offer(self, name: str, service_type: str, answer: object) -> int:
+    def _advertise(self, name: str, service_type: str, answer: object) -> int:
         server: int = self._bridge.advertise_service(
             f"/gazebo/{name}", service_type, answer, _core.messages.TimeForm.FLOAT
         )
@@ -112,7 +112,7 @@ class GazeboServices:
 
 
 def _pose(message: Message) -> Sequence[float]:
-    """A pose of which Gazebo takes any orientation: one of zeros is none."""
+    """Return a normalized pose. As in Gazebo, a quaternion of zeros means no rotation."""
     values = pose_values(message)
     length = math.hypot(*values[3:])
     return [*values[:3], *(value / length for value in values[3:])] if length else [*values[:3], 0.0, 0.0, 0.0, 1.0]

@@ -11,17 +11,17 @@ from bubblesim.services.gazebo_names import links_of
 
 
 class GazeboTopics:
-    """They are there as long as the bridge is."""
+    """Advertised during the lifetime of the bridge."""
 
     def __init__(self, bridge: Any, world: Any) -> None:
-        """Advertise them."""
+        """Advertise the topics."""
         self._bridge = bridge
         self._world = world
         self._models = bridge.advertise("/gazebo/model_states", "gazebo_msgs/ModelStates", 1, False)
         self._links = bridge.advertise("/gazebo/link_states", "gazebo_msgs/LinkStates", 1, False)
 
     def publish(self) -> None:
-        """Tell where everything is, at the end of a step, to whoever listens."""
+        """Publish all poses and velocities at the end of a step, if there are subscribers."""
         name = self._world.name
         if self._bridge.wants_messages(self._models):
             models = self._world.models

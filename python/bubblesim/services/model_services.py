@@ -11,10 +11,10 @@ from bubblesim.services.names import find_object
 
 
 class ModelServices:
-    """Offered as long as the host's bridge is there."""
+    """Advertised during the lifetime of the host's bridge."""
 
     def __init__(self, host: ScriptHost) -> None:
-        """Offer the services under the node's name."""
+        """Advertise the services in the node's namespace."""
         self._host = host
         self._world = host.simulation.world
         assert host.bridge is not None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How requests name objects."""
+"""Object names in requests."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 
 def find_object(world: Any, name: str) -> int:
-    """The handle of what a path such as /Tricycle/FrontMotor names, or a name that is unique in the scene.
+    """Return the handle of a path such as /Tricycle/FrontMotor, or of a name that is unique in the scene.
 
-    LookupError names similar ones.
+    Raise LookupError with similar names.
     """
     handle: int = world.find(name if name.startswith("/") else f"/{name}")
     return handle

@@ -13,10 +13,10 @@ from bubblesim.services.names import find_object
 
 
 class ObjectServices:
-    """Offered as long as the bridge is there."""
+    """Advertised during the lifetime of the bridge."""
 
     def __init__(self, simulation: Any, bridge: Any) -> None:
-        """Offer the services under the node's name."""
+        """Advertise the services in the node's namespace."""
         self._simulation = simulation
         self._world = simulation.world
         for name, service_type, answer in (

@@ -10,8 +10,8 @@ from bubblesim.scripting.host.host import ScriptHost
 from bubblesim.services.answers import answering_empty
 
 
-def offer_reset_services(bridge: Any, host: ScriptHost) -> None:
-    """Offer both, as std_srvs/Empty, under the node's name; they are done when they answer."""
+def advertise_reset_services(bridge: Any, host: ScriptHost) -> None:
+    """Advertise both, as std_srvs/Empty, in the node's namespace; they respond when the reset is complete."""
     for name, action in (("~reset", host.simulation.reset_world), ("~reset_simulation", host.restart)):
         answer = answering_empty(action)
         bridge.set_priority(bridge.advertise_service(name, "std_srvs/Empty", answer, _core.messages.TimeForm.FLOAT))

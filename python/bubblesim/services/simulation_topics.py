@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The topics of CoppeliaSim's helper for ROS, by which other nodes press its buttons and follow the simulation.
+"""The topics of CoppeliaSim's ROS helper, with which other nodes control and observe the simulation.
 
-Names, types and values are the helper's. A script that uses one of the names itself has it for itself meanwhile.
+Names, types and values are those of the helper. While a script uses one of the names, it is released.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from bubblesim import _core
 from bubblesim._core import RunState
 
 _QUEUE = 10
-_QUEUE_OF_STEPS = 1000  # of those who count steps, none should be lost
+_QUEUE_OF_STEPS = 1000  # large, so that nodes can count steps
 _UNLIMITED = 0
 _STATES = {RunState.STOPPED: 0, RunState.RUNNING: 1, RunState.STOPPING: 1, RunState.PAUSED: 2}
 
 
 class SimulationTopics:
-    """They are there as long as the bridge is."""
+    """Advertised during the lifetime of the bridge."""
 
     def __init__(self, bridge: Any, simulation: Any) -> None:
         """Subscribe and advertise."""
@@ -46,13 +46,13 @@ class SimulationTopics:
         self._bridge.yield_topic(publisher)
         return publisher
 
-    def tell_state(self) -> None:
-        """Once before each step, and now and then while there are none."""
+    def publish_state(self) -> None:
+        """Publish the state; called before each step, and regularly without steps."""
         if self._bridge.wants_messages(self._state):
             self._bridge.publish(self._state, {"data": _STATES[self._simulation.state]})
 
-    def tell_pass(self) -> None:
-        """At the end of a step, when all else of it has been published."""
+    def publish_step_done(self) -> None:
+        """Publish time and step done; called at the end of a step, after all other messages of the step."""
         if self._bridge.wants_messages(self._time):
             self._bridge.publish(self._time, {"data": self._simulation.time})
         if self._bridge.wants_messages(self._step_done):

@@ -10,10 +10,10 @@ from bubblesim.observers.lock_step import LockStep
 from bubblesim.scripting.host import interruption
 
 
-def offer_step_service(bridge: Any, simulation: Any, lock_step: LockStep | None) -> None:
-    """Offer it under the node's name; it answers when the steps are done. In each, messages come and go as ever.
+def advertise_step_service(bridge: Any, simulation: Any, lock_step: LockStep | None) -> None:
+    """Advertise it in the node's namespace; it responds when the steps are complete. Input is processed in each step.
 
-    :param lock_step: what the steps wait for, if anything.
+    :param lock_step: observer that the steps wait for, if any.
     """
 
     def answer(request: dict[str, Any]) -> dict[str, Any]:
@@ -24,18 +24,18 @@ def offer_step_service(bridge: Any, simulation: Any, lock_step: LockStep | None)
 
 
 def _step(simulation: Any, steps: int, lock_step: LockStep | None) -> str:
-    """Run the steps; what kept them from being run, or nothing."""
+    """Run the steps; return the reason of a failure, or an empty string."""
     if simulation.state == _core.RunState.STOPPED:
         return "the simulation is stopped: start it first, with ~unpause"
     if simulation.state != _core.RunState.PAUSED:
         return "the simulation is running by itself: pause it first, with ~pause"
     if interruption.allowed:
-        return "the simulation is being stepped already, by another request or around the script that asks"
+        return "the simulation is already being stepped, by another request or by the step that called this script"
     try:
-        interruption.allowed = True  # so that a request for many steps does not keep the simulator from ending
+        interruption.allowed = True  # allows interruption of requests with many steps
         for done in range(steps):
             if done and simulation.has_requests:
-                return f"broken off after {done} steps by a request to start, pause or stop"
+                return f"interrupted after {done} steps by a request to start, pause or stop"
             if lock_step and (problem := lock_step.wait()):
                 return problem
             simulation.step()

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Regression tests of controllers: fixtures of pytest that run a simulator in step with them. See plugin.py."""
+"""Regression tests of controllers: pytest fixtures that run a simulator in lockstep. See plugin.py."""

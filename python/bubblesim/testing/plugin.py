@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fixtures of pytest: `ros_master`, `controller` and `sim`.
+"""Pytest fixtures: `ros_master`, `controller` and `sim`.
 
-``bubblesim test`` has them; for pytest itself, a conftest.py names them: pytest_plugins = ["bubblesim.testing.plugin"].
+``bubblesim test`` loads them; for plain pytest, add to conftest.py: pytest_plugins = ["bubblesim.testing.plugin"].
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from bubblesim.testing.simulator import Simulator
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """A closed terminal ends the tests as Ctrl-C does, with all that they have started."""
+    """Let a closed terminal end the tests and their processes as Ctrl-C does."""
     if signal.getsignal(signal.SIGHUP) == signal.SIG_DFL:
         signal.signal(signal.SIGHUP, signal.default_int_handler)
 
@@ -32,14 +32,14 @@ StartSimulator = Callable[..., Simulator]
 
 @pytest.fixture
 def _programs(tmp_path: Path) -> Iterator[Programs]:
-    """What runs for a test, and ends with it."""
+    """Provide the programs of a test, which end with it."""
     with Programs(tmp_path) as programs:
         yield programs
 
 
 @pytest.fixture
 def ros_master(_programs: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Master:
-    """A ROS master of the test's own, on simulated time; this process and those that it starts use it."""
+    """Start a ROS master for the test, on simulated time; this process and its child processes use it."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "ros_log"))
     monkeypatch.setenv("PATH", f"/usr/bin:{os.environ.get('PATH', '')}")  # ROS is built for Debian's Python
     master = start_master(_programs)
@@ -50,7 +50,7 @@ def ros_master(_programs: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.fixture
 def controller(ros_master: Master, _programs: Programs) -> StartController:
-    """Starts a controller: ``controller("rosrun my_package my_node.py _gain:=2")``."""
+    """Return a function that starts a controller: ``controller("rosrun my_package my_node.py _gain:=2")``."""
 
     def start(command: str) -> Program:
         return _programs.start(f"controller {shlex.split(command)[-1].rpartition('/')[2]}", *shlex.split(command))
@@ -60,7 +60,7 @@ def controller(ros_master: Master, _programs: Programs) -> StartController:
 
 @pytest.fixture
 def sim(ros_master: Master, _programs: Programs, tmp_path: Path) -> StartSimulator:
-    """Starts a simulator: ``sim("tricycle", lockstep=["/speed", "/steering"])``; see Simulator."""
+    """Return a function that starts a Simulator: ``sim("tricycle", lockstep=["/speed", "/steering"])``."""
     numbers = itertools.count(1)
 
     def start(scene: str, lockstep: tuple[str, ...] = (), seed: int = 0, options: tuple[str, ...] = ()) -> Simulator:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls the simulator's services over one connection, without being a ROS node: that would take a second to load."""
+"""Client of the simulator's services over one connection, without rospy, which takes a second to load."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class ServiceClient:
     """A persistent client of one service (wiki.ros.org/ROS/TCPROS)."""
 
     def __init__(self, address: tuple[str, int], name: str, service_type: str) -> None:
-        """Connect; OSError when that cannot be done."""
+        """Connect; raise OSError on failure."""
         self._request, self._response = _core.messages.service_halves(service_type)
         self._socket = socket.create_connection(address)
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -31,7 +31,7 @@ class ServiceClient:
         self._receive()  # the server's header
 
     def call(self, **request: Any) -> dict[str, Any]:
-        """The response. ConnectionError when the server goes, RuntimeError with its text when it fails."""
+        """Return the response. Raise ConnectionError if the server closes, RuntimeError if the call fails."""
         self._send(_core.messages.encode(self._request, request))
         succeeded = self._read(1) == b"\x01"
         data = self._receive()
@@ -41,7 +41,7 @@ class ServiceClient:
         return response
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self._socket.close()
 
     def _send(self, data: bytes) -> None:
@@ -55,6 +55,6 @@ class ServiceClient:
         while len(data) < count:
             part = self._socket.recv(count - len(data))
             if not part:
-                raise ConnectionError("the simulator has hung up")
+                raise ConnectionError("the simulator has closed the connection")
             data += part
         return bytes(data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulator that a test runs for as long as it wants."""
+"""A simulator controlled by a test."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ if TYPE_CHECKING:
     from bubblesim.testing.service_client import ServiceClient
 
 _NODE = "/sim_ros_interface"
-_PATIENCE = 30.0  # s
-_POLL = 0.03  # s; each look keeps the master from answering the nodes for some milliseconds
-_PASSES_IN_A_CALL = 200
+_TIMEOUT = 30.0  # s
+_POLL = 0.03  # s; each query keeps the master from other nodes for some milliseconds
+_STEPS_PER_CALL = 200
 _TOLERANCE = 1e-6  # of a second
 
-Message = tuple[float, Any]  # simulated seconds, and a message as rospy has it
+Message = tuple[float, Any]  # simulated time in seconds, and a message as a rospy object
 
 
 class Simulator:
-    """The node with a scene, standing still but for the time that `run` lets pass."""
+    """The node with a scene, paused except during `run`."""
 
     def __init__(
         self,
@@ -39,11 +39,11 @@ class Simulator:
     ) -> None:
         """Start it.
 
-        :param bag: what it writes.
+        :param bag: the bag file to write.
         :param scene: name of a scene, or path of an .sdf file.
-        :param lockstep: the topics that a controller publishes once for each step.
-        :param options: more options of the node.
-        :raises RunError: with what it says, when it does not start.
+        :param lockstep: topics that a controller publishes once in each step.
+        :param options: additional options of the node.
+        :raises RunError: with its output, if it does not start.
         """
         self.time = 0.0
         self.bag = bag
@@ -60,14 +60,14 @@ class Simulator:
         self._state = self._client("get_object_state", "bubblesim_msgs/GetObjectState")
 
     def run(self, seconds: float) -> None:
-        """Let so much simulated time pass; with `lockstep`, each step waits for the controller's answer.
+        """Run for this simulated time, s; with `lockstep`, each step waits for the controller's messages.
 
-        :raises RunError: when the controller does not answer any more, or a program has ended; with what it said last.
+        :raises RunError: with the last output, if the controller does not publish in time, or a program has ended.
         """
         end = self.time + seconds
         while self.time < end - _TOLERANCE:
             left = round((end - self.time) / self._time_step) if self._time_step else 1
-            self._run_steps(min(max(left, 1), _PASSES_IN_A_CALL))
+            self._run_steps(min(max(left, 1), _STEPS_PER_CALL))
 
     def _run_steps(self, steps: int) -> None:
         before = self.time
@@ -78,50 +78,50 @@ class Simulator:
             raise
         self.time = answer["time"]
         if not answer["success"]:
-            self._programs.check()  # one that has ended is the better reason
+            self._programs.check()  # a program that has ended is the better explanation
             raise RunError(answer["status_message"])
         self._time_step = self._time_step or (self.time - before) / steps
 
     def position(self, path: str) -> tuple[float, float, float]:
-        """Where an object is, metres in the world's frame.
+        """Return the position of an object, metres in the world frame.
 
-        :raises LookupError: naming similar objects.
+        :raises LookupError: with similar names.
         """
-        position = self._ask(path)["pose"]["position"]
+        position = self._object_state(path)["pose"]["position"]
         return position["x"], position["y"], position["z"]
 
     def orientation(self, path: str) -> tuple[float, float, float, float]:
-        """How an object is turned in the world, quaternion x, y, z, w; LookupError naming similar objects."""
-        turn = self._ask(path)["pose"]["orientation"]
+        """Return the orientation of an object in the world, x, y, z, w; raise LookupError with similar names."""
+        turn = self._object_state(path)["pose"]["orientation"]
         return turn["x"], turn["y"], turn["z"], turn["w"]
 
     def messages(self, topic: str) -> list[Message]:
-        """What scripts published or heard on a topic, with simulated seconds. Ends the simulator."""
-        import rosbag  # takes its time
+        """Return the messages of scripts on a topic, sent and received, with simulated times. Ends the simulator."""
+        import rosbag  # loads slowly
 
         self.close()
         with rosbag.Bag(str(self.bag)) as bag:
             return [(stamp.to_sec(), message) for _, message, stamp in bag.read_messages(topics=[topic])]
 
     def close(self) -> None:
-        """End it, which completes its bag."""
+        """End the node, which completes its bag."""
         self._step.close()
         self._state.close()
         self._node.stop()
 
-    def _ask(self, path: str) -> dict[str, Any]:
+    def _object_state(self, path: str) -> dict[str, Any]:
         try:
             return self._state.call(object=path)
-        except RuntimeError as error:  # what the service says
+        except RuntimeError as error:  # error message of the service
             raise LookupError(str(error)) from None
 
     def _client(self, name: str, service_type: str) -> ServiceClient:
-        from bubblesim.testing.service_client import ServiceClient  # takes its time, and so does the node meanwhile
+        from bubblesim.testing.service_client import ServiceClient  # loads slowly, while the node also starts
 
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + _TIMEOUT
         while (address := self._master.find_service(f"{_NODE}/{name}")) is None:
             self._programs.check()
             if time.monotonic() > deadline:
-                raise RunError(f"the simulator does not offer its service {name}")
+                raise RunError(f"the simulator does not advertise its service {name}")
             time.sleep(_POLL)
         return ServiceClient(address, f"{_NODE}/{name}", service_type)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stands in for the package of ROS 2 that xacro asks for packages: here those are of ROS 1."""
+"""Replaces the ROS 2 package that xacro uses to find packages; here it finds ROS 1 packages."""

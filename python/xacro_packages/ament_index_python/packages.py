@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where packages are."""
+"""Locations of packages."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ import rospkg
 
 
 class PackageNotFoundError(LookupError):
-    """There is no such package."""
+    """The package was not found."""
 
 
 def get_package_share_directory(package_name: str) -> str:
-    """The folder of a package: in ROS_PACKAGE_PATH, or around the file that xacro expands."""
+    """Return the folder of a package: from ROS_PACKAGE_PATH, or a parent folder of the file that xacro expands."""
     try:
         return str(rospkg.RosPack().get_path(package_name))
     except rospkg.ResourceNotFound as error:

@@ -8,7 +8,7 @@
 
 namespace bubblesim {
 
-/// How long something that runs on a thread of its own may take: until a time, or until whoever waits gives up.
+/// Time limit of a job on its own thread: a point in time, or until the waiting thread gives up.
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
@@ -16,9 +16,9 @@ class Deadline {
   explicit Deadline(Clock::time_point end) : end_(end) {}
 
   Clock::time_point end() const { return end_; }
-  void give_up() { *given_up_ = true; }  ///< Also that of all copies.
+  void give_up() { *given_up_ = true; }  ///< also for all copies
   bool over() const { return *given_up_ || Clock::now() >= end_; }
-  /// How long to wait before over() is to be asked again.
+  /// How long to wait before checking over() again.
   std::chrono::milliseconds slice() const {
     constexpr std::chrono::milliseconds kSlice{50};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end_ - Clock::now());

@@ -8,20 +8,20 @@
 
 namespace bubblesim {
 
-/// What a call to the master or to a node's own slave interface brought. They block without a time limit.
+/// The response to a call to the master or to a node's own slave interface. The calls block without a time limit.
 struct RpcAnswer {
-  bool answered = false;   ///< false: nobody there
-  bool succeeded = false;  ///< the first of the three values of ROS's answers
+  bool answered = false;   ///< false: no server
+  bool succeeded = false;  ///< the first of the three values of ROS's responses
   XmlRpc::XmlRpcValue value;
 };
 
-/// A method of the ROS master; the caller's name is put in front of `arguments`.
+/// Calls a method of the ROS master, with the caller's name in front of `arguments`.
 /// http://wiki.ros.org/ROS/Master_API
 RpcAnswer ask_master(const char* method, std::initializer_list<XmlRpc::XmlRpcValue> arguments = {});
 
-/// A method of this node itself, for what roscpp tells others but not its own process.
+/// Calls a method of this node's own slave interface, for data that roscpp does not provide in its own process.
 /// http://wiki.ros.org/ROS/Slave_API
-/// own_response() is what came, whatever its form: getBusStats of roscpp sends its value alone.
+/// own_response() returns the response in any form: roscpp's getBusStats sends its value alone.
 XmlRpc::XmlRpcValue own_response(const char* method, std::initializer_list<XmlRpc::XmlRpcValue> arguments = {});
 RpcAnswer ask_own_node(const char* method, std::initializer_list<XmlRpc::XmlRpcValue> arguments = {});
 

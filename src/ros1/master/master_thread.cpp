@@ -27,14 +27,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kCheckInterval = 250ms;
-// How stop() spends its 2 s: what a healthy master needs, then breaking off calls one by one.
+// Parts of the 2 s of stop(): time for a healthy master, then for interrupting calls one by one.
 constexpr auto kLetJobFinish = 200ms;
 constexpr auto kLetMasterAnswer = 1000ms;
 constexpr auto kGiveUp = 1900ms;
 constexpr auto kInterruptInterval = 2ms;
 constexpr auto kEndingLook = 50ms;
 
-/// What `function` says; false when it throws, as roscpp does at answers that it does not understand.
+/// Returns the result of `function`; false if it throws, as roscpp does for responses that it does not understand.
 template <class Function>
 bool run_safely(Function&& function) {
   try {
@@ -55,9 +55,9 @@ struct MasterThread::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<Job> jobs;
-  std::atomic<State> state{State::kTrying};   // written under the mutex, so that waiting for it works
-  std::uint64_t answers = 0;                  // of the master, as far as check() knows
-  std::optional<std::uint64_t> silent_after;  // that many, run() lost its deadline
+  std::atomic<State> state{State::kTrying};   // written under the mutex, for the condition variable
+  std::uint64_t answers = 0;                  // of the master, counted by check()
+  std::optional<std::uint64_t> silent_after;  // number of answers at the last timeout of run()
   bool said_absent = false;
   bool first_answer_taken = false;  // wait_for_first_answer() has returned
   std::string refusal;
@@ -74,7 +74,7 @@ struct MasterThread::Shared {
   void run();
 };
 
-/// The mutex must be held.
+/// Requires the mutex.
 void MasterThread::Shared::set_state(State next) {
   state = next;
   changed.notify_all();
@@ -88,7 +88,7 @@ void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
   lock.lock();
 }
 
-/// Whoever waits for the first answer reports the refusal; a later one is reported here, once.
+/// The caller that waits for the first answer reports the refusal; a later one is reported here, once.
 void MasterThread::Shared::set_refused(std::unique_lock<std::mutex>& lock, std::string why) {
   const bool is_news = refusal.empty() && first_answer_taken;
   refusal = std::move(why);
@@ -99,7 +99,7 @@ void MasterThread::Shared::set_refused(std::unique_lock<std::mutex>& lock, std::
   lock.lock();
 }
 
-/// False when it is time to stop. NodeHandle and ros::start() would wait for ever, so they come after this.
+/// Returns false to stop. NodeHandle and ros::start() would wait forever, so they come after this.
 bool MasterThread::Shared::find_master() {
   for (;;) {
     const bool found = run_safely([this] { return hooks.check(); });
@@ -125,7 +125,7 @@ bool MasterThread::Shared::find_master() {
   }
 }
 
-/// A job begun while a master is absent would wait for it, in roscpp, with locks held that delivery needs.
+/// A job started without a master would wait for it in roscpp, with locks held that delivery needs.
 void MasterThread::Shared::work() {
   bool found = true;
   for (;;) {
@@ -168,7 +168,7 @@ void MasterThread::Shared::run() {
       work();
       if (state == State::kConnected) run_safely([this] { return hooks.on_leaving(), true; });
     }
-    ros::shutdown();  // or wait for the one that stop() began
+    ros::shutdown();  // or wait for the shutdown that stop() started
   }
   {
     const std::lock_guard lock(mutex);
@@ -232,7 +232,7 @@ bool MasterThread::run(Job job, std::chrono::milliseconds deadline) {
   });
   shared_->changed.notify_all();
   for (;;) {
-    const std::uint64_t before = shared_->answers;  // a slow machine is no silent master
+    const std::uint64_t before = shared_->answers;  // a slow machine does not mean an absent master
     const auto is_over = [&] { return *done || shared_->stopping || is_absent() || shared_->answers != before; };
     const bool heard = shared_->changed.wait_for(lock, deadline, is_over);
     if (*done) return true;
@@ -253,7 +253,7 @@ bool MasterThread::stop() {
   };
   std::thread shutdown;
   if (!finished_by(begin + kLetJobFinish)) {
-    // roscpp repeats a registration until the master answers or the node shuts down.
+    // roscpp retries a registration until the master answers or the node shuts down.
     if (ros::isStarted()) shutdown = start_without_signals([] { ros::shutdown(); });
     finished_by(begin + kLetMasterAnswer);
     while (!shared_->finished && Clock::now() < begin + kGiveUp) {

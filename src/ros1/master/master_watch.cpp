@@ -27,7 +27,7 @@ struct Topic {
   std::string type;
 };
 
-/// What getPublications and getSubscriptions say: a list of [topic, type].
+/// Converts the result of getPublications and getSubscriptions, a list of [topic, type].
 std::vector<Topic> own_topics(const char* method) {
   RpcAnswer answer = ask_own_node(method);
   std::vector<Topic> topics;
@@ -36,8 +36,8 @@ std::vector<Topic> own_topics(const char* method) {
   return topics;
 }
 
-/// Adds the publishers that the master named to those that are connected. Other nodes do not register again, so the
-/// master's list alone would cut connections that are alive.
+/// Adds the publishers named by the master to the connected ones. Other nodes do not register again, so the master's
+/// list alone would cut live connections.
 void update_publishers(const std::string& topic, XmlRpcValue& named, std::set<std::string> publishers) {
   for (int i = 0; i < named.size(); ++i) publishers.insert(static_cast<std::string>(named[i]));
   XmlRpcValue all;
@@ -61,7 +61,7 @@ bool MasterWatch::check() {
   const bool is_new = master != master_;
   if (ros::isShuttingDown() || (!is_new && Clock::now() < next_look_)) return true;
   next_look_ = Clock::now() + kLookInterval;
-  // A new master may know the node already, but not all of it, when a registration was under way.
+  // A new master may know only part of the node, if a registration was in progress.
   const Standing standing = ros::isStarted() ? look_up() : Standing::kReplaced;
   if (standing == Standing::kForgotten || (standing == Standing::kKnown && is_new)) {
     if (!renew()) return false;
@@ -75,7 +75,7 @@ void MasterWatch::add_service(const std::string& name) { services_.insert(name);
 
 void MasterWatch::remove_service(const std::string& name) { services_.erase(name); }
 
-/// kReplaced when another node has taken the name: then the master has told this one to go.
+/// Returns kReplaced if another node has the name: the master has then requested the shutdown of this node.
 MasterWatch::Standing MasterWatch::look_up() const {
   RpcAnswer answer = ask_master("lookupNode", {ros::this_node::getName()});
   if (!answer.succeeded) return Standing::kForgotten;
@@ -83,8 +83,8 @@ MasterWatch::Standing MasterWatch::look_up() const {
   return is_own ? Standing::kKnown : Standing::kReplaced;
 }
 
-/// False when the master went away meanwhile. Publishers come first: were this node known as a subscriber by then, the
-/// master would tell it that its own is all there are, and cut the others.
+/// Returns false if the master disappeared meanwhile. Publishers come first: if this node were already known as a
+/// subscriber, the master would send it its own publishers only, which cuts the others.
 bool MasterWatch::renew() const {
   const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   for (const Topic& topic : own_topics("getPublications")) {

@@ -8,17 +8,17 @@
 
 namespace bubblesim {
 
-/// Notices that the master was replaced by another, or has forgotten this node (`rosnode cleanup`), and tells it again
-/// what the node publishes, subscribes and offers. roscpp never does. All of it belongs to the master thread.
+/// Detects that another master replaced the master, or that the master removed this node (`rosnode cleanup`), and
+/// registers the node's publishers, subscribers and services again. roscpp never does. Used by the master thread only.
 class MasterWatch {
  public:
-  /// `on_renewed` is called after everything has been registered again.
+  /// `on_renewed` is called after a complete new registration.
   explicit MasterWatch(std::function<void()> on_renewed);
 
-  /// Whether a master answers. Registers again if there is need to.
+  /// Returns whether a master answers. Registers again if needed.
   bool check();
 
-  /// Services that roscpp has registered; what else it has, it tells.
+  /// Adds a service that roscpp has registered; topics are queried from roscpp.
   void add_service(const std::string& name);
   void remove_service(const std::string& name);
 

@@ -23,14 +23,14 @@ constexpr std::chrono::milliseconds kAnswerTime{1000};
 constexpr std::chrono::milliseconds kTimeToEnd{3000};
 constexpr std::chrono::milliseconds kBetweenLooks{20};
 
-/// The URI of the node that has this one's name on the master; empty when there is none.
+/// The URI of the node with this node's name on the master; empty if there is none.
 std::string registered_uri() {
   RpcAnswer answer = ask_master("lookupNode", {ros::this_node::getName()});
   if (!answer.succeeded || answer.value.getType() != XmlRpc::XmlRpcValue::TypeString) return {};
   return answer.value;
 }
 
-/// A call that a node which hangs does not keep from returning.
+/// A client whose calls return even if the node hangs.
 class TimedClient final : public XmlRpc::XmlRpcClient {
  public:
   TimedClient(const std::string& host, std::uint32_t port) : XmlRpcClient(host.c_str(), static_cast<int>(port), "/") {}
@@ -43,7 +43,7 @@ class TimedClient final : public XmlRpc::XmlRpcClient {
   }
 };
 
-/// One that is stopped by a signal still does.
+/// A node stopped by a signal still does.
 bool takes_connections(const std::string& uri) {
   std::string host;
   std::uint32_t port = 0;
@@ -61,8 +61,8 @@ bool takes_connections(const std::string& uri) {
 std::string other_node_of_this_name() {
   const std::string uri = registered_uri();
   if (uri.empty() || !takes_connections(uri)) return {};
-  return "a node " + ros::this_node::getName() + " runs already on the ROS master " + ros::master::getURI() +
-         ": name this one otherwise by __name:=OTHER, or end that one by --replace";
+  return "a node " + ros::this_node::getName() + " is already running on the ROS master " + ros::master::getURI() +
+         ": rename this node with __name:=OTHER, or shut down the other with --replace";
 }
 
 void end_other_node_of_this_name() {
@@ -72,7 +72,7 @@ void end_other_node_of_this_name() {
   if (uri.empty() || !ros::network::splitURI(uri, host, port) || !takes_connections(uri)) return;
   XmlRpc::XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
-  arguments[1] = "another node takes its name";
+  arguments[1] = "another node takes this name";
   TimedClient(host, port).call("shutdown", arguments);
   const auto end = Deadline::Clock::now() + kTimeToEnd;
   while (takes_connections(uri) && Deadline::Clock::now() < end) std::this_thread::sleep_for(kBetweenLooks);

@@ -5,15 +5,15 @@
 
 namespace bubblesim {
 
-/// Why this node must not register at the master: another node of its name runs, which the master would end for it.
-/// Empty when there is none, or only one that was killed and does not take connections any more.
+/// Returns why this node must not register at the master: another node of its name runs, which the master would shut
+/// down. Empty if there is none, or only a killed one that no longer accepts connections.
 std::string other_node_of_this_name();
 
-/// Tells that node to shut down and waits until it has, 3 s at most. Were this one to register
-/// before, the two would end each other: each registration of one has the master shut down the other.
+/// Requests that node to shut down and waits until it has, at most 3 s. If this node registered before, the two would
+/// end each other: each registration of one makes the master shut down the other.
 void end_other_node_of_this_name();
 
-/// Whether the master knows this very node by its name, not another that has taken the name.
+/// Returns whether the master has this node under its name, not another node that took the name.
 bool master_knows_this_node();
 
 }  // namespace bubblesim

@@ -63,14 +63,14 @@ void Parameters::remove(const std::string& name) {
 }
 
 std::optional<std::string> Parameters::search(const std::string& name) {
-  resolve_name(name, "parameter");  // refuses what is no name
+  resolve_name(name, "parameter");  // throws for an invalid name
   RpcAnswer answer = ask("searchParam", name);
   if (!answer.succeeded || answer.value.getType() != XmlRpcValue::TypeString) return std::nullopt;
   return static_cast<std::string>(answer.value);
 }
 
 RpcAnswer Parameters::ask(const char* method, const std::string& argument) {
-  const auto answer = std::make_shared<RpcAnswer>();  // the job's, too, which may outlive this call
+  const auto answer = std::make_shared<RpcAnswer>();  // shared with the job, which may outlive this call
   const bool asked = master_.run([answer, method, argument] { *answer = ask_master(method, {argument}); }, kPatience);
   if (!asked || !answer->answered)
     throw messages::NoMaster("the ROS master at " + ros::master::getURI() + " does not answer");

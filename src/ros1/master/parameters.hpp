@@ -11,7 +11,7 @@ namespace bubblesim {
 
 class MasterThread;
 
-/// The parameters that the master keeps; messages::Bridge tells what the functions do. For the simulation's thread.
+/// The parameters of the master; see messages::Bridge. For the simulation thread.
 class Parameters {
  public:
   explicit Parameters(MasterThread& master) : master_(master) {}

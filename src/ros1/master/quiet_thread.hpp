@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// A thread that takes no signals, so that SIGINT and SIGTERM reach the thread that waits for them.
+/// Starts a thread that blocks all signals, so that SIGINT and SIGTERM reach the thread that waits for them.
 template <class Function>
 std::thread start_without_signals(Function&& function) {
   sigset_t all;

@@ -10,7 +10,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// An argument of a call that anybody may have sent.
+/// An argument of a call from any client.
 std::string text_at(XmlRpcValue& arguments, int index) {
   if (arguments.getType() != XmlRpcValue::TypeArray || arguments.size() <= index) return {};
   return arguments[index].getType() == XmlRpcValue::TypeString ? static_cast<std::string>(arguments[index])
@@ -20,12 +20,12 @@ std::string text_at(XmlRpcValue& arguments, int index) {
 }  // namespace
 
 void take_over_shutdown(std::function<void(const std::string& why)> on_shutdown) {
-  // roscpp binds its own in ros::start(), which does nothing where there is one already.
+  // roscpp binds its own method in ros::start(), which does nothing if one is already bound.
   ros::XMLRPCManager::instance()->bind(
       "shutdown", [on_shutdown = std::move(on_shutdown)](XmlRpcValue& arguments, XmlRpcValue& result) {
         const std::string caller = text_at(arguments, 0);
         const std::string reason = text_at(arguments, 1);
-        on_shutdown((caller.empty() ? "somebody" : caller) + ": " + (reason.empty() ? "no reason given" : reason));
+        on_shutdown((caller.empty() ? "unknown" : caller) + ": " + (reason.empty() ? "no reason given" : reason));
         result = ros::xmlrpc::responseInt(1, "", 0);
       });
 }

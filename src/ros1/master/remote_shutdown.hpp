@@ -6,10 +6,9 @@
 
 namespace bubblesim {
 
-/// Answers the method `shutdown` of this node's slave interface in roscpp's place, which would stop roscpp and leave
-/// the process alive without it. `on_shutdown` gets the caller's name and reason, on a thread of roscpp's. To be called
-/// before ros::start().
-/// http://wiki.ros.org/ROS/Slave_API
+/// Replaces roscpp's method `shutdown` of this node's slave interface, which would stop roscpp and leave the process
+/// running without it. `on_shutdown` gets the caller's name and reason, on a roscpp thread. Call it before
+/// ros::start(). http://wiki.ros.org/ROS/Slave_API
 void take_over_shutdown(std::function<void(const std::string& why)> on_shutdown);
 
 }  // namespace bubblesim

@@ -22,7 +22,7 @@ void UseSimTime::take() {
   ask_master("deleteParam", {kept});
   if (answer.value.getType() != XmlRpcValue::TypeString) return;
   before_ = static_cast<std::string>(answer.value);
-  before_.erase(before_.find_last_not_of(" \n") + 1);  // of a command's output
+  before_.erase(before_.find_last_not_of(" \n") + 1);  // from the output of a command
 }
 
 void UseSimTime::restore() const {

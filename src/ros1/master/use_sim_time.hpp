@@ -5,14 +5,14 @@
 
 namespace bubblesim {
 
-/// Puts /use_sim_time back at the end of a launch file that has set it for the simulator. The file keeps what it was
-/// in the parameter ~use_sim_time_before: "true", "false" or "unset"; without that, nothing is put back. All calls wait
-/// for the master.
+/// Restores /use_sim_time at the end of a launch file that has set it for the simulator. The launch file stores the
+/// previous value in the parameter ~use_sim_time_before: "true", "false" or "unset"; without it, nothing is restored.
+/// All calls wait for the master.
 class UseSimTime {
  public:
-  /// Takes the parameter from the master: it belongs to this run of the node alone.
+  /// Reads and deletes the parameter: it belongs to this run of the node only.
   void take();
-  /// Before the node leaves the master; nothing when another has taken its name, for that one goes on.
+  /// Call it before the node leaves the master. Does nothing if another node took its name, because that one continues.
   void restore() const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace bubblesim {
 
-/// Topics that this node is connected to -> the nodes that they come from, by their URIs.
+/// Connected topics -> the URIs of their publishers.
 std::map<std::string, std::set<std::string>> connected_publishers();
 
 }  // namespace bubblesim

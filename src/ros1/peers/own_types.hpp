@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The types of what the node itself publishes and offers, as roscpp's generated headers tell them.
+// The types of the node's own topics and services, from roscpp's generated headers.
 #pragma once
 
 #include "bubblesim/messages/message_type.hpp"

@@ -15,7 +15,7 @@
 namespace bubblesim {
 namespace {
 
-constexpr std::chrono::seconds kLookInterval{1};
+constexpr std::chrono::seconds kPublisherCheckInterval{1};
 
 std::vector<std::string> others(XmlRpc::XmlRpcValue& nodes) {
   std::vector<std::string> names(static_cast<std::size_t>(nodes.size()));
@@ -27,8 +27,8 @@ std::vector<std::string> others(XmlRpc::XmlRpcValue& nodes) {
 void ask(const std::string& topic, const std::string& node, const std::string& uri, const TypeVersion& ours) {
   probe_publisher(topic, uri, [topic, node, ours](const TypeVersion& theirs) {
     if (theirs.md5 == ours.md5 || theirs.md5 == "*") return;
-    say("topic '" + topic + "': node " + node + " publishes it as " + shown(theirs) +
-        ", but here it is subscribed as " + shown(ours) + ", so nothing comes from that node; " + cure(theirs, ours));
+    say("topic '" + topic + "': node " + node + " publishes " + shown(theirs) + ", but this node subscribes to " +
+        shown(ours) + ", so no messages arrive from it; " + cure(theirs, ours));
   });
 }
 
@@ -47,9 +47,9 @@ void PublisherCheck::remove(const std::string& topic) {
 
 void PublisherCheck::look() {
   if (topics_.empty() || Clock::now() < next_look_) return;
-  next_look_ = Clock::now() + kLookInterval;
+  next_look_ = Clock::now() + kPublisherCheckInterval;
   const std::set<Publisher> missing = missing_publishers();
-  std::set<Publisher> asked;  // forgets those that are gone
+  std::set<Publisher> asked;  // without nodes that have disappeared
   std::set_intersection(asked_.begin(), asked_.end(), missing.begin(), missing.end(),
                         std::inserter(asked, asked.end()));
   for (const Publisher& publisher : missing) {

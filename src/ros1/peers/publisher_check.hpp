@@ -12,16 +12,16 @@
 
 namespace bubblesim {
 
-/// Tells in one line, once for each, which publishers of the node's subscriptions have another type: they refuse the
-/// connection, and roscpp drops it without a word. All of it belongs to the master thread.
+/// Reports once, in one line, each publisher of the node's subscriptions with a different type: it refuses the
+/// connection, and roscpp drops it without a message. Used by the master thread only.
 class PublisherCheck {
  public:
-  /// A topic may be added several times, and is then to be removed as often.
+  /// A topic may be added several times, and must then be removed as often.
   void add(const std::string& topic, const messages::MessageType& type);
   void remove(const std::string& topic);
 
-  /// To be called regularly, while there is a master; looks once a second. A publisher that the master knows and
-  /// that is not connected at two looks is asked for its type.
+  /// Call it regularly while there is a master; it checks once a second. A publisher that the master lists and that is
+  /// not connected in two checks is asked for its type.
   void look();
 
  private:
@@ -36,7 +36,7 @@ class PublisherCheck {
   std::set<Publisher> missing_publishers() const;
 
   std::map<std::string, Subscribed> topics_;
-  std::set<Publisher> missing_;  // at the last look
+  std::set<Publisher> missing_;  // in the last check
   std::set<Publisher> asked_;    // of those
   Clock::time_point next_look_{};
 };

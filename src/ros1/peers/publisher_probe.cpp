@@ -38,7 +38,7 @@ void connect(const std::string& topic, const std::string& host, int port, Answer
   ros::ConnectionManager::instance()->addConnection(connection);
 }
 
-/// The question to the node where it takes connections, as roscpp asks it itself.
+/// Asks the node for its TCPROS address, as roscpp does.
 /// http://wiki.ros.org/ROS/Slave_API, requestTopic
 class TopicRequest final : public ros::ASyncXMLRPCConnection {
  public:
@@ -61,7 +61,7 @@ class TopicRequest final : public ros::ASyncXMLRPCConnection {
 
   void removeFromDispatch(XmlRpc::XmlRpcDispatch* dispatch) override { dispatch->removeSource(&client_); }
 
-  /// Whether it is over.
+  /// Whether the request has ended.
   bool check() override {
     XmlRpcValue response;
     if (!client_.executeCheckDone(response)) return false;

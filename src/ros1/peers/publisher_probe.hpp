@@ -8,9 +8,9 @@
 
 namespace bubblesim {
 
-/// Asks a node as what it publishes a topic, by connecting as a subscriber that takes any type, and dropping the
-/// connection when its header is there. All of it happens on roscpp's own threads, where `on_answer` is called, too; a
-/// node that does not answer is not waited for.
+/// Queries the type of a topic from a publisher, by connecting as a subscriber of any type and closing the connection
+/// after the header. Runs on roscpp's threads, which also call `on_answer`; does not wait for a node that does not
+/// answer.
 void probe_publisher(const std::string& topic, const std::string& node_uri,
                      std::function<void(const TypeVersion&)> on_answer);
 

@@ -38,20 +38,20 @@ std::optional<std::string> subscriber_refused(const std::string& line) {
   if (!std::regex_match(line, part, kPattern)) return std::nullopt;
   const TypeVersion theirs{part[3], part[4]};
   const TypeVersion ours{part[5], part[6]};
-  return "topic '" + part[2].str() + "': node " + part[1].str() + " subscribes to it as " + shown(theirs) +
-         ", but here it is published as " + shown(ours) + ", so nothing is sent to that node; " + cure(theirs, ours);
+  return "topic '" + part[2].str() + "': node " + part[1].str() + " subscribes to " + shown(theirs) +
+         ", but this node publishes " + shown(ours) + ", so no messages are sent to it; " + cure(theirs, ours);
 }
 
-/// From ros::ServiceClientLink::handleHeader(), which tells neither the client's name nor what it takes the type for.
+/// From ros::ServiceClientLink::handleHeader(), which logs neither the client's name nor its type.
 std::optional<std::string> client_refused(const std::string& line) {
   static const std::regex kPattern(R"(client wants service (.*) to have md5sum (.*), but it has (.*)\. Dropping.*)");
   std::smatch part;
   if (!std::regex_match(line, part, kPattern)) return std::nullopt;
   const auto service = ros::ServiceManager::instance()->lookupServicePublication(part[1]);
   const TypeVersion ours{service ? service->getDataType() : "another type", part[3]};
-  return "service '" + part[1].str() + "': a client calls it with a type of md5 " + part[2].str() +
-         ", but here it is offered as " + shown(ours) +
-         ", so the call is refused; let both use one type, built from the same definition";
+  return "service '" + part[1].str() + "': a client calls a type with md5 " + part[2].str() +
+         ", but this node provides " + shown(ours) +
+         ", so the call is refused; use the same type in both, built from the same definition";
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ RefusedPeers::~RefusedPeers() {
 }
 
 bool RefusedPeers::take(const std::string& line) {
-  constexpr std::size_t kLongest = 2000;  // std::regex needs stack for each character, and peers choose their names
+  constexpr std::size_t kLongest = 2000;  // std::regex uses stack per character, and peers choose their names
   if (line.size() > kLongest) return false;
   std::optional<std::string> text = subscriber_refused(line);
   if (!text) text = client_refused(line);

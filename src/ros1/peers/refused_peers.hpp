@@ -7,19 +7,19 @@
 
 namespace bubblesim {
 
-/// Tells in one line, once for each, which nodes wanted to subscribe to a topic or call a service of this node with
-/// another type. roscpp refuses them by itself and tells nobody but its log, at each of their attempts: those lines are
-/// taken out of the console's output (not out of /rosout).
+/// Reports once, in one line, each node that tried to subscribe to a topic or call a service of this node with another
+/// type. roscpp refuses them and only logs it, at each attempt: removes those lines from the console output (not from
+/// /rosout).
 class RefusedPeers {
  public:
-  /// There may be one at a time; ros::init() must have been called.
+  /// At most one may exist; call it after ros::init().
   RefusedPeers();
   ~RefusedPeers();
 
   RefusedPeers(const RefusedPeers&) = delete;
   RefusedPeers& operator=(const RefusedPeers&) = delete;
 
-  /// Whether `line` of roscpp's log is about such a peer; says so if it is the first about it. Any thread may call it.
+  /// Returns whether `line` of roscpp's log is about such a peer; reports the first one about it. Thread-safe.
   bool take(const std::string& line);
 
  private:

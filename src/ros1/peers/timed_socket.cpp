@@ -36,7 +36,7 @@ TimedSocket::TimedSocket(const std::string& host, std::uint32_t port, Deadline d
     : patience_(std::move(deadline)) {
   const Addresses addresses = look_up(host, port);
   int error = ENOTCONN;
-  // `localhost` may be two addresses, of which the server listens on one.
+  // `localhost` may have two addresses, and the server listens on one of them.
   for (const addrinfo* address = addresses.get(); address != nullptr; address = address->ai_next) {
     descriptor_ = socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor_ < 0) throw failure(errno);
@@ -96,7 +96,7 @@ void TimedSocket::read(void* data, std::size_t size) {
       at += got;
       size -= static_cast<std::size_t>(got);
     } else if (got == 0) {
-      throw std::runtime_error("it closed the connection");
+      throw std::runtime_error("the server closed the connection");
     } else if (errno == EAGAIN || errno == EINTR) {
       wait_for(POLLIN);
     } else {

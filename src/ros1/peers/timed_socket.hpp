@@ -10,21 +10,21 @@
 
 namespace bubblesim {
 
-/// A TCP connection that never waits longer than its user's deadline lasts.
+/// A TCP connection whose calls end at the caller's deadline.
 class TimedSocket {
  public:
   struct TimedOut : std::runtime_error {
     TimedOut() : std::runtime_error("no answer in time") {}
   };
 
-  /// Connects. As read() and write(), it throws TimedOut, or std::runtime_error that says what went wrong.
+  /// Connects. Like read() and write(), throws TimedOut, or std::runtime_error with the cause.
   TimedSocket(const std::string& host, std::uint32_t port, Deadline deadline);
   ~TimedSocket();
   TimedSocket(const TimedSocket&) = delete;
   TimedSocket& operator=(const TimedSocket&) = delete;
 
   void write(const void* data, std::size_t size);
-  /// Reads exactly that many bytes.
+  /// Reads exactly `size` bytes.
   void read(void* data, std::size_t size);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace bubblesim {
 
-/// A type as a node knows it: two that share a name may have different definitions, and then different md5 sums.
+/// A type as known to a node: types of the same name may have different definitions, and so different md5 sums.
 struct TypeVersion {
   std::string name;
   std::string md5;
@@ -13,10 +13,10 @@ struct TypeVersion {
 
 inline std::string shown(const TypeVersion& type) { return type.name + " (md5 " + type.md5 + ")"; }
 
-/// The cure for two nodes that cannot talk because of their types.
+/// What to do about two nodes with incompatible types.
 inline std::string cure(const TypeVersion& theirs, const TypeVersion& ours) {
-  if (theirs.name != ours.name) return "let both use one type";
-  return "their definitions differ: build the messages of both nodes from the same definition, and start both after "
+  if (theirs.name != ours.name) return "use the same type in both";
+  return "the definitions differ: build the messages of both nodes from the same definition, and start both after "
          "sourcing that workspace";
 }
 

@@ -21,7 +21,7 @@ void RequestQueue::addCallback(const ros::CallbackInterfacePtr& request, std::ui
 }
 
 void RequestQueue::removeByID(std::uint64_t owner) {
-  std::deque<Request> removed;  // destroyed after the lock is let go
+  std::deque<Request> removed;  // destroyed after the lock is released
   const std::lock_guard lock(mutex_);
   const auto kept = std::stable_partition(requests_.begin(), requests_.end(),
                                           [owner](const Request& request) { return request.owner != owner; });

@@ -16,9 +16,9 @@
 
 namespace bubblesim {
 
-/// Service requests that wait for the simulation's thread. roscpp's own CallbackQueue will not do: a service that calls
-/// a service answers requests while it is being called itself, and there roscpp neither hands out what the outer round
-/// has taken, nor survives a service that is shut down meanwhile (its lock is not recursive).
+/// Service requests that wait for the simulation thread. roscpp's CallbackQueue is not suitable: a service that calls
+/// another service answers requests during its own call, and there roscpp does not return callbacks that the outer call
+/// has taken, and does not survive a service that is shut down meanwhile (its lock is not recursive).
 class RequestQueue final : public ros::CallbackQueueInterface {
  public:
   using Clock = std::chrono::steady_clock;
@@ -28,14 +28,14 @@ class RequestQueue final : public ros::CallbackQueueInterface {
   void addCallback(const ros::CallbackInterfacePtr& request, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override;
 
-  /// Answers the requests that are there now, not those that come meanwhile: a busy client must not stop time.
+  /// Answers the pending requests, not those that arrive meanwhile: a busy client must not block the simulation.
   void serve();
 
-  /// Answers requests as they come, until `done` holds (true) or `deadline` has passed (false). `done` is asked at
-  /// least every 20 ms, and at once after wake().
+  /// Answers requests as they arrive, until `done` returns true (returns true) or `deadline` has passed (returns
+  /// false). Calls `done` at least every 20 ms, and at once after wake().
   bool serve_until(const std::function<bool()>& done, Clock::time_point deadline);
 
-  /// From any thread: what serve_until() waits for may have come.
+  /// Makes serve_until() call `done`. Thread-safe.
   void wake();
 
  private:

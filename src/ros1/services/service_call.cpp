@@ -30,7 +30,7 @@ struct Address {
   std::uint32_t port = 0;
 };
 
-/// Nothing when the master knows no such service.
+/// Empty if the master has no such service.
 std::optional<Address> look_up(const std::string& service) {
   RpcAnswer answer = ask_master("lookupService", {service});
   if (!answer.answered) throw ServiceError("no ROS master at " + ros::master::getURI());
@@ -38,7 +38,7 @@ std::optional<Address> look_up(const std::string& service) {
   Address address;
   const std::string uri = answer.value;
   if (!ros::network::splitURI(uri, address.host, address.port)) {
-    throw ServiceError("the ROS master has no usable address of service '" + service + "': '" + uri + "'");
+    throw ServiceError("the ROS master has an invalid address of service '" + service + "': '" + uri + "'");
   }
   return address;
 }
@@ -53,7 +53,7 @@ std::vector<std::string> known_services() {
 }
 
 void write_header(TimedSocket& socket, const std::string& service) {
-  // Any md5 is asked for, because a server that is not content only says so in words of its own.
+  // Request any md5: a server that rejects an md5 only reports it as free text.
   const ros::M_string fields{{"service", service}, {"md5sum", "*"}, {"callerid", ros::this_node::getName()}};
   boost::shared_array<std::uint8_t> bytes;
   std::uint32_t size = 0;
@@ -65,7 +65,7 @@ void write_header(TimedSocket& socket, const std::string& service) {
 std::uint32_t read_length(TimedSocket& socket, std::uint32_t longest) {
   std::uint32_t length = 0;
   socket.read(&length, sizeof(length));
-  if (length > longest) throw std::runtime_error("it does not speak TCPROS");
+  if (length > longest) throw std::runtime_error("the server does not use TCPROS");
   return length;
 }
 
@@ -75,7 +75,7 @@ ros::Header read_header(TimedSocket& socket) {
   socket.read(bytes.get(), size);
   ros::Header header;
   std::string error;
-  if (!header.parse(bytes, size, error)) throw std::runtime_error("it does not speak TCPROS");
+  if (!header.parse(bytes, size, error)) throw std::runtime_error("the server does not use TCPROS");
   return header;
 }
 
@@ -104,7 +104,7 @@ ServiceError other_type(const std::string& service, const std::string& name, con
                         const ServiceType& wanted) {
   std::string text = "service '" + service + "' is of type " + name + ", not " + wanted.name;
   if (name == wanted.name) {
-    text = "service '" + service + "' has another version of " + name + " than this node: md5 " + md5 + ", not " +
+    text = "service '" + service + "' uses another version of " + name + " than this node: md5 " + md5 + ", not " +
            wanted.md5;
   }
   return ServiceError(text);
@@ -129,8 +129,8 @@ WireBuffer call_service(const std::string& name, const ServiceType& type, WireBu
   } catch (const TimedSocket::TimedOut&) {
     throw;
   } catch (const std::exception& error) {
-    throw ServiceError("lost service '" + name + "' at " + address->host + ":" + std::to_string(address->port) + ": " +
-                       error.what());
+    throw ServiceError("connection to service '" + name + "' at " + address->host + ":" +
+                       std::to_string(address->port) + " failed: " + error.what());
   }
 }
 
@@ -140,7 +140,7 @@ bool find_service(const std::string& name, const Deadline& deadline) {
     if (!address) return false;
     const TimedSocket reachable(address->host, address->port, deadline);
     return true;
-  } catch (const std::runtime_error&) {  // no master, or a server that died without telling it
+  } catch (const std::runtime_error&) {  // no master, or a server that died without unregistering
     return false;
   }
 }

@@ -18,7 +18,7 @@ using messages::ServiceError;
 using messages::WireBuffer;
 using messages::WireView;
 
-/// As TCPROS has it: one byte for success, the length, the bytes.
+/// The TCPROS form: one byte for success, the length, the bytes.
 ros::SerializedMessage to_response(const WireBuffer& message) {
   constexpr std::size_t kBefore = 1 + sizeof(std::uint32_t);
   if (message.size() > std::numeric_limits<std::uint32_t>::max() - kBefore) {
@@ -39,11 +39,11 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
   Responder(ServiceCallback callback, ros::CallbackQueueInterface& queue_to_use, CallbackGuard& guard)
       : queue(queue_to_use), callback_(std::make_shared<ServiceCallback>(std::move(callback))), guard_(guard) {}
 
-  // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
+  // Callbacks of scripts must be destroyed on the simulation thread, while roscpp may release this object on any other.
   void silence() { callback_.reset(); }
 
   WireBuffer answer(WireView request) {
-    const std::shared_ptr<ServiceCallback> callback = callback_;  // it may silence itself
+    const std::shared_ptr<ServiceCallback> callback = callback_;  // the callback may call silence()
     if (!callback) throw ServiceError("the service was shut down");
     WireBuffer response;
     std::optional<std::string> failure;
@@ -68,18 +68,18 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
 
   bool is_answering() const { return answering_ > 0; }
 
-  /// What this throws, roscpp logs and sends to the caller.
+  /// roscpp logs the exceptions of this function and sends their text to the caller.
   bool call(ros::ServiceCallbackHelperCallParams& params) override {
     params.response = to_response(answer(WireView(params.request.buf.get(), params.request.num_bytes)));
     return true;
   }
 
-  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+  CountingQueue queue;  // here, because roscpp keeps this object as long as it uses the queue
 
  private:
   std::shared_ptr<ServiceCallback> callback_;
   CallbackGuard& guard_;
-  int answering_ = 0;  // answers begun and not ended: more than one when a service calls itself
+  int answering_ = 0;  // answers in progress: more than one if a service calls itself
 };
 
 ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type, ServiceCallback callback,

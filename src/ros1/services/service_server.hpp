@@ -13,28 +13,28 @@
 
 namespace bubblesim {
 
-/// A service of a script, as roscpp sees it: raw bytes under the type's name and md5. register_* and unregister_*
-/// belong to the master thread, everything else to the simulation's.
+/// A script's service for roscpp: raw bytes with the type's name and md5. Call register_* and unregister_* on the
+/// master thread, everything else on the simulation thread.
 class ServiceServer {
  public:
-  /// Callbacks run when `queue` is served; what they throw, ServiceError excepted, goes to `guard`.
+  /// Callbacks run when `queue` is served; `guard` keeps their exceptions except ServiceError.
   ServiceServer(std::string name, const messages::ServiceType& type, messages::ServiceCallback callback,
                 RequestQueue& queue, CallbackGuard& guard);
 
   const std::string& name() const { return name_; }
   const messages::ServiceType& type() const { return type_; }
-  /// Calls the callback. Throws ServiceError with the text of whatever that throws.
+  /// Calls the callback. Throws ServiceError with the text of any exception.
   messages::WireBuffer answer(messages::WireView request);
-  /// Requests that have come and not been answered yet, nor begun to be.
+  /// Number of pending requests.
   WaitingCount waiting() const;
   /// Whether the callback is running.
   bool is_answering() const;
-  /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
+  /// Stops calls of the callback and destroys it, at once or when a running call returns.
   void silence();
 
   void register_at_master();
-  /// What roscpp keeps of the service. Its network thread aborts the process when a request comes in just as this is
-  /// destroyed, so it has to be kept for a while.
+  /// Returns roscpp's object of the service. roscpp's network thread aborts the process if a request arrives during its
+  /// destruction, so the caller must keep it for a while.
   ros::ServicePublicationPtr unregister_from_master();
 
  private:

@@ -27,10 +27,10 @@ using Clock = Deadline::Clock;
 
 constexpr std::size_t kRetiredKept = 64;
 constexpr int kMostNested = 16;
-constexpr int kMostLeftBehind = 16;     // threads of calls that a hanging master holds up
+constexpr int kMostLeftBehind = 16;     // threads of calls that wait for a hanging master
 constexpr double kLongestWait = 86400;  // [s]; more would overflow the clock
 constexpr double kOneLook = 0.5;        // [s]
-// What a thread gets for telling that it ran out of time, beyond that time.
+// Time after the timeout for a thread to report the timeout.
 constexpr std::chrono::milliseconds kGrace{100};
 
 Deadline patience_for(double timeout) {
@@ -61,9 +61,9 @@ std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::st
                                                     messages::ServiceCallback callback) {
   const std::string resolved = resolve_name(name, "service");
   if (find_own(resolved)) {
-    throw std::invalid_argument("service '" + resolved + "' is already offered here");
+    throw std::invalid_argument("service '" + resolved + "' is already advertised by this node");
   }
-  take_off_leaving();  // before one of the same name is registered
+  take_off_leaving();  // before a service of the same name is registered
   auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
   servers_.emplace(id, server);
   return server;
@@ -89,7 +89,7 @@ void Services::remove_server(EndpointId id) {
   servers_.erase(found);
 }
 
-/// Drops the connections, too.
+/// Also closes the connections.
 void Services::take_off(std::shared_ptr<ServiceServer> server) {
   master_.post([this, gone = std::move(server)] {
     watch_.remove_service(gone->name());
@@ -120,7 +120,7 @@ const ServiceType& Services::type(EndpointId id) const {
 }
 
 WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout) {
-  // A copy, for what is served meanwhile may shut the client down.
+  // Copies, because a callback may shut down the client meanwhile.
   const auto [name, type] = *find_endpoint(clients_, client, "service client")->second;
   if (!(timeout > 0)) throw std::invalid_argument("the timeout of a service call must be positive");
   if (const std::shared_ptr<ServiceServer> own = find_own(name)) {
@@ -148,7 +148,7 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
         }
       },
       deadline);
-  if (!finished) throw ServiceError("service '" + name + "' not called: the ROS master does not answer");
+  if (!finished) throw ServiceError("service '" + name + "' was not called: the ROS master does not answer");
   if (!call->error) return std::move(call->response);
   try {
     std::rethrow_exception(call->error);
@@ -188,17 +188,16 @@ std::shared_ptr<ServiceServer> Services::find_own(const std::string& name) const
   return nullptr;
 }
 
-/// Runs `work` on a thread of its own and answers requests until it is done; false when it is not even then done when
-/// `deadline` is over, because only the master can hold it up longer.
+/// Runs `work` on its own thread and answers requests until it has ended. Returns false if it has not ended by
+/// `deadline`: only the master can delay it longer.
 bool Services::run_beside(std::function<void()> work, Deadline deadline) {
   if (nested_ >= kMostNested) {
-    throw ServiceError(std::to_string(kMostNested) +
-                       " service calls wait for each other: do services call in a circle?");
+    throw ServiceError(std::to_string(kMostNested) + " nested service calls: check for services that call each other");
   }
   if (*calls_ - nested_ >= kMostLeftBehind) return false;
   const auto done = std::make_shared<std::atomic<bool>>(false);
   ++*calls_;
-  // Ends by itself when deadline is over, or when the master answers; what it needs then is its own.
+  // The thread ends at the deadline or when the master answers; it owns everything that it needs.
   start_without_signals([work = std::move(work), done, queue = queue_, calls = calls_] {
     work();
     *done = true;
@@ -215,7 +214,7 @@ bool Services::run_beside(std::function<void()> work, Deadline deadline) {
   --nested_;
   if (interrupted && !*done) {
     deadline.give_up();
-    throw ServiceError("the call was given up: the simulator is ending");
+    throw ServiceError("the call was cancelled: the simulator is ending");
   }
   return finished;
 }

@@ -21,19 +21,19 @@ namespace bubblesim {
 class MasterThread;
 class MasterWatch;
 
-/// The services that a node offers and calls; messages::Bridge tells what the functions do. All belongs to the
-/// simulation's thread but what is posted to `master`.
+/// The servers and clients of a node; see messages::Bridge. Everything belongs to the simulation thread except the jobs
+/// posted to `master`.
 class Services {
  public:
-  /// `interrupted` may be empty; when it says true, calls that wait are given up.
+  /// `interrupted` may be empty; when it returns true, waiting calls are cancelled.
   Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guard, std::shared_ptr<Arrivals> arrivals,
            std::function<bool()> interrupted);
   ~Services();
 
-  /// Refuses a name that is offered already. The new server is not registered yet.
+  /// Throws for a name that is already advertised. The new server is not registered yet.
   std::shared_ptr<ServiceServer> add_server(messages::EndpointId id, const std::string& name,
                                             const messages::ServiceType& type, messages::ServiceCallback callback);
-  /// On the master's thread.
+  /// On the master thread.
   void register_server(ServiceServer& server);
   void add_client(messages::EndpointId id, const std::string& name, const messages::ServiceType& type);
   void remove_server(messages::EndpointId id);
@@ -47,7 +47,7 @@ class Services {
 
   /// Silences all servers, for the end of the bridge.
   void silence();
-  /// Waits until no thread of a call is left; false when `timeout` has passed before.
+  /// Waits until all call threads have ended; returns false at `timeout`.
   bool finish_calls(std::chrono::milliseconds timeout);
 
  private:
@@ -66,12 +66,12 @@ class Services {
   CallbackGuard& guard_;
   const std::function<bool()> interrupted_;
   const std::shared_ptr<RequestQueue> queue_;
-  const std::shared_ptr<std::atomic<int>> calls_ = std::make_shared<std::atomic<int>>(0);  // threads that run
-  int nested_ = 0;  // calls that wait, each but the first made while the one before it did
+  const std::shared_ptr<std::atomic<int>> calls_ = std::make_shared<std::atomic<int>>(0);  // running threads
+  int nested_ = 0;  // waiting calls, nested in each other
   EndpointTable<ServiceServer> servers_;
   EndpointTable<Client> clients_;
-  std::vector<std::shared_ptr<ServiceServer>> leaving_;  // removed in their own callbacks: they still owe an answer
-  std::deque<ros::ServicePublicationPtr> retired_;  // the master thread's; see ServiceServer::unregister_from_master()
+  std::vector<std::shared_ptr<ServiceServer>> leaving_;  // removed in their own callbacks, which have not returned yet
+  std::deque<ros::ServicePublicationPtr> retired_;  // of the master thread; see ServiceServer::unregister_from_master()
 };
 
 }  // namespace bubblesim

@@ -10,10 +10,10 @@
 
 namespace bubblesim {
 
-/// How many messages or requests wait for an endpoint's callback. Any thread may look.
+/// Number of messages or requests that wait for an endpoint's callback. Thread-safe.
 using WaitingCount = std::shared_ptr<std::atomic<int>>;
 
-/// Stands before the queue of the simulation's thread for one endpoint, and counts what it has there.
+/// Forwards the callbacks of one endpoint to the simulation thread's queue and counts the pending ones.
 class CountingQueue final : public ros::CallbackQueueInterface {
  public:
   explicit CountingQueue(ros::CallbackQueueInterface& queue) : queue_(queue) {}
@@ -26,7 +26,7 @@ class CountingQueue final : public ros::CallbackQueueInterface {
   const WaitingCount& waiting() const { return waiting_; }
 
  private:
-  /// Waits until it is called or dropped.
+  /// Pending until it is called or removed.
   class Counted final : public ros::CallbackInterface {
    public:
     Counted(ros::CallbackInterfacePtr callback, WaitingCount waiting)

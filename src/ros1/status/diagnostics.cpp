@@ -14,8 +14,8 @@ namespace {
 using Level = diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::chrono::seconds kPeriod{1};
-constexpr double kSlow = 0.9;      // of the wanted speed
-constexpr double kStanding = 2.0;  // s without the end of a step that a running simulation should not have
+constexpr double kSlow = 0.9;      // share of the requested speed
+constexpr double kStanding = 2.0;  // s without a completed step that count as a stall
 
 std::string two_digits(double number) {
   char text[32];
@@ -23,7 +23,7 @@ std::string two_digits(double number) {
   return text;
 }
 
-/// Of the steps in the report; not a number when there are none.
+/// Of the steps in the report; NaN if there are none.
 double real_time_factor(const RunReport& report) {
   return report.wall_time > 0 ? report.simulated_time / report.wall_time : std::nan("");
 }
@@ -37,7 +37,7 @@ Diagnostics::~Diagnostics() = default;
 void Diagnostics::publish_when_due() {
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
-  next_ = now - next_ < kPeriod ? next_ + kPeriod : now + kPeriod;  // in step, unless it is far behind
+  next_ = now - next_ < kPeriod ? next_ + kPeriod : now + kPeriod;  // at the fixed period, unless it is far behind
   publish();
 }
 
@@ -63,10 +63,11 @@ void Diagnostics::tell_simulation(Status& status) {
                         "real-time factor " + two_digits(factor) + ", wanted " + two_digits(report.wanted_speed));
   }
   if (report.since_last_step > kStanding) {
-    status.mergeSummary(Level::WARN, "no step has ended for " + two_digits(report.since_last_step) + " s");
+    status.mergeSummary(Level::WARN, "no step has completed for " + two_digits(report.since_last_step) + " s");
   }
   if (report.disabled_scripts > 0) {
-    status.mergeSummary(Level::ERROR, "child scripts disabled by an error: " + std::to_string(report.disabled_scripts));
+    status.mergeSummary(Level::ERROR,
+                        "child scripts disabled after an error: " + std::to_string(report.disabled_scripts));
   } else if (new_errors > 0) {
     status.mergeSummary(Level::WARN, "errors of child scripts: " + std::to_string(new_errors));
   }

@@ -15,8 +15,8 @@ class Updater;
 
 namespace bubblesim {
 
-/// Publishes once a second on /diagnostics how the simulation and the traffic on the node's topics go. All of it
-/// belongs to the master thread.
+/// Publishes the state of the simulation and of the node's topics on /diagnostics, once a second. Used by the master
+/// thread only.
 class Diagnostics {
  public:
   explicit Diagnostics(std::function<RunReport()> take_report);
@@ -25,7 +25,7 @@ class Diagnostics {
   Diagnostics(const Diagnostics&) = delete;
   Diagnostics& operator=(const Diagnostics&) = delete;
 
-  /// To be called regularly, while roscpp is started and there is a master.
+  /// Call it regularly while roscpp is started and there is a master.
   void publish_when_due();
   void publish();
 
@@ -37,9 +37,9 @@ class Diagnostics {
   void tell_topics(Status& status);
 
   const std::function<RunReport()> take_report_;
-  std::unique_ptr<diagnostic_updater::Updater> updater_;  // made with the first message: its making asks the master
+  std::unique_ptr<diagnostic_updater::Updater> updater_;  // made late: its constructor calls the master
   TopicTraffic traffic_;
-  int script_errors_ = 0;  // told so far
+  int script_errors_ = 0;  // reported so far
   Clock::time_point next_{};
 };
 

@@ -6,7 +6,7 @@
 
 namespace bubblesim {
 
-/// A line about ROS in the node's log, in one piece whatever other threads write.
+/// Writes a line about ROS to the node's log, whole even if other threads write.
 inline void say(const std::string& text) { std::fputs(("plugin 'ROSInterface': " + text + "\n").c_str(), stderr); }
 
 }  // namespace bubblesim

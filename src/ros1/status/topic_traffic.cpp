@@ -32,7 +32,7 @@ void TopicTraffic::count() {
     }
     return counted;
   };
-  // roscpp's numbers start again after 2^32, and with each connection.
+  // roscpp's counters wrap at 2^32 and restart with each connection.
   const auto add = [this](const Counted& before, const Counted& now, Total& total) {
     for (const auto& [connection, counts] : now) {
       const auto found = before.find(connection);

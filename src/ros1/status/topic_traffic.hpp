@@ -8,7 +8,7 @@
 
 namespace bubblesim {
 
-/// What has gone over the node's topics since it was started, from what roscpp counts for each connection.
+/// Traffic on the node's topics since its start, from roscpp's counters of each connection.
 class TopicTraffic {
  public:
   struct Total {
@@ -16,15 +16,15 @@ class TopicTraffic {
     std::uint64_t bytes = 0;
   };
 
-  /// Adds what has come since the last call. Belongs to the master thread.
+  /// Adds the traffic since the last call. Used by the master thread only.
   void count();
 
-  const Total& sent() const { return sent_; }  ///< given to roscpp's queues, once for each connection
+  const Total& sent() const { return sent_; }  ///< passed to roscpp's queues, once per connection
   const Total& received() const { return received_; }
   std::uint64_t dropped() const {
     return dropped_;
-  }  ///< received, then pushed out of a subscriber's queue by newer ones
-  /// By topic, what was dropped between the last two calls of count().
+  }  ///< received, then replaced by newer ones in a full subscriber queue
+  /// By topic, the number dropped between the last two calls of count().
   const std::map<std::string, std::uint64_t>& just_dropped() const { return just_dropped_; }
 
  private:
@@ -40,7 +40,7 @@ class TopicTraffic {
   Total received_;
   std::uint64_t dropped_ = 0;
   std::map<std::string, std::uint64_t> just_dropped_;
-  Counted outgoing_;  // as roscpp had them when they were counted last
+  Counted outgoing_;  // roscpp's counters at the last count
   Counted incoming_;
 };
 

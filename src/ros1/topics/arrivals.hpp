@@ -11,10 +11,10 @@
 
 namespace bubblesim {
 
-/// Lets the simulation's thread sleep until something has come for it.
+/// Lets the simulation thread sleep until input arrives.
 class Arrivals {
  public:
-  /// From any thread.
+  /// Thread-safe.
   void note() {
     {
       const std::lock_guard lock(mutex_);
@@ -23,7 +23,7 @@ class Arrivals {
     changed_.notify_all();
   }
 
-  /// Returns as soon as something was noted since the last call, or when `timeout` has passed.
+  /// Returns after a call of note() since the last call, or at `timeout`.
   void wait(std::chrono::duration<double> timeout) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, timeout, [this] { return some_; });
@@ -36,7 +36,7 @@ class Arrivals {
   bool some_ = false;
 };
 
-/// Notes what comes into it.
+/// A queue that calls note() for each new callback.
 class NotifyingQueue final : public ros::CallbackQueue {
  public:
   explicit NotifyingQueue(std::shared_ptr<Arrivals> arrivals) : arrivals_(std::move(arrivals)) {}

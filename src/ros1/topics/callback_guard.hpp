@@ -6,7 +6,7 @@
 
 namespace bubblesim {
 
-/// Runs callbacks so that what they throw does not unwind through roscpp, and hands out the first of it later.
+/// Runs callbacks so that their exceptions do not unwind through roscpp, and rethrows the first one later.
 class CallbackGuard {
  public:
   template <class Function>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What endpoints of all kinds share: how they are named and how they are found again.
+// Names and lookup of endpoints of all kinds.
 #pragma once
 
 #include <ros/names.h>
@@ -16,7 +16,7 @@ namespace bubblesim {
 template <class Endpoint>
 using EndpointTable = std::unordered_map<messages::EndpointId, std::shared_ptr<Endpoint>>;
 
-/// Throws std::invalid_argument that calls the endpoint a `kind` when the id is not in the table.
+/// Throws std::invalid_argument with the endpoint's `kind` if the id is not in the table.
 template <class Table>
 auto find_endpoint(Table& table, messages::EndpointId id, const char* kind) {
   const auto found = table.find(id);
@@ -25,7 +25,7 @@ auto find_endpoint(Table& table, messages::EndpointId id, const char* kind) {
                               ", or it was shut down");
 }
 
-/// The full name of a script's topic or service (`kind` for the error text), remappings applied.
+/// The full name of a script's topic or service (`kind` for the error text), with remappings applied.
 inline std::string resolve_name(const std::string& name, const std::string& kind) {
   std::string error;
   if (name.empty()) {
@@ -34,9 +34,9 @@ inline std::string resolve_name(const std::string& name, const std::string& kind
     const bool below_node = name[0] != '/' && name[0] != '~';
     std::string resolved = ros::names::resolve(below_node ? "~" + name : name);
     if (resolved.size() > 1) return resolved;
-    error = "it names nothing";
+    error = "it has no name part";
   }
-  throw std::invalid_argument("unusable " + kind + " name '" + name + "': " + error);
+  throw std::invalid_argument("invalid " + kind + " name '" + name + "': " + error);
 }
 
 }  // namespace bubblesim

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One publisher or subscriber of a script, as roscpp sees it: raw bytes under the type's name and md5.
+// One publisher or subscriber of a script, for roscpp: raw bytes with the type's name and md5.
 //
-// They stand on roscpp's TopicManager rather than on ros::NodeHandle: every ros::Publisher::publish() takes a lock that
-// roscpp holds during calls to the master, so a master that hangs would stop the simulation; and no C++ message class
-// exists for the bytes that step here.
+// They use roscpp's TopicManager instead of ros::NodeHandle: every ros::Publisher::publish() takes a lock that roscpp
+// holds during calls to the master, so a master that hangs would stop the simulation; and the bytes that are sent here
+// have no C++ message class.
 //
-// register_*/unregister_* belong to the master thread, everything else to the simulation's thread.
+// Call register_*/unregister_* on the master thread, everything else on the simulation thread.
 #pragma once
 
 #include <ros/forwards.h>
@@ -25,13 +25,13 @@ namespace bubblesim {
 class PublisherEndpoint {
  public:
   PublisherEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size, bool latch);
-  /// One to register in its place; what this one latched is not in it.
+  /// A copy to register as a replacement; without the latched message.
   std::shared_ptr<PublisherEndpoint> unregistered_copy() const;
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
   bool wants_messages() const { return latch_ || has_subscribers(); }
-  /// How many are connected, one of this node itself included.
+  /// Number of connected subscribers, including one of this node itself.
   std::size_t subscribers() const;
   void publish(messages::WireBuffer message);
 
@@ -50,7 +50,7 @@ class PublisherEndpoint {
   const std::string topic_;
   const messages::MessageType& type_;
   const std::uint32_t queue_size_;
-  const std::shared_ptr<Latch> latch_;  // null: does not latch; shared with roscpp's network thread
+  const std::shared_ptr<Latch> latch_;  // null if not latched; shared with roscpp's network thread
   ros::SubscriberCallbacksPtr callbacks_;
   ros::PublicationPtr publication_;  // set by the master thread, then announced by registered_
   std::atomic<bool> registered_{false};
@@ -65,17 +65,17 @@ class SubscriberEndpoint {
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
-  /// Messages that have come and not been delivered yet.
+  /// Number of pending messages.
   WaitingCount waiting() const;
-  /// From here on the callback is not called any more; it is destroyed here, or when it returns if it is running.
+  /// Stops calls of the callback and destroys it, at once or when a running call returns.
   void silence();
 
   void register_at_master();
   void unregister_from_master();
 
-  /// Whether one was connected when look_for_publisher() was called.
+  /// Whether a publisher was connected at the last look_for_publisher().
   bool has_publisher() const { return has_publisher_; }
-  /// For the master thread: roscpp counts under a lock that it holds during calls to the master.
+  /// On the master thread: roscpp counts under a lock that it holds during calls to the master.
   void look_for_publisher();
 
  private:

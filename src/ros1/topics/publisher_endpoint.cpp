@@ -29,7 +29,7 @@ void check_header(const MessageType& type, const WireBuffer& message) {
   throw std::invalid_argument("message of type " + type.name + " ends within its header");
 }
 
-/// The buffer's storage becomes roscpp's, length first; nothing is copied.
+/// Passes the buffer's storage to roscpp, length first, without a copy.
 ros::SerializedMessage to_serialized(WireBuffer message) {
   const std::size_t size = message.size();
   if (size > std::numeric_limits<std::uint32_t>::max() - WireBuffer::kPrefix) {
@@ -71,7 +71,7 @@ void PublisherEndpoint::publish(WireBuffer message) {
     const std::lock_guard lock(latch_->mutex);
     latch_->message = serialized;
   }
-  // After the latch is set: a subscriber that comes in between gets the message from there.
+  // After setting the latch: a subscriber that connects in between gets the message from the latch.
   if (has_subscribers()) send(std::move(serialized));
 }
 
@@ -81,7 +81,7 @@ void PublisherEndpoint::send(ros::SerializedMessage message) {
 }
 
 void PublisherEndpoint::register_at_master() {
-  // roscpp warns of empty definitions; what gencpp writes for such a type, std_msgs/Empty for one, is an empty line.
+  // roscpp warns about empty definitions; gencpp writes an empty line for such types, for example std_msgs/Empty.
   const std::string definition = type_.definition.empty() ? "\n" : type_.definition;
   ros::AdvertiseOptions options(topic_, queue_size_, type_.md5, type_.name, definition);
   options.latch = latch_ != nullptr;
@@ -103,7 +103,7 @@ void PublisherEndpoint::register_at_master() {
   if (!publication_) return;
   registered_.store(true, std::memory_order_release);
   if (!latch_) return;
-  // Subscribers that connected before we were registered know only what was latched by then.
+  // Subscribers that connected before the registration only have the message latched at that time.
   ros::SerializedMessage latched;
   {
     const std::lock_guard lock(latch_->mutex);

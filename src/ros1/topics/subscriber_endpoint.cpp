@@ -10,14 +10,14 @@
 namespace bubblesim {
 namespace {
 
-/// A type of its own for each subscriber: roscpp lets one subscriber of a topic read a message for all whose types are
-/// equal, but here each reads for itself.
+/// A distinct type for each subscriber: roscpp deserializes a message once for all subscribers of equal type on a
+/// topic, but here each subscriber reads it.
 class OwnType final : public std::type_info {
  public:
   OwnType() : std::type_info(name_) {}
 
  private:
-  const char name_[2] = "*";  // types whose names begin with a star are told apart by the names' places in memory
+  const char name_[2] = "*";  // for names that begin with a star, type_info compares the addresses of the names
 };
 
 }  // namespace
@@ -31,25 +31,25 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
         has_header_(has_header),
         guard_(guard) {}
 
-  // Scripts' callbacks must die on the simulation's thread, while roscpp may drop this object on any other.
+  // Callbacks of scripts must be destroyed on the simulation thread, while roscpp may release this object on any other.
   void silence() { callback_.reset(); }
 
-  /// Hands out the bytes where they lie in roscpp's buffer, which lives as long as this call: big messages are not
-  /// copied once more. It runs where roscpp would call the callback just after.
+  /// Passes the bytes in roscpp's buffer, which exists during this call: avoids a copy of large messages. It runs where
+  /// roscpp would call the callback just after.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
-    const std::shared_ptr<messages::MessageCallback> callback = callback_;  // it may silence itself
+    const std::shared_ptr<messages::MessageCallback> callback = callback_;  // the callback may call silence()
     if (callback) guard_.run([&] { (*callback)(messages::WireView(params.buffer, params.length)); });
     return nullptr;
   }
 
-  /// Only called with what deserialize() returns, which is nothing.
+  /// Only called with the result of deserialize(), which is empty.
   void call(ros::SubscriptionCallbackHelperCallParams& /*params*/) override {}
 
   const std::type_info& getTypeInfo() override { return type_; }
   bool isConst() override { return true; }
   bool hasHeader() override { return has_header_; }
 
-  CountingQueue queue;  // here, for roscpp keeps it as long as it uses the queue
+  CountingQueue queue;  // here, because roscpp keeps this object as long as it uses the queue
 
  private:
   std::shared_ptr<messages::MessageCallback> callback_;

@@ -14,7 +14,7 @@ using messages::MessageType;
 
 namespace {
 
-/// What is to be registered a second time. A publisher is replaced, for the simulation's thread may look at its
+/// Returns the endpoint to register again. A publisher is replaced, because the simulation thread may read its
 /// registration while the master thread makes the next.
 std::shared_ptr<PublisherEndpoint> renewed(const std::shared_ptr<PublisherEndpoint>& publisher) {
   return publisher->unregistered_copy();
@@ -27,8 +27,8 @@ std::shared_ptr<SubscriberEndpoint> renewed(const std::shared_ptr<SubscriberEndp
 
 void check_same_type(const std::string& topic, const MessageType& type, const char* done, const MessageType& other) {
   if (type.md5 == other.md5) return;
-  throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name +
-                              ", so it cannot be " + type.name);
+  throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name + ", not " +
+                              type.name);
 }
 
 /// A topic has one type in a node.
@@ -86,7 +86,7 @@ bool Topics::has_script(const EndpointTable<Endpoint>& endpoints, const std::str
   });
 }
 
-/// Has those that give way do so, or take their topic again.
+/// Deactivates the endpoints that yield, or activates them again.
 void Topics::settle(const std::string& topic) {
   settle(publishers_, topic);
   settle(subscribers_, topic);
@@ -100,7 +100,7 @@ void Topics::settle(EndpointTable<Endpoint>& own_kind, const std::string& topic)
     const MessageType& type = found->second->type();
     const bool off = has_script(publishers_, topic, &type) || has_script(subscribers_, topic, &type);
     standing.aside = off || has_script(own_kind, topic, nullptr);
-    // Where the type is the same the endpoint stays, and with it the connections to other nodes.
+    // With an equal type the endpoint stays registered, and keeps its connections to other nodes.
     if (off == std::exchange(standing.off, off)) continue;
     if (off) {
       take_off(found->second);

@@ -18,15 +18,15 @@ namespace bubblesim {
 
 class MasterThread;
 
-/// The publishers and subscribers of a node; messages::Bridge tells what the functions do. All belongs to the
-/// simulation's thread, unless said otherwise.
+/// The publishers and subscribers of a node; see messages::Bridge. Everything belongs to the simulation thread unless
+/// stated otherwise.
 class Topics {
  public:
-  /// Messages come through `queue`. All must outlive what is posted to `master`.
+  /// Messages arrive through `queue`. All arguments must outlive the jobs posted to `master`.
   Topics(MasterThread& master, PublisherCheck& check, ros::CallbackQueueInterface& queue, CallbackGuard& guard)
       : master_(master), publisher_check_(check), queue_(queue), guard_(guard) {}
 
-  /// `topic` is a full name. Throws std::invalid_argument when it has another type in this node.
+  /// `topic` is a full name. Throws std::invalid_argument if it has another type in this node.
   void advertise(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
                  std::uint32_t queue_size, bool latch);
   void subscribe(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
@@ -41,18 +41,18 @@ class Topics {
   void shutdown_publisher(messages::EndpointId publisher);
   void shutdown_subscriber(messages::EndpointId subscriber);
 
-  /// How many publishers there are on a topic.
+  /// Number of publishers on a topic.
   std::size_t publishers_on(const std::string& topic) const;
-  /// For the master thread: brings has_publisher() up to date.
+  /// On the master thread: updates has_publisher().
   void look_for_publishers();
   /// Silences all subscribers, for the end of the bridge.
   void silence();
 
  private:
-  /// Of an endpoint that gives way, what it does.
+  /// State of an endpoint that yields its topic.
   struct Standing {
     bool aside = false;  ///< neither sends nor delivers
-    bool off = false;    ///< is not registered either, for the topic has another type meanwhile
+    bool off = false;    ///< also not registered, because the topic currently has another type
   };
 
   bool is_aside(messages::EndpointId id) const;
@@ -76,10 +76,10 @@ class Topics {
   EndpointTable<PublisherEndpoint> publishers_;
   EndpointTable<SubscriberEndpoint> subscribers_;
   std::unordered_map<messages::EndpointId, Standing> giving_way_;
-  std::set<std::shared_ptr<SubscriberEndpoint>> registered_;  // the master thread's
+  std::set<std::shared_ptr<SubscriberEndpoint>> registered_;  // of the master thread
 };
 
-/// Throws std::invalid_argument: what is `done` on the topic already is of another type.
+/// Throws std::invalid_argument if the topic is already `done` with another type.
 void check_same_type(const std::string& topic, const messages::MessageType& type, const char* done,
                      const messages::MessageType& other);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a joint can be simulated.
+// Checks whether a joint can be simulated.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,8 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_axis(Checker& checker, const AxisDescription& axis) {
-  checker.require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction),
-                  "a direction other than zero");
+  checker.require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction), "a direction, not zero");
   checker.require(axis.lower <= axis.upper, "the lower limit", text(axis.lower),
                   "at most the upper limit " + text(axis.upper));
   for (const double limit : {axis.lower, axis.upper}) {
@@ -26,7 +25,7 @@ void check_axis(Checker& checker, const AxisDescription& axis) {
                     "infinite or at most 1e6");
   }
   checker.require(axis.lower < kInfinity && axis.upper > -kInfinity, "the range of limits",
-                  text(axis.lower) + " to " + text(axis.upper), "one that can be reached");
+                  text(axis.lower) + " to " + text(axis.upper), "a reachable range");
   checker.require(axis.max_force >= 0, "the effort limit", text(axis.max_force), "0 or more");
   checker.require(axis.max_velocity > 0, "the velocity limit", text(axis.max_velocity), "above 0");
   checker.require(axis.friction >= 0 && within(axis.friction, 1e9), "the friction", text(axis.friction), "0 or more");
@@ -44,7 +43,7 @@ const JointDescription* joint_named(const ModelDescription& model, const std::st
   return nullptr;
 }
 
-/// Whether following leads back to the joint where it began.
+/// Whether the chain of mimicked joints leads back to this joint.
 bool follows_itself(const ModelDescription& model, const JointDescription& joint) {
   const JointDescription* leader = &joint;
   for (std::size_t i = 0; i <= model.joints.size(); ++i) {
@@ -71,7 +70,7 @@ void check_mimic(Checker& checker, const ModelDescription& model, const JointDes
   } else if (mimic.axis < 0 || mimic.axis >= static_cast<int>(leader->axes.size())) {
     checker.report("mimics an axis of '" + mimic.joint + "' that this joint does not have");
   } else if (follows_itself(model, joint)) {
-    checker.report("mimics itself by way of '" + mimic.joint + "': one joint must lead");
+    checker.report("mimics itself through '" + mimic.joint + "': one joint of the chain must not mimic another");
   }
 }
 
@@ -91,7 +90,7 @@ void check_universal(Checker& checker, const JointDescription& joint) {
 
 void check_gearbox(Checker& checker, const ModelDescription& model, const JointDescription& joint) {
   checker.require(std::abs(joint.gearbox_ratio) >= 1e-3 && within(joint.gearbox_ratio, 1e3), "the gearbox ratio",
-                  text(joint.gearbox_ratio), "from 1e-3 to 1e3, or the same below zero");
+                  text(joint.gearbox_ratio), "1e-3 to 1e3 in absolute value");
   if (joint.gearbox_reference != "world") {
     checker.check_link_name(model, joint.gearbox_reference, "gearbox_reference_body");
   }
@@ -104,7 +103,7 @@ void check_gearbox(Checker& checker, const ModelDescription& model, const JointD
     if (axis.motor != MotorMode::kNone || axis.mimic || axis.friction > 0 || axis.damping > 0 ||
         axis.spring_stiffness > 0 || std::isfinite(axis.lower) || std::isfinite(axis.upper)) {
       checker.report(
-          "a gearbox has no motor, limits, friction, damping or spring: give them to the hinges of its links");
+          "a gearbox cannot have a motor, limits, friction, damping or spring: set them on the hinges of its links");
       return;
     }
   }
@@ -134,7 +133,7 @@ void check_joint(Checker& checker, const ModelDescription& model, const JointDes
   if (kind == nullptr) {
     std::string list;
     for (const std::string& type : types) list += (list.empty() ? "" : ", ") + type;
-    checker.report("joints of type '" + joint.type + "' are not supported; supported are " + list);
+    checker.report("joint type '" + joint.type + "' is not supported; supported types: " + list);
     return;
   }
   if (static_cast<int>(joint.axes.size()) != kind->axes) {
@@ -151,7 +150,7 @@ void check_joint(Checker& checker, const ModelDescription& model, const JointDes
   if (joint.type == "gearbox") check_gearbox(checker, model, joint);
   if (joint.type == "screw") {
     checker.require(std::abs(joint.screw_lead) >= 1e-6 && within(joint.screw_lead, 1e3), "the screw's lead",
-                    text(joint.screw_lead) + " m", "from 1e-6 to 1e3 m for a turn, or the same below zero");
+                    text(joint.screw_lead) + " m", "1e-6 to 1e3 m per turn in absolute value");
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the sensors of links and joints can be simulated.
+// Checks whether the sensors of links and joints can be simulated.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,14 +13,14 @@
 namespace bubblesim {
 namespace {
 
-constexpr int kMaxSamples = 100000;  // of a lidar, in a ring or of rings
-constexpr int kMaxPixels = 16384;    // of a picture, across or down
+constexpr int kMaxSamples = 100000;  // of a lidar, per ring and number of rings
+constexpr int kMaxPixels = 16384;    // of an image, width and height
 
 void check_ranges(Checker& checker, double min_range, double max_range) {
-  checker.require(max_range > 0 && max_range <= kMaxSize, "the maximal range", text(max_range) + " m",
+  checker.require(max_range > 0 && max_range <= kMaxSize, "the maximum range", text(max_range) + " m",
                   "above 0 and at most 1e5 m");
-  checker.require(min_range >= 0 && min_range < max_range, "the minimal range", text(min_range) + " m",
-                  "0 or more and below the maximal range");
+  checker.require(min_range >= 0 && min_range < max_range, "the minimum range", text(min_range) + " m",
+                  "0 or more and below the maximum range");
 }
 
 void check_noise(Checker& checker, const NoiseDescription& noise) {
@@ -46,21 +46,21 @@ void check_sensor(Checker& checker, const LidarDescription& lidar) {
   check_scan(checker, "horizontal", lidar.horizontal, 2 * M_PI);
   check_scan(checker, "vertical", lidar.vertical, M_PI / 2);
   check_ranges(checker, lidar.min_range, lidar.max_range);
-  checker.require(lidar.resolution >= 0 && lidar.resolution <= lidar.max_range, "the range's resolution",
-                  text(lidar.resolution) + " m", "0 (not rounded) to the maximal range");
+  checker.require(lidar.resolution >= 0 && lidar.resolution <= lidar.max_range, "the range resolution",
+                  text(lidar.resolution) + " m", "0 (not rounded) to the maximum range");
   check_noise(checker, lidar.noise);
 }
 
 void check_sensor(Checker& checker, const CameraDescription& camera) {
   checker.require(camera.width >= 1 && camera.width <= kMaxPixels && camera.height >= 1 && camera.height <= kMaxPixels,
-                  "the picture's size", std::to_string(camera.width) + " x " + std::to_string(camera.height),
-                  "1 to " + std::to_string(kMaxPixels) + " pixels each way");
+                  "the image size", std::to_string(camera.width) + " x " + std::to_string(camera.height),
+                  "1 to " + std::to_string(kMaxPixels) + " pixels in width and height");
   checker.require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.14, "the horizontal field of view",
-                  text(camera.horizontal_fov) + " rad",
-                  "above 0 and below 3.14: a pinhole camera cannot see beside itself");
-  checker.require(camera.far > 0 && camera.far <= kMaxSize, "the far plane", text(camera.far) + " m", "above 0");
-  checker.require(camera.near > 0 && camera.near < camera.far, "the near plane", text(camera.near) + " m",
-                  "above 0 and before the far plane");
+                  text(camera.horizontal_fov) + " rad", "above 0 and below 3.14 (pinhole camera)");
+  checker.require(camera.far > 0 && camera.far <= kMaxSize, "the distance of the far plane", text(camera.far) + " m",
+                  "above 0");
+  checker.require(camera.near > 0 && camera.near < camera.far, "the distance of the near plane",
+                  text(camera.near) + " m", "above 0 and less than that of the far plane");
   check_noise(checker, camera.noise);
 }
 
@@ -111,7 +111,7 @@ void check_collisions(Checker& checker, const LinkDescription& link, const Conta
   for (const CollisionDescription& collision : link.collisions) names.push_back(collision.name);
   for (const std::string& name : contact.collisions) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    checker.report("the collision '" + name + "' is none of this link" + did_you_mean(name, names));
+    checker.report("'" + name + "' is not a collision of this link" + did_you_mean(name, names));
   }
 }
 
@@ -122,7 +122,7 @@ void check_sensors(Checker& checker, const LinkDescription& link, const std::str
     check_any_sensor(checker, sensor, path);
     if (const auto* contact = std::get_if<ContactDescription>(&sensor.kind)) check_collisions(checker, link, *contact);
     if (!std::holds_alternative<ForceTorqueDescription>(sensor.kind)) continue;
-    checker.report("a force_torque sensor feels what a joint transmits: put it into a <joint>");
+    checker.report("a force_torque sensor measures the forces of a joint: put it into a <joint>");
   }
 }
 
@@ -130,7 +130,7 @@ void check_sensors(Checker& checker, const JointDescription& joint, const std::s
   for (const SensorDescription& sensor : joint.sensors) {
     check_any_sensor(checker, sensor, path);
     if (std::holds_alternative<ForceTorqueDescription>(sensor.kind)) continue;
-    checker.report("a joint carries sensors of the type force_torque only: put this one into a <link>");
+    checker.report("a joint can have sensors of type force_torque only: put this sensor into a <link>");
   }
 }
 

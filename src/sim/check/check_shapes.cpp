@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the shapes of a link, and what they look like, can be simulated.
+// Checks whether the shapes of a link and their materials can be simulated.
 #include "check/checker.hpp"
 #include "check/checks.hpp"
 #include "scene/describe.hpp"
@@ -47,7 +47,7 @@ void check_surface(Checker& checker, const Surface& surface) {
     double value;
     double most;
   };
-  // Infinite friction is what some files want.
+  // Some files have infinite friction.
   checker.require(surface.mu >= 0, "the friction mu", text(surface.mu), "0 or more");
   checker.require(!surface.mu2 || *surface.mu2 >= 0, "the friction mu2", text(surface.mu2.value_or(0)), "0 or more");
   for (const Named& named :

@@ -47,7 +47,7 @@ void Checker::check_link_name(const ModelDescription& model, const std::string& 
     if (link.name == name) return;
     names.push_back(link.name);
   }
-  report("the " + role + " '" + name + "' is no link of this model" + did_you_mean(name, names));
+  report("the " + role + " '" + name + "' is not a link of this model" + did_you_mean(name, names));
 }
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collects what is wrong with a description; knows which object it looks at.
+// Collects the problems of a description, with the object that is being checked.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class Checker {
   void check_pose(const Pose& pose);
   void check_length(const char* what, double value);
   void check_color(const char* what, const Color& color);
-  /// That a model has a link of this name.
+  /// Reports a problem unless the model has a link of this name.
   void check_link_name(const ModelDescription& model, const std::string& name, const std::string& role);
 
   bool found_any() const { return !problems_.empty(); }
@@ -32,7 +32,7 @@ class Checker {
   std::vector<Problem> problems_;
 };
 
-/// What each file knows of; they move the checker to the objects that they look at.
+/// The checks of each file; they set the checker's object with at().
 void check_shapes(Checker& checker, const ModelDescription& model, const LinkDescription& link,
                   const std::string& path);
 void check_sensors(Checker& checker, const LinkDescription& link, const std::string& path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether numbers are fit for the physics, which aborts or spoils everything when they are not.
+// Checks of numbers that would make the physics abort or diverge.
 #pragma once
 
 #include <cmath>
@@ -8,17 +8,17 @@
 
 namespace bubblesim {
 
-/// Bounds of the finite world: ODE's broad phase breaks down a few orders of magnitude beyond.
+/// Limits of the finite world: ODE's broad phase fails a few orders of magnitude beyond.
 constexpr double kMaxDistance = 1e6;      ///< m from the origin
 constexpr double kMaxSize = 1e5;          ///< m, of shapes and ranges
 constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
-constexpr double kMinTimeStep = 1e-4;     ///< s, of a step
+constexpr double kMinTimeStep = 1e-4;     ///< s, of a simulation step
 constexpr double kMaxTimeStep = 10;       ///< s
-constexpr double kFall = 1000;            ///< m; what falls deeper under everything else is gone
+constexpr double kFall = 1000;            ///< m below everything else, where fallen models are removed
 constexpr double kMinPhysicsStep = 1e-5;  ///< s
 constexpr double kMaxPhysicsStep = 1;     ///< s
 
-/// False for NaN too.
+/// False for NaN.
 inline bool within(double value, double bound) { return std::abs(value) <= bound; }
 inline bool within(const Vector3& v, double bound) {
   return within(v.X(), bound) && within(v.Y(), bound) && within(v.Z(), bound);

@@ -13,13 +13,13 @@
 namespace bubblesim {
 namespace {
 
-/// Determinant of an inertia beside that of a ball of the same trace: a wire of a metre and 0.1 mm has 1e-7.
+/// Determinant of an inertia relative to that of a ball with the same trace: a wire of 1 m and 0.1 mm has 1e-7.
 constexpr double kFlat = 1e-13;
 
-/// Paths must be able to tell it.
+/// Paths must be unambiguous.
 void check_name(Checker& checker, const std::string& name) {
   if (name.empty()) checker.report("the model has no name");
-  if (name.find('/') != std::string::npos) checker.report("the name holds a '/', which separates names in paths");
+  if (name.find('/') != std::string::npos) checker.report("the name contains '/', the separator of paths");
 }
 
 void check_inertia(Checker& checker, const LinkDescription& link) {
@@ -66,14 +66,14 @@ void check_environment(Checker& checker, const Environment& environment) {
   checker.require(within(origin.latitude, 90), "the latitude", text(origin.latitude), "-90 to 90 degrees");
   checker.require(within(origin.longitude, 180), "the longitude", text(origin.longitude), "-180 to 180 degrees");
   checker.require(within(origin.elevation, kMaxSize), "the elevation", text(origin.elevation) + " m", "at most 1e5 m");
-  checker.require(within(origin.heading, 2 * M_PI), "the heading", text(origin.heading) + " rad", "a turn at most");
+  checker.require(within(origin.heading, 2 * M_PI), "the heading", text(origin.heading) + " rad", "-2 pi to 2 pi");
 }
 
 void check_model(Checker& checker, const ModelDescription& model) {
   checker.at(model.source, "/" + model.name);
   check_name(checker, model.name);
   checker.check_pose(model.pose);
-  if (model.links.empty()) checker.report("has no link, so there is nothing to simulate; add a <link>");
+  if (model.links.empty()) checker.report("has no link; add a <link>");
   std::set<std::string> names;
   const auto once = [&](const Source& source, const std::string& name) {
     checker.at(source, "/" + model.name + "/" + name);
@@ -101,11 +101,11 @@ void check_scene(Checker& checker, const SceneDescription& scene) {
   checker.at(scene.source, "");
   checker.require(scene.substep >= kMinPhysicsStep && scene.substep <= kMaxPhysicsStep, "the physics substep",
                   text(scene.substep), "1e-5 to 1 s");
-  checker.require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step of a step", text(scene.time_step),
+  checker.require(scene.time_step >= 1e-4 && scene.time_step <= 10, "the time step", text(scene.time_step),
                   "1e-4 to 10 s");
   const double substeps = scene.time_step / scene.substep;
   checker.require(checker.found_any() || (substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6),
-                  "the time step of a step", text(scene.time_step) + " s",
+                  "the time step", text(scene.time_step) + " s",
                   "a whole number of physics substeps (" + text(scene.substep) + " s)");
   checker.require(within(scene.gravity, 1e4), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
   check_environment(checker, scene.environment);
@@ -121,8 +121,8 @@ std::vector<Problem> check_scene(const SceneDescription& scene) {
 }
 
 bool is_positive_definite(const Vector3& d, const Vector3& p) {
-  // Sylvester's criterion: a symmetric matrix is positive definite when its leading minors are positive. One that is
-  // so by rounding only is taken for flat.
+  // Sylvester's criterion: a symmetric matrix is positive definite if its leading minors are positive. A matrix that
+  // passes only because of rounding counts as flat.
   const double minor2 = d.X() * d.Y() - p.X() * p.X();
   const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
                              p.Y() * (p.X() * p.Z() - d.Y() * p.Y());

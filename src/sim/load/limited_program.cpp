@@ -26,7 +26,7 @@ namespace {
 constexpr rlim_t kMostMemory = 2ULL << 30U;  // bytes
 constexpr rlim_t kMostOutput = 100ULL << 20U;
 
-/// A file without a name that holds what a program writes: it may write as much as it likes before anybody reads.
+/// A temporary file for the output of a program, which may be of any size and is read after the program ended.
 class Output {
  public:
   Output() : file_(std::tmpfile()) {
@@ -48,11 +48,11 @@ class Output {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// A program that runs, in a process group of its own with all that it starts.
+/// A running program, in a process group with all its child processes.
 class Running {
  public:
   Running(std::vector<std::string> command, const Output& output, const Output& errors) {
-    // The kernel ends it with this process, which may have ended before the kernel was asked to.
+    // The kernel kills it when this process ends, which may have happened before the kernel was asked to.
     command.insert(command.begin(), {"setpriv", "--pdeathsig", "KILL", "sh", "-c", R"([ "$PPID" = "$0" ] && exec "$@")",
                                      std::to_string(::getpid())});
     std::vector<char*> argv;
@@ -80,7 +80,7 @@ class Running {
   bool ends_within(std::chrono::milliseconds time) const {
     using Clock = std::chrono::steady_clock;
     const auto deadline = Clock::now() + time;
-    const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, child_, 0));  // as a file that poll() waits for
+    const auto handle = static_cast<int>(::syscall(SYS_pidfd_open, child_, 0));  // a file descriptor for poll()
     pollfd ending{handle, POLLIN, 0};
     int ready = -1;
     do {
@@ -91,7 +91,7 @@ class Running {
     return ready > 0;
   }
 
-  /// Its status as waitpid gives it. Ends what it left behind, too.
+  /// Returns its status as waitpid does. Also kills its child processes.
   int end() {
     if (child_ > 0) {
       ::kill(-child_, SIGKILL);

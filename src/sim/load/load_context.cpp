@@ -21,15 +21,15 @@ void LoadContext::warn(const Source& source, const std::string& object, std::str
 
 namespace {
 
-/// SDFormat keeps elements that it does not know; they mean nothing. What to say of one, if the message is about one.
+/// SDFormat keeps unknown elements; they have no effect. Returns the warning if the message is about one.
 std::optional<std::string> about_unknown_element(const std::string& message) {
   static const std::regex pattern(R"(XML Element\[([^\]]*)\], child of element\[([^\]]*)\], not defined in SDF.*)");
   std::smatch match;
   if (!std::regex_search(message, match, pattern)) return std::nullopt;
-  return "<" + match.str(1) + "> is no element of <" + match.str(2) + ">: it is left out";
+  return "<" + match.str(1) + "> is not an element of <" + match.str(2) + ">: ignored";
 }
 
-/// Values that mean nothing here, or in whose place SDFormat takes its default.
+/// Values without an effect here, or for which SDFormat uses its default.
 bool is_of_no_effect(const std::string& message) {
   static const std::regex pattern(
       R"((Camera sensor <image><format> has invalid value|The value\[.*\] for a <shader><type>|Unknown atmosphere type|)"
@@ -37,7 +37,7 @@ bool is_of_no_effect(const std::string& message) {
   return std::regex_match(message, pattern);
 }
 
-/// Elements that later versions of SDFormat or gz-sim brought, which the readers here know all the same.
+/// Elements of later versions of SDFormat or of gz-sim, which the readers support.
 bool is_of_later_version(const std::string& message) {
   static const std::regex pattern(
       R"(XML Element\[(mimic\], child of element\[axis|screw_thread_pitch\], child of element\[joint\])"
@@ -49,15 +49,16 @@ bool is_of_later_version(const std::string& message) {
 }  // namespace
 
 void LoadContext::take(const sdf::Errors& errors, const std::string& object) {
-  // Once a joint or frame names something that does not exist, nothing around it can be resolved: one error is enough.
+  // When a joint or frame refers to an object that does not exist, nothing around it can be resolved: one error is
+  // enough.
   if (!object.empty() && frames_broken_) return;
   for (Problem& problem : xml_.located(errors, object)) {
     if (problem.message.rfind("Root object can only contain one model", 0) == 0) {
-      warn({problem.file, problem.line}, "", "holds several models: the first one is taken");
+      warn({problem.file, problem.line}, "", "contains several models: the first one is used");
       continue;
     }
     if (problem.message.rfind("light with name[", 0) == 0) {
-      warn({problem.file, problem.line}, "", problem.message + " The second one is left out.");
+      warn({problem.file, problem.line}, "", problem.message + " The second one is ignored.");
       continue;
     }
     if (is_of_later_version(problem.message)) continue;

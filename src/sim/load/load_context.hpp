@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of SDFormat's elements share: the file that is being read and all that is wrong with it.
+// Shared state of the readers of SDFormat's elements: the file that is being read and its problems.
 #pragma once
 
 #include <filesystem>
@@ -17,29 +17,29 @@ namespace bubblesim {
 
 class LoadContext {
  public:
-  /// Of a file, whose neighbours are the scene's own files. Throws as SceneXml does.
+  /// For a file. The files it refers to are in the same folder. Throws like SceneXml.
   explicit LoadContext(const std::filesystem::path& file) : xml_(file), folder_(file.parent_path()) {}
-  /// Of a text that errors call `name`; its own files are in `folder`.
+  /// For a text. `name` is its name in errors; the files it refers to are in `folder`.
   LoadContext(const std::string& text, std::string name, std::filesystem::path folder)
       : xml_(text, std::move(name)), folder_(std::move(folder)) {}
 
   const SceneXml& xml() const { return xml_; }
   SceneXml& xml() { return xml_; }
-  /// In which the scene's own files are.
+  /// The folder of the scene's files.
   const std::filesystem::path& folder() const { return folder_; }
   std::vector<Problem>& problems() { return problems_; }
   MeshReader& meshes() { return meshes_; }
 
   void report(const Source& source, const std::string& object, std::string message);
-  /// Says on stderr what is odd but stops nothing.
+  /// Prints a warning on stderr.
   static void warn(const Source& source, const std::string& object, std::string message);
-  /// Takes over what SDFormat found wrong while it read the object at that path, or the whole file when it is empty.
+  /// Adds SDFormat's errors of the object at that path, or of the whole file when the path is empty.
   void take(const sdf::Errors& errors, const std::string& object);
 
-  /// ` (searched in ...)`, for a model that is not found.
+  /// Returns ` (searched in ...)`, for a model that is not found.
   std::string where_models_are() const;
 
-  /// The pose of an element in the frame named, by default in the one of what holds it.
+  /// The pose of an element in the named frame, by default in the frame of its parent.
   template <class T>
   Pose resolved(const T& element, const std::string& object, const std::string& frame = "") {
     Pose pose;
@@ -50,7 +50,7 @@ class LoadContext {
  private:
   SceneXml xml_;
   std::filesystem::path folder_;
-  bool frames_broken_ = false;  // SDFormat found errors that are no fault of a single object
+  bool frames_broken_ = false;  // SDFormat found errors that concern no single object
   std::vector<Problem> problems_;
   MeshReader meshes_;
 };

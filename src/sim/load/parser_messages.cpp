@@ -31,7 +31,7 @@ void ParserMessages::log(const std::string& text, console_bridge::LogLevel level
   if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) add_once(of_urdf_, text);
 }
 
-/// Without the colours, the place in SDFormat's code, and the part of it that speaks.
+/// Without colour codes, source location in SDFormat and severity.
 std::vector<std::string> ParserMessages::of_sdformat() const {
   static const std::regex colour(R"(\x1b\[[0-9;]*m)");
   static const std::regex speaker(R"(^(Warning|Error|Message) \[[^\]]*\]:? *(urdf2sdf: *)?)");

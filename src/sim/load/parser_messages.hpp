@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the parsers of SDFormat and URDF would write to stderr in forms of their own.
+// Captures the messages that the SDFormat and URDF parsers print on stderr.
 #pragma once
 
 #include <console_bridge/console.h>
@@ -12,7 +12,7 @@
 
 namespace bubblesim {
 
-/// Hears all that they say as long as it lives. One at a time in the process: another one waits.
+/// Captures all messages during its lifetime. One instance at a time in the process: another one waits.
 class ParserMessages final : public console_bridge::OutputHandler {
  public:
   ParserMessages();
@@ -20,7 +20,7 @@ class ParserMessages final : public console_bridge::OutputHandler {
   ParserMessages(const ParserMessages&) = delete;
   ParserMessages& operator=(const ParserMessages&) = delete;
 
-  /// Each once, in plain text.
+  /// Each message once, in plain text.
   const std::vector<std::string>& of_urdf() const { return of_urdf_; }
   std::vector<std::string> of_sdformat() const;
 
@@ -29,7 +29,7 @@ class ParserMessages final : public console_bridge::OutputHandler {
 
   std::scoped_lock<std::mutex> lock_;
   std::vector<std::string> of_urdf_;
-  std::ostringstream console_;  // in place of std::cerr, which SDFormat writes to
+  std::ostringstream console_;  // replaces std::cerr, to which SDFormat writes
   std::streambuf* stderr_;
 };
 

@@ -37,7 +37,7 @@ class Walk {
  public:
   explicit Walk(const sdf::ParserConfig& config) : config_(config) {}
 
-  /// The elements in it, with those of what it includes.
+  /// Counts the elements of a document, including those of included files.
   std::uint64_t visit(const tinyxml2::XMLDocument& document, const std::string& file) {
     open_.push_back(file);
     std::uint64_t elements = 0;
@@ -67,8 +67,7 @@ class Walk {
     if (is_included_model(element)) elements += visit_included(element);
     if (elements > kMostElements) {
       fail(file, line,
-           "is the element at which there are over " + std::to_string(kMostElements) +
-               " of them, with those of all files that are included: no more are read");
+           "too many elements: more than " + std::to_string(kMostElements) + ", including those of all included files");
     }
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
       visit(*child, elements);
@@ -79,23 +78,23 @@ class Walk {
     const std::size_t length = std::strlen(text);
     if (length <= most) return;
     fail(open_.back(), line,
-         what + " '" + std::string(text, 40) + "...' has " + std::to_string(length) + " characters, at most " +
-             std::to_string(most) + " are taken");
+         what + " '" + std::string(text, 40) + "...' has " + std::to_string(length) + " characters; the maximum is " +
+             std::to_string(most));
   }
 
   std::uint64_t visit_included(const XMLElement& include) {
     const int line = include.GetLineNum();
     const std::string named = sdf::findFile(include.FirstChildElement("uri")->GetText(), true, true, config_);
     const std::string said = fs::is_directory(named) ? model_file(named, line) : named;
-    if (said.empty() || !fs::exists(said)) return 0;  // SDFormat tells of it
+    if (said.empty() || !fs::exists(said)) return 0;  // SDFormat reports it
     expect_regular(said, line);
     const std::string file = fs::canonical(said).string();
     if (file == open_.back()) fail(file, line, "the file includes itself");
     if (std::find(open_.begin(), open_.end(), file) != open_.end()) {
-      fail(open_.back(), line, "includes " + file + ", which includes this file, directly or by others");
+      fail(open_.back(), line, "includes " + file + ", which includes this file, directly or through other files");
     }
     if (open_.size() > kDeepestInclude) {
-      fail(open_.back(), line, "files include each other over " + std::to_string(kDeepestInclude) + " deep");
+      fail(open_.back(), line, "more than " + std::to_string(kDeepestInclude) + " levels of includes");
     }
     const auto [found, is_new] = elements_of_.try_emplace(file, 0);
     if (!is_new) return found->second;
@@ -107,7 +106,7 @@ class Walk {
     return elements_of_[file] = elements;
   }
 
-  /// The file that a model's folder names, or nothing.
+  /// The file of a model's folder, or an empty string.
   std::string model_file(const std::string& folder, int line) {
     for (const char* name : {"model.config", "manifest.xml"}) {
       const fs::path config = fs::path(folder) / name;
@@ -117,10 +116,10 @@ class Walk {
       tinyxml2::XMLDocument document;
       if (document.LoadFile(config.c_str()) != tinyxml2::XML_SUCCESS) return {};
       const auto* model = document.FirstChildElement("model");
-      // SDFormat reads the name without a look whether there is one.
+      // SDFormat reads the name without checking whether it exists.
       const auto* called = model != nullptr ? model->FirstChildElement("name") : nullptr;
       if (model != nullptr && (called == nullptr || called->GetText() == nullptr)) {
-        fail(config.string(), model->GetLineNum(), "has no <name>: write <name>the model's name</name>");
+        fail(config.string(), model->GetLineNum(), "has no <name>: add <name>the model's name</name>");
       }
       return sdf::getModelFilePath(folder);
     }
@@ -129,12 +128,12 @@ class Walk {
 
   void expect_regular(const fs::path& file, int line) const {
     if (!fs::is_regular_file(file)) {
-      fail(open_.back(), line, "includes " + file.string() + ", which is no regular file");
+      fail(open_.back(), line, "includes " + file.string() + ", which is not a regular file");
     }
   }
 
   const sdf::ParserConfig& config_;
-  std::vector<std::string> open_;  // the files around the element
+  std::vector<std::string> open_;  // the files that include the element
   std::vector<std::string> done_;
   std::map<std::string, std::uint64_t> elements_of_;
 };
@@ -146,13 +145,13 @@ void check_size(const fs::path& file) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size <= kLargestFile) return;
   fail(file.string(), 0,
-       "is " + std::to_string(size / kMegabyte) + " MB large, at most " + std::to_string(kLargestFile / kMegabyte) +
-           " MB are read");
+       "is " + std::to_string(size / kMegabyte) + " MB large; the maximum is " +
+           std::to_string(kLargestFile / kMegabyte) + " MB");
 }
 
 std::vector<std::string> check_limits(const SceneXml& xml, const sdf::ParserConfig& config) {
   Walk walk(config);
-  std::error_code no_file;  // a text has a name only
+  std::error_code no_file;  // a text is not a file
   const fs::path file = fs::canonical(xml.file(), no_file);
   walk.visit(xml.document(), no_file ? xml.file() : file.string());
   return std::move(walk).done();

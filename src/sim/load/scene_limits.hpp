@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene file may hold, with all files that it includes: SDFormat follows an <include> for ever, and takes all
-// memory and hours for what is large.
+// Limits of a scene file with all included files: SDFormat follows circular <include>s without end, and large files
+// take hours and all memory.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace bubblesim {
 
-/// Throws SceneError when it is larger than scene files may be.
+/// Throws SceneError when the file is larger than the limit.
 void check_size(const std::filesystem::path& file);
 
-/// Looks at a document before SDFormat reads it. Returns the files that it includes, each after those that it includes
-/// itself. Throws SceneError when one includes itself, is no regular file, or holds more than is read.
+/// Checks a document before SDFormat reads it. Returns the included files; a file comes after the files that it
+/// includes. Throws SceneError when a file includes itself, is not a regular file, or exceeds a limit.
 std::vector<std::string> check_limits(const SceneXml& xml, const sdf::ParserConfig& config);
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads SDFormat through its own DOM and reports all that is wrong with a file at once.
+// Reads SDFormat through its DOM and reports all problems of a file.
 #include "bubblesim/scene_loader.hpp"
 
 #include <algorithm>
@@ -35,12 +35,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What SDFormat calls a text that came from no file.
+// SDFormat's name of a text without a file.
 constexpr const char* kText = "<data-string>";
 constexpr const char* kGroundPlane = "ground_plane";
 constexpr const char* kOnDivergence = "bubblesim:on_divergence";
 
-/// What failed: an assertion has it in one of several lines, after those of its place in SDFormat.
+/// The reason: the message of an assertion has it in one of several lines, after the source location in SDFormat.
 std::string reason_of(const sdf::Exception& error) {
   const std::string text = error.GetErrorStr();
   static const std::regex assertion("Error *: *([^\n]*)");
@@ -52,11 +52,11 @@ std::string reason_of(const sdf::Exception& error) {
 class SceneLoader {
  public:
   explicit SceneLoader(const fs::path& file) : reading_(file) {}
-  /// `name` is what errors call the text, whose files lie in `folder`.
+  /// `name` is the text's name in errors; its files are in `folder`.
   SceneLoader(const std::string& text, const std::string& name, const fs::path& folder)
       : reading_(text, name, folder) {}
 
-  /// From the file, or from what is to be read in its place.
+  /// Loads the file, or `text` in its place.
   SceneDescription load_scene(const fs::path& file, const std::optional<SceneText>& text) {
     sdf::Root root;
     parse(
@@ -72,7 +72,8 @@ class SceneLoader {
     if (root.WorldCount() > 0) {
       read_world(*root.WorldByIndex(0), scene);
       if (root.WorldCount() > 1) {
-        reading_.report(source_of(root.WorldByIndex(1)->Element()), "", "a scene is one <world>: take the others out");
+        reading_.report(source_of(root.WorldByIndex(1)->Element()), "",
+                        "a scene must have exactly one <world>: remove the others");
       }
     } else if (root.Model() != nullptr) {
       scene.is_model_file = true;
@@ -83,9 +84,9 @@ class SceneLoader {
       scene.models.push_back(ground_plane());
       scene.environment.lights = {read_light(*root.Light(), root.Light()->RawPose())};
     } else if (problems_.empty()) {
-      problems_.push_back({file.string(), 0, "", "holds neither a <world> nor a <model>"});
+      problems_.push_back({file.string(), 0, "", "contains neither a <world> nor a <model>"});
     }
-    // What SDFormat could not read stands at its defaults: checking those would only hide the cause.
+    // Values that SDFormat could not read have their defaults: checking those would only hide the cause.
     if (is_read_ || root.WorldCount() > 0) {
       for (Problem& problem : check_scene(scene)) problems_.push_back(std::move(problem));
     }
@@ -106,7 +107,7 @@ class SceneLoader {
       model = read_root_model(root);
     } else if (problems_.empty()) {
       problems_.push_back(
-          {kText, 0, "", root.WorldCount() > 0 ? "holds a <world>: a <model> is wanted" : "holds no <model>"});
+          {kText, 0, "", root.WorldCount() > 0 ? "contains a <world>: expected a <model>" : "contains no <model>"});
     }
     if (is_read_ && root.Model() != nullptr) {
       for (Problem& problem : check_model(model)) problems_.push_back(std::move(problem));
@@ -119,7 +120,7 @@ class SceneLoader {
   sdf::ParserConfig parser_config() const {
     sdf::ParserConfig config;
     config.SetFindCallback([this](const std::string& uri) { return find_model(uri, reading_.folder()).string(); });
-    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);  // so that the reading hears of them
+    config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);  // so that they are reported
     return config;
   }
 
@@ -135,7 +136,7 @@ class SceneLoader {
       SdfRepairs repairs(reading_);
       std::optional<std::string> repaired;
       {
-        const ParserMessages unused;  // of values that are tried
+        const ParserMessages unused;  // hides messages about values that are tried
         repaired = is_urdf ? prepared_urdf(reading_) : repairs.repaired_scene();
       }
       const ParserMessages messages;
@@ -149,14 +150,14 @@ class SceneLoader {
       take_messages(messages.of_sdformat(), false);
     } catch (const SceneError&) {
       throw;
-    } catch (const sdf::Exception& error) {  // its assertions
+    } catch (const sdf::Exception& error) {  // failed assertions
       reading_.report({file_that_fails(included), 0}, "", "SDFormat cannot read it: " + reason_of(error));
-    } catch (const std::exception& error) {  // numbers that it did not expect
+    } catch (const std::exception& error) {  // unexpected numbers
       reading_.report({file_that_fails(included), 0}, "", std::string("SDFormat cannot read it: ") + error.what());
     }
   }
 
-  /// Which of the files included SDFormat does not survive alone, or the file itself.
+  /// Returns the included file that makes SDFormat fail on its own, or the file itself.
   std::string file_that_fails(const std::vector<std::string>& included) const {
     const ParserMessages silence;
     for (const std::string& file : included) {
@@ -172,7 +173,7 @@ class SceneLoader {
     return reading_.xml().file();
   }
 
-  /// What no error says. Problems when nothing can be had of the file.
+  /// Handles SDFormat's messages that are not among its errors: problems if reading failed, else warnings.
   void take_messages(const std::vector<std::string>& messages, bool failed) {
     const Source file{reading_.xml().file(), 0};
     for (const std::string& message : messages) {
@@ -220,9 +221,9 @@ class SceneLoader {
                         did_you_mean(policy, {"pause", "reset", "remove"}));
   }
 
-  /// The longest step of whole physics substeps that is not over the default, or a single one.
+  /// The longest step of whole physics substeps that does not exceed the default, or a single substep.
   static void fit_time_step(SceneDescription& scene) {
-    if (!(scene.substep >= kMinPhysicsStep && scene.substep <= kMaxPhysicsStep)) return;  // told later
+    if (!(scene.substep >= kMinPhysicsStep && scene.substep <= kMaxPhysicsStep)) return;  // reported later
     const double steps = scene.time_step / scene.substep;
     const bool fits = std::abs(steps - std::round(steps)) < 1e-6;
     if (!fits) scene.time_step = scene.substep * std::max(1.0, std::floor(steps + 1e-6));
@@ -240,7 +241,7 @@ class SceneLoader {
       fit_time_step(scene);
     }
     if (const auto policy = own_text(world.Element(), kOnDivergence)) read_policy(*policy, world, scene);
-    // SDFormat rounds its own default to millionths.
+    // SDFormat rounds its default to 1e-6.
     if (const auto field = world.Element()->FindElement("magnetic_field"); field && field->GetExplicitlySetInFile()) {
       scene.environment.magnetic_field = field->Get<Vector3>();
     }
@@ -257,7 +258,7 @@ class SceneLoader {
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (model.Static() && model.LinkCount() == 0 && model.ModelCount() == 0) {
-        LoadContext::warn(source_of(model.Element()), "/" + model.Name(), "has no link and is left out");
+        LoadContext::warn(source_of(model.Element()), "/" + model.Name(), "has no link: ignored");
         continue;
       }
       scene.models.push_back(read_model(model, reading_.resolved(model, "/" + model.Name()), reading_));
@@ -267,10 +268,10 @@ class SceneLoader {
 
   LoadContext reading_;
   std::vector<Problem>& problems_ = reading_.problems();
-  bool is_read_ = false;  // SDFormat found nothing wrong
+  bool is_read_ = false;  // SDFormat found no errors
 };
 
-/// Calls `load`, whose every failure becomes a SceneError of the file.
+/// Calls `load` and converts its exceptions to a SceneError of the file.
 template <class Load>
 auto telling_of(const std::string& file, const Load& load) {
   try {

@@ -12,7 +12,7 @@
 namespace bubblesim {
 namespace {
 
-/// Keeps lines as they are, unlike writing the XML anew.
+/// Keeps line breaks, unlike printing the XML.
 void rename_root(std::string& text, const std::string& from, const std::string& to) {
   const std::size_t opening = text.find("<" + from);
   if (opening != std::string::npos) text.replace(opening + 1, from.size(), to);
@@ -20,7 +20,7 @@ void rename_root(std::string& text, const std::string& from, const std::string& 
   if (closing != std::string::npos) text.replace(closing + 2, from.size(), to);
 }
 
-/// Some files are in Latin-1, whatever they say of themselves: all else that reads them wants UTF-8.
+/// Some files are in Latin-1, regardless of their declaration: all other readers expect UTF-8.
 bool is_utf8(const std::string& text) {
   std::size_t following = 0;
   for (const char character : text) {
@@ -54,7 +54,7 @@ std::string from_latin1(const std::string& text) {
 
 std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments) {
   if (file.extension() == ".xacro") {
-    return SceneText{run_xacro(file, arguments), file.string() + " (as xacro expands it)"};
+    return SceneText{run_xacro(file, arguments), file.string() + " (expanded by xacro)"};
   }
   std::ifstream stream(file);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -62,7 +62,7 @@ std::optional<SceneText> scene_text(const std::filesystem::path& file, const Xac
   text = without_late_declaration(std::move(text));
   if (!is_utf8(text)) text = from_latin1(text);
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;  // told later
+  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;  // reported later
   const tinyxml2::XMLElement* root = document.RootElement();
   const std::string old_name = "gazebo";
   const bool is_old = root != nullptr && root->Name() == old_name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that SDFormat does not take as they are.
+// Converts files that SDFormat does not accept.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ namespace bubblesim {
 
 struct SceneText {
   std::string text;
-  std::string name;  ///< what errors call it
+  std::string name;  ///< its name in errors
 };
 
-/// What is to be read in place of a file: a .xacro as xacro expands it, a scene of before SDFormat 1.3, whose root was
-/// <gazebo>, one that is not in UTF-8, and one with a comment before its XML declaration. Nothing for all others.
+/// The text to read in place of a file: a .xacro file expanded by xacro; a scene before SDFormat 1.3, whose root was
+/// <gazebo>; a file that is not in UTF-8; a file with a comment before its XML declaration. Empty for all others.
 /// Throws SceneError.
 std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments);
 

@@ -18,7 +18,7 @@
 namespace bubblesim {
 namespace {
 
-// What SDFormat calls a text that came from no file.
+// SDFormat's name of a text without a file.
 constexpr const char* kUnnamedText = "<data-string>";
 constexpr const char* kUrdf = "<urdf-string>";
 
@@ -33,8 +33,8 @@ void visit(const tinyxml2::XMLElement& element, const Visitor& visitor) {
 
 constexpr std::string_view kPlugin = "plugin";
 
-/// The way from the root to an element, by tags and names: the same in the XML and in SDFormat's tree. That to a plugin
-/// and into it begins there, so that it is the same in URDF.
+/// The path from the root to an element, of tags and names: equal in the XML and in SDFormat's tree. For elements in a
+/// plugin it starts at the plugin, so that it is also equal in URDF.
 std::string place(const tinyxml2::XMLElement& element) {
   const auto* parent = element.Parent() != nullptr ? element.Parent()->ToElement() : nullptr;
   const char* name = element.Attribute("name");
@@ -49,13 +49,13 @@ std::string place(const sdf::ElementPtr& element) {
          name;
 }
 
-/// SDFormat does not know the lines of elements that it does not know, nor those of URDF.
+/// SDFormat has no lines for elements that it does not know, nor for those of URDF.
 bool needs_line(const std::string& name, const std::string& place) {
   return is_own_element(name) || place.rfind("/" + std::string(kPlugin) + ":", 0) == 0 ||
          place.find("mimic:/") != std::string::npos;
 }
 
-/// SDFormat repeats each error for every element around it and once more for the file.
+/// SDFormat repeats each error for every parent element and once more for the file.
 bool only_follows(const std::string& message) {
   return message.rfind("Error reading element <", 0) == 0 || message.rfind("Unable to read file", 0) == 0 ||
          message.rfind("Unable to read SDF string", 0) == 0 || message.rfind("Failed to load a world", 0) == 0 ||
@@ -77,22 +77,24 @@ void SceneXml::read(const std::string& text) {
     if (result == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) throw SceneError({{file_, 0, "", "is empty"}});
     const std::optional<XmlFault> fault = find_xml_fault(text);
     throw SceneError({{file_, fault ? fault->line : document_.ErrorLineNum(), "",
-                       "is not well-formed XML here: " + (fault ? fault->message : document_.ErrorName())}});
+                       "is not well-formed XML: " + (fault ? fault->message : document_.ErrorName())}});
   }
   const tinyxml2::XMLElement* root = document_.RootElement();
-  if (root == nullptr) throw SceneError({{file_, 0, "", "holds no element"}});
+  if (root == nullptr) throw SceneError({{file_, 0, "", "contains no XML element"}});
   const std::string name = root->Name();
-  // <robot> is URDF, which SDFormat converts; <gazebo> is what <sdf> was called before version 1.3.
+  // <robot> is URDF, which SDFormat converts; <gazebo> is the name of <sdf> before version 1.3.
   if (name != "sdf" && name != "robot" && name != "gazebo") {
-    throw SceneError({{file_, root->GetLineNum(), "", "is no scene: it starts with <" + name + ">, not with <sdf>"}});
+    throw SceneError({{file_, root->GetLineNum(), "",
+                       "is not an SDFormat file: the root element is <" + name + ">, expected <sdf>"}});
   }
   if (name == "robot") return;
   static const std::regex wanted(R"(\d+\.\d+.*)");
   const char* version = root->Attribute("version");
   if (version == nullptr || !std::regex_match(version, wanted)) {
-    throw SceneError({{file_, root->GetLineNum(), "",
-                       version == nullptr ? "<" + name + "> has no version: write <" + name + " version=\"1.6\">"
-                                          : "the version '" + std::string(version) + "' is not one such as 1.6"}});
+    throw SceneError(
+        {{file_, root->GetLineNum(), "",
+          version == nullptr ? "<" + name + "> has no version: use <" + name + " version=\"1.6\">"
+                             : "invalid version '" + std::string(version) + "': expected a version such as 1.6"}});
   }
 }
 
@@ -103,7 +105,7 @@ void SceneXml::place_elements(const sdf::ElementPtr& root) const {
     if (needs_line(element.Name(), where)) lines.emplace(where, element.GetLineNum());
   });
   const std::function<void(const sdf::ElementPtr&)> number = [&](const sdf::ElementPtr& element) {
-    // SDFormat does not name the file of a text, nor when it has converted URDF.
+    // SDFormat does not store the file name of a text, nor of converted URDF.
     const std::string& named = element->FilePath();
     if (named.empty() || named == kUnnamedText || named == kUrdf || named == "urdf file") {
       element->SetFilePath(file_);
@@ -134,16 +136,16 @@ Source SceneXml::place_of(const std::string& element, const std::string& text) c
 
 bool SceneXml::is_urdf() const { return std::string_view(document_.RootElement()->Name()) == "robot"; }
 
-/// `<mu> is 'slippery', ...` for an element that SDFormat could not read and says no more about.
+/// The error for an element that SDFormat could not read, without details from SDFormat.
 std::string SceneXml::unusable_text(const std::string& element, int line) const {
   std::string text;
   visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& found) {
     if (found.GetLineNum() == line && element == found.Name() && found.GetText() != nullptr) text = found.GetText();
   });
-  return "<" + element + "> is '" + text + "', which its type or range does not allow";
+  return "<" + element + "> has the invalid value '" + text + "' (wrong type or out of range)";
 }
 
-/// The line of what a message calls `joint with name[j]` or `link named l`.
+/// The line of an object that a message calls `joint with name[j]` or `link named l`.
 int SceneXml::line_of_named(const std::string& message) const {
   static const std::regex pattern(
       R"((model|link|joint|frame|sensor|collision) (?:with name ?\[([^\]]*)\]|named (\S+)))", std::regex::icase);
@@ -160,7 +162,7 @@ int SceneXml::line_of_named(const std::string& message) const {
   return 0;
 }
 
-/// The line of the element that the path /Model/joint names.
+/// The line of the element at the path /Model/joint.
 int SceneXml::line_of_object(const std::string& path) const {
   int line = 0;
   visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& element) {
@@ -189,12 +191,11 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
   bool harmless = false;
   for (const sdf::Error& error : errors) {
     if (only_follows(error.Message())) continue;
-    // Many models have moments of inertia that belong to no body. ODE moves them all the same, as long as they are
-    // positive definite, and the scene check tells whether they are.
-    // Whoever reads the sensor tells of a type that is not known.
-    // Whoever reads the link tells of shapes that share a name.
+    // Errors that are reported elsewhere: unknown sensor types by the reader of the sensor, shapes with equal names by
+    // the reader of the link. Many models have moments of inertia that no real body has. ODE can simulate them if they
+    // are positive definite, which the scene check verifies.
     static const std::regex namesake("(collision|visual) with name ?\\[.*\\] already exists.*");
-    // SdfRepairs tells of scripts.
+    // SdfRepairs reports scripts.
     if (error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID || std::regex_match(error.Message(), namesake) ||
         error.Message().rfind("A <script> element is missing a child", 0) == 0 ||
         error.Message().rfind("Attempting to load a Sensor, but the provided sensor type", 0) == 0) {
@@ -203,7 +204,7 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
     }
     int line = error.LineNumber().value_or(line_of_named(error.Message()));
     if (line == 0 && !object.empty()) line = line_of_object(object);
-    // It says the same thing in several ways: the first will do.
+    // SDFormat reports the same problem in several ways: keep the first.
     const bool known = std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
       return (line > 0 && problem.line == line) || problem.message == error.Message();
     });
@@ -216,8 +217,9 @@ std::vector<Problem> SceneXml::located(const sdf::Errors& errors, const std::str
   std::smatch match;
   const std::string message = first.Message();
   const bool is_unread = file == file_ && std::regex_match(message, match, unread);
-  // It repeats the whole text then, and has told the cause, if it knows it, on stderr only.
-  if (message.rfind("Unable to read SDF string", 0) == 0) return {{file, 0, "", "SDFormat can make no model of it"}};
+  // This message repeats the whole text; SDFormat prints the cause, if it knows it, on stderr only.
+  if (message.rfind("Unable to read SDF string", 0) == 0)
+    return {{file, 0, "", "SDFormat cannot convert it to a model"}};
   return {{file, line, object, is_unread ? unusable_text(match.str(1), line) : message}};
 }
 

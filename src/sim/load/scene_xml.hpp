@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file as plain XML: where things are written that SDFormat does not know the place of.
+// A scene file as plain XML, for line numbers that SDFormat does not have.
 #pragma once
 
 #include <tinyxml2.h>
@@ -18,29 +18,30 @@ namespace bubblesim {
 
 class SceneXml {
  public:
-  /// Throws SceneError when the file is no XML or no scene.
+  /// Throws SceneError when the file is not XML or not a scene.
   explicit SceneXml(const std::filesystem::path& file);
-  /// The same from the text of a file; `name` is what errors call it.
+  /// The same for the text of a file; `name` is its name in errors.
   SceneXml(const std::string& text, std::string name);
 
-  /// Gives elements below `root` that SDFormat does not know their lines, for it copies those without; and
-  /// all elements the name of a text that came from no file.
+  /// Sets the lines of elements below `root` that SDFormat does not know, because it copies them without; and the file
+  /// name of all elements of a text without a file.
   void place_elements(const sdf::ElementPtr& root) const;
 
-  /// Where an element of this name and text is written: SDFormat keeps no places of what stands in an <include>.
+  /// The location of an element with this name and text: SDFormat does not store locations of the content of an
+  /// <include>.
   Source place_of(const std::string& element, const std::string& text) const;
 
   const tinyxml2::XMLDocument& document() const { return document_; }
   tinyxml2::XMLDocument& document() { return document_; }
-  /// SDFormat reads `copy` in place of `original`, which errors name.
+  /// Declares that SDFormat reads `copy` in place of `original`; errors name the original.
   void stands_for(const std::filesystem::path& copy, const std::filesystem::path& original);
-  /// What errors call it.
+  /// Its name in errors.
   const std::string& file() const { return file_; }
-  /// Whether it is a robot in URDF, which SDFormat converts.
+  /// Whether it is URDF, which SDFormat converts.
   bool is_urdf() const;
 
-  /// What SDFormat found wrong, without what only follows from it, and with lines where they can be told.
-  /// `object` is the path of the object that was being read, or empty.
+  /// SDFormat's errors without consequential errors, with lines where they are known. `object` is the path of the
+  /// object that was being read, or empty.
   std::vector<Problem> located(const sdf::Errors& errors, const std::string& object) const;
 
  private:
@@ -52,7 +53,7 @@ class SceneXml {
   std::string unusable_text(const std::string& element, int line) const;
 
   std::string file_;
-  std::map<std::string, std::string> originals_;  // by the copies that are read in their place
+  std::map<std::string, std::string> originals_;  // by the copies that replace them
   tinyxml2::XMLDocument document_;
 };
 

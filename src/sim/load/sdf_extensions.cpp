@@ -27,18 +27,12 @@ const std::vector<OwnElement>& sdf_extensions() {
       {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder
       {"bubblesim:antialias", {"camera"}},               // true or false
       {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic
-      {"bubblesim:frame", {"sensor"}},                   // frame_id of what is published there
+      {"bubblesim:frame", {"sensor"}},                   // frame_id of its messages
       {"bubblesim:signal", {"lidar", "ray"}},            // name of a string signal with the points
       {"bubblesim:checker_size", {"material"}},          // metres
       {"bubblesim:checker_color", {"material"}},         // red, green and blue
   };
   return elements;
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
 /// `/Model/joint` from the names of an element's ancestors.
@@ -70,16 +64,16 @@ void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problem
     if (name != own.name) continue;
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
     if (std::find(own.parents.begin(), own.parents.end(), parent) == own.parents.end()) {
-      report("<" + name + "> stands in <" + parent + ">, it belongs in <" + own.parents.front() + ">");
+      report("<" + name + "> is not allowed in <" + parent + ">, it belongs in <" + own.parents.front() + ">");
     } else if (own_child(element->GetParent(), name) != element) {
-      report("<" + name + "> stands here twice");
+      report("<" + name + "> occurs twice");
     }
     return;
   }
   report("unknown element <" + name + ">" + did_you_mean(name, known));
 }
 
-/// The numbers of a text, between spaces; nothing when it holds anything else.
+/// The numbers in a text, separated by spaces; empty when the text has other content.
 std::optional<std::vector<double>> to_numbers(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream words(text);
@@ -99,6 +93,12 @@ void report_text(const sdf::ElementPtr& element, const std::string& text, const 
 }
 
 }  // namespace
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
 
 bool is_own_element(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 

@@ -12,19 +12,22 @@
 
 namespace bubblesim {
 
+/// The text without white space at its ends.
+std::string trimmed(const std::string& text);
+
 bool is_own_element(const std::string& name);
 
-/// Reports elements of our namespace that do not exist, stand in the wrong place or there twice, anywhere below `root`.
+/// Reports elements of the namespace, anywhere below `root`, that are unknown, in the wrong place or occur twice.
 void check_own_elements(const sdf::ElementPtr& root, std::vector<Problem>& problems);
 
-/// The text of one of our elements, if it is there.
+/// The text of a bubblesim element, if it exists.
 std::optional<std::string> own_text(const sdf::ElementPtr& parent, const std::string& name);
 
-/// The three numbers in one of our elements, if it is there; a text that is none is reported.
+/// The three numbers of a bubblesim element, if it exists; other text is reported.
 std::optional<Vector3> own_vector(const sdf::ElementPtr& parent, const std::string& name,
                                   std::vector<Problem>& problems);
 
-/// The number in one of our elements, if it is there; a text that is no number is reported.
+/// The number of a bubblesim element, if it exists; other text is reported.
 std::optional<double> own_number(const sdf::ElementPtr& parent, const std::string& name,
                                  std::vector<Problem>& problems);
 

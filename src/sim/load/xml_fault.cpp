@@ -19,8 +19,8 @@ std::string text_of(const char* text) { return text != nullptr ? text : ""; }
 
 XmlFault describe(const xmlError& error) {
   if (error.code == XML_ERR_TAG_NAME_MISMATCH) {
-    return {error.int1, "<" + text_of(error.str1) + "> is opened here, and the end tag found for it is </" +
-                            text_of(error.str2) + "> in line " + std::to_string(error.line)};
+    return {error.int1, "<" + text_of(error.str1) + "> is opened here and closed by </" + text_of(error.str2) +
+                            "> in line " + std::to_string(error.line)};
   }
   if (error.code == XML_ERR_TAG_NOT_FINISHED) {
     return {error.int1, "<" + text_of(error.str1) + "> is opened here and has no end tag"};
@@ -30,7 +30,7 @@ XmlFault describe(const xmlError& error) {
   return {error.line, message};
 }
 
-/// Called for each error of a text; the first one counts, as others follow from it.
+/// Called for each error of a text; keeps the first, because the others follow from it.
 void keep_first(void* found, xmlErrorPtr error) {
   auto& fault = *static_cast<std::optional<XmlFault>*>(found);
   if (!fault && error->level >= XML_ERR_ERROR) fault = describe(*error);
@@ -43,7 +43,7 @@ std::optional<XmlFault> find_xml_fault(const std::string& text) {
   if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return fault;
   const std::unique_ptr<xmlParserCtxt, Free> context(xmlNewParserCtxt());
   if (context == nullptr) return fault;
-  xmlSetStructuredErrorFunc(&fault, keep_first);  // of this thread
+  xmlSetStructuredErrorFunc(&fault, keep_first);  // for this thread
   const std::unique_ptr<xmlDoc, Free> document(
       xmlCtxtReadMemory(context.get(), text.data(), static_cast<int>(text.size()), nullptr, nullptr, XML_PARSE_NONET));
   xmlSetStructuredErrorFunc(nullptr, nullptr);

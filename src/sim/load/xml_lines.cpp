@@ -49,7 +49,7 @@ std::string without_late_declaration(std::string text) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   const std::size_t declaration = text.find("<?xml ");
   if (start == std::string::npos || declaration == std::string::npos || declaration <= start) return text;
-  // Only comments may stand before it: anywhere else it is a part of the content.
+  // Only comments may be before it: otherwise it is part of the content.
   for (std::size_t place = start; place < declaration;) {
     if (text.compare(place, 4, "<!--") != 0) return text;
     const std::size_t end = text.find("-->", place);

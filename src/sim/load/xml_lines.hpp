@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in XML: in a file that is changed before it is read, too, errors point at the file as the user has it.
+// Keeps locations in XML: errors refer to the user's file, also if it was changed before reading.
 #pragma once
 
 #include <tinyxml2.h>
@@ -8,11 +8,11 @@
 
 namespace bubblesim {
 
-/// A document as text, each element in the line where the file has it.
+/// A document as text, with each element in its line of the file.
 std::string print_in_lines(const tinyxml2::XMLDocument& document);
 
-/// The text with blanks in place of an XML declaration that stands behind something else, such as a comment: parsers of
-/// XML refuse those.
+/// The text with blanks in place of an XML declaration that is not at the start, such as after a comment: XML parsers
+/// reject it.
 std::string without_late_declaration(std::string text);
 
 /// `/Model/joint` from the names of an element and its ancestors.

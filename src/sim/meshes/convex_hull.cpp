@@ -19,10 +19,10 @@ Hull convex_hull(const TriangleMesh& mesh) {
   Hull hull;
   try {
     orgQhull::Qhull qhull;
-    std::ostringstream messages;  // it would print them
+    std::ostringstream messages;  // prevents printing
     qhull.setErrorStream(&messages);
     qhull.setOutputStream(&messages);
-    // C-0 merges coplanar facets, Qt then cuts them into triangles: corners amid a face fall out.
+    // C-0 merges coplanar facets, Qt then splits them into triangles: corners inside a face are dropped.
     qhull.runQhull("", 3, static_cast<int>(mesh.vertices.size()), coordinates.data(), "C-0 Qt");
     std::map<int, std::uint32_t> index_of;
     for (const orgQhull::QhullFacet& facet : qhull.facetList()) {
@@ -44,7 +44,7 @@ Hull convex_hull(const TriangleMesh& mesh) {
       hull.triangles.push_back(triangle);
     }
   } catch (const orgQhull::QhullError&) {
-    return {};  // qhull wants a body with a volume
+    return {};  // qhull requires a volume
   }
   return hull;
 }

@@ -7,14 +7,14 @@
 
 namespace bubblesim {
 
-/// The convex hull of a mesh, its corners without those amid its faces; or nothing when it is flat.
+/// The convex hull of a mesh, without corners inside its faces; empty when the mesh is flat.
 struct Hull {
   std::vector<Vector3> corners;
   std::vector<TriangleMesh::Triangle> triangles;  ///< counter-clockwise from outside
 };
 Hull convex_hull(const TriangleMesh& mesh);
 
-/// Of the space within closed surfaces whose triangles run counter-clockwise from outside. m^3
+/// Volume inside closed surfaces whose triangles run counter-clockwise from outside. m^3
 template <class Corner>
 double enclosed_volume(const std::vector<TriangleMesh::Triangle>& triangles, const Corner& corner) {
   double sixfold = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polylines: the outline is cut into triangles by clipping ears, as D. Eberly's "Triangulation by Ear Clipping" tells.
+// Extrudes polylines: the outline is triangulated by ear clipping (D. Eberly, "Triangulation by Ear Clipping").
 #include <algorithm>
 #include <cmath>
 #include <list>
@@ -46,7 +46,7 @@ bool crosses_itself(const std::vector<Point>& outline) {
   return false;
 }
 
-/// Triangles of a simple outline that runs counter-clockwise.
+/// Triangulates a simple outline that runs counter-clockwise.
 class EarClipper {
  public:
   explicit EarClipper(const std::vector<Point>& outline) : outline_(outline) {
@@ -57,9 +57,9 @@ class EarClipper {
     std::vector<TriangleMesh::Triangle> triangles;
     while (left_.size() > 3) {
       Place ear = find_ear(false);
-      // The ways to holes run along themselves, and corners of holes may lie on the way from corner to corner.
+      // Connections to holes run back along themselves, and corners of holes may be on the line between two corners.
       if (ear == left_.end()) ear = find_ear(true);
-      if (ear == left_.end()) throw MeshError("touches itself: its triangles cannot be told");
+      if (ear == left_.end()) throw MeshError("touches itself: it cannot be triangulated");
       triangles.push_back(around(ear));
       left_.erase(ear);
     }
@@ -130,7 +130,7 @@ bool lies_in(const Outline& inner, const Outline& outer) {
   return std::all_of(inner.begin(), inner.end(), [&outer](const Point& point) { return holds(outer, point); });
 }
 
-/// Whether what leaves corner `i` of an outline for `point` goes into it; it runs counter-clockwise.
+/// Whether the line from corner `i` of a counter-clockwise outline to `point` starts inside the outline.
 bool leads_inside(const Outline& outline, std::size_t i, const Point& point) {
   const Point& before = outline[(i + outline.size() - 1) % outline.size()];
   const Point& here = outline[i];
@@ -139,7 +139,7 @@ bool leads_inside(const Outline& outline, std::size_t i, const Point& point) {
   return !(turn(here, point, after) >= 0 && turn(here, before, point) >= 0);
 }
 
-/// Cuts an outline open along the shortest way to a hole, which runs clockwise, so that the two are one outline.
+/// Joins an outline and a hole, which runs clockwise, at their shortest connection to one outline.
 void join(Outline& outline, const Outline& hole, const std::vector<Outline>& others) {
   struct Bridge {
     double length;
@@ -164,14 +164,14 @@ void join(Outline& outline, const Outline& hole, const std::vector<Outline>& oth
     outline = std::move(joined);
     return;
   }
-  throw MeshError("has a hole that cannot be reached from its outline");
+  throw MeshError("has a hole that cannot be connected to its outline");
 }
 
 TriangleMesh::Point at_height(const Point& point, double z) {
   return {static_cast<float>(point.X()), static_cast<float>(point.Y()), static_cast<float>(z)};
 }
 
-/// The sides; to the right of the outline is outside.
+/// The side walls; outside is to the right of the outline.
 void add_walls(const Outline& outline, double height, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto count = static_cast<std::uint32_t>(outline.size());
@@ -200,14 +200,14 @@ void add_caps(const Outline& outline, double height, TriangleMesh& mesh) {
 
 void check(const Extrusion& part) {
   constexpr std::size_t kMaxCorners = 10'000;
-  if (part.outline.size() < 3) throw MeshError("has less than three corners");
-  if (part.outline.size() > kMaxCorners) throw MeshError("has over 10000 corners");
-  if (!(part.height > 0)) throw MeshError("has no height above 0");
+  if (part.outline.size() < 3) throw MeshError("has fewer than three corners");
+  if (part.outline.size() > kMaxCorners) throw MeshError("has more than 10000 corners");
+  if (!(part.height > 0)) throw MeshError("must have a height above 0");
   if (area(part.outline) == 0) throw MeshError("has no area");
   if (crosses_itself(part.outline)) throw MeshError("crosses itself");
 }
 
-/// In how many of the others a part lies; 0 for one that crosses another.
+/// The number of other outlines that contain each part; 0 for a part that crosses another.
 std::vector<std::size_t> depths(const std::vector<Extrusion>& parts) {
   std::vector<std::size_t> all;
   for (const Extrusion& part : parts) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaxCoordinate = 1e5;  // m
 constexpr std::size_t kMaxTriangles = 10'000'000;
-// Sine of the smallest angle that a triangle may have: below, its normal is noise in single precision.
+// Sine of the smallest allowed angle of a triangle: below, its normal is noise in single precision.
 constexpr double kMinSine = 1e-6;
 
 bool has_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle) {
@@ -31,11 +31,11 @@ std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
     return std::all_of(point.begin(), point.end(), [](float x) { return std::abs(x) <= kMaxCoordinate; });
   };
   if (mesh.triangles.size() > kMaxTriangles) {
-    throw MeshError("has " + std::to_string(mesh.triangles.size()) + " triangles, at most " +
-                    std::to_string(kMaxTriangles) + " are taken");
+    throw MeshError("has " + std::to_string(mesh.triangles.size()) + " triangles; the maximum is " +
+                    std::to_string(kMaxTriangles));
   }
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), usable)) {
-    throw MeshError("has a vertex that is not finite or over 1e5 m away: look at its numbers and its scale");
+    throw MeshError("has a vertex that is not finite or more than 1e5 m away: check its coordinates and scale");
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -48,7 +48,7 @@ std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
     if (!mesh.material_of.empty()) mesh.material_of[kept] = mesh.material_of[i];
     ++kept;
   }
-  if (kept == 0) throw MeshError("holds no triangle with an area");
+  if (kept == 0) throw MeshError("contains no triangle with an area");
   mesh.triangles.resize(kept);
   if (!mesh.material_of.empty()) mesh.material_of.resize(kept);
   mesh.low = Vector3::One * std::numeric_limits<double>::infinity();

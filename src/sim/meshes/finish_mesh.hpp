@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each surface goes through before it is used: ODE and Embree take neither NaN nor triangles without an area.
+// Checks and cleans each surface before it is used: ODE and Embree accept neither NaN nor triangles without an area.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace bubblesim {
 
-/// Leaves out triangles without an area and notes the box around the others. Throws MeshError when nothing is left, and
-/// when a number is not finite or an index names no vertex.
+/// Removes triangles without an area and computes the bounding box. Throws MeshError when nothing is left, a number is
+/// not finite or an index is out of range.
 std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh);
 
 }  // namespace bubblesim

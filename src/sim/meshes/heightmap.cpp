@@ -8,9 +8,9 @@
 namespace bubblesim {
 namespace {
 
-constexpr std::size_t kMaxCorners = 513;  // each way: half a million triangles
+constexpr std::size_t kMaxCorners = 513;  // per side: half a million triangles
 
-/// The pixels that become corners: all of them, or evenly chosen ones, the first and the last always.
+/// The pixels that become corners: all, or evenly spaced ones including the first and the last.
 std::vector<std::size_t> chosen(std::size_t pixels) {
   const std::size_t count = std::min(pixels, kMaxCorners);
   std::vector<std::size_t> indices;
@@ -21,7 +21,7 @@ std::vector<std::size_t> chosen(std::size_t pixels) {
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> raise_ground(const Heights& heights, const Vector3& size, const Vector3& middle) {
-  if (heights.width < 2 || heights.height < 2) throw MeshError("is less than two pixels wide or high");
+  if (heights.width < 2 || heights.height < 2) throw MeshError("is smaller than 2 x 2 pixels");
   const float brightest = *std::max_element(heights.values.begin(), heights.values.end());
   const double scale = brightest > 0 ? size.Z() / static_cast<double>(brightest) : 0;
   const std::vector<std::size_t> columns = chosen(heights.width);
@@ -41,7 +41,7 @@ std::shared_ptr<const TriangleMesh> raise_ground(const Heights& heights, const V
   const auto width = static_cast<std::uint32_t>(columns.size());
   for (std::uint32_t row = 0; row + 1 < rows.size(); ++row) {
     for (std::uint32_t column = 0; column + 1 < width; ++column) {
-      const std::uint32_t corner = row * width + column;  // the upper left one of four
+      const std::uint32_t corner = row * width + column;  // the upper left of four
       mesh.triangles.push_back({corner, corner + width, corner + width + 1});
       mesh.triangles.push_back({corner, corner + width + 1, corner + 1});
     }

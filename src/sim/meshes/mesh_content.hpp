@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program mesh_reader is asked for and what it answers.
+// Requests to the program mesh_reader, and its answers.
 #pragma once
 
 #include <array>
@@ -11,33 +11,33 @@
 
 namespace bubblesim {
 
-/// Which part of which file is wanted.
+/// The requested file and part.
 struct MeshQuery {
   std::string file;
   std::uint64_t size = 0;    ///< of the file, bytes
-  std::uint64_t digest = 0;  ///< of its content: the reader keeps the last file
+  std::uint64_t digest = 0;  ///< of its content: the reader caches the last file
   std::array<double, 3> scale{};
   std::string submesh;  ///< empty: all parts
 };
 
-/// A material as the file has it.
+/// A material of a mesh file.
 struct FileMaterial {
-  /// What can be sent as it is.
+  /// The part that is sent as raw bytes.
   struct Numbers {
     bool has_diffuse = false;
     Color diffuse;
     Color emissive;
-    std::int32_t texture_width = 0;  ///< of a texture in the file whose bytes are rgb; 0: the bytes are a picture file
+    std::int32_t texture_width = 0;  ///< of an embedded texture whose bytes are rgb; 0: the bytes are an image file
     std::int32_t texture_height = 0;
   } numbers;
-  std::string texture_uri;            ///< of a file beside the mesh; or empty
-  std::vector<std::uint8_t> texture;  ///< that the mesh file holds itself; or empty
+  std::string texture_uri;            ///< of a file next to the mesh; or empty
+  std::vector<std::uint8_t> texture;  ///< embedded in the mesh file; or empty
 };
 
 struct MeshContent {
-  std::string error;       ///< why there is no surface; empty when there is one
-  std::string part_names;  ///< of the file, each ended by a newline, when the submesh is not found
-  TriangleMesh mesh;       ///< without its materials and its box
+  std::string error;       ///< reason of a failure; empty on success
+  std::string part_names;  ///< of the file, each followed by a newline, if the submesh is not found
+  TriangleMesh mesh;       ///< without materials and bounding box
   std::vector<FileMaterial> materials;
 };
 
@@ -51,7 +51,7 @@ void each_value(Query& query, const Step& step) {
   step(query.submesh);
 }
 
-/// The same for an answer but its materials.
+/// The same for an answer, except for its materials.
 template <class Content, class Step>
 void each_array(Content& content, const Step& step) {
   step(content.error);
@@ -63,7 +63,7 @@ void each_array(Content& content, const Step& step) {
   step(content.mesh.material_of);
 }
 
-/// And for one of those.
+/// The same for a material.
 template <class Stored, class Step>
 void each_part(Stored& material, const Step& step) {
   step(material.numbers);

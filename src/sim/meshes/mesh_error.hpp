@@ -5,12 +5,12 @@
 
 namespace bubblesim {
 
-/// A surface that cannot be made; the text says why.
+/// A mesh cannot be made; the text has the reason.
 struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The file that it is in is not there.
+/// The file of the mesh does not exist.
 struct MissingFile : MeshError {
   using MeshError::MeshError;
 };

@@ -57,7 +57,7 @@ std::shared_ptr<const TriangleMesh> read(const MeshRequest& request, const MeshR
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshReader& reader) {
-  // Materials and textures of a file lie beside it: equal content may look different elsewhere.
+  // Materials and textures are in files next to the mesh, so equal meshes may look different in other folders.
   using Key = std::tuple<std::string, std::uint64_t, std::uint64_t, double, double, double, std::string, bool>;
   static std::mutex mutex;
   static std::map<Key, std::weak_ptr<const TriangleMesh>> known;

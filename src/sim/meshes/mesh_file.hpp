@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces from mesh files: COLLADA, STL, OBJ and what else assimp reads.
+// Loads mesh files: COLLADA, STL, OBJ and other formats of assimp.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ namespace bubblesim {
 struct MeshRequest {
   std::filesystem::path file{};
   Vector3 scale = Vector3::One;
-  std::string submesh{};  ///< name of the only part that is wanted; empty: all of them
-  bool center = false;    ///< moves the middle of the box around that part to the origin
+  std::string submesh{};  ///< name of the part to load; empty: all parts
+  bool center = false;    ///< moves the centre of the part's bounding box to the origin
 };
 
-/// What is in a file is read once and shared as long as anybody uses it. Throws MeshError.
+/// Each file is read once and shared by its users. Throws MeshError.
 std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshReader& reader);
 
 }  // namespace bubblesim

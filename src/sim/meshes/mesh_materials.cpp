@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `%20` is a space, as in each URI.
+/// Decodes %20 and the like in a URI.
 std::string decoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -28,7 +28,7 @@ std::string decoded(const std::string& uri) {
   return text;
 }
 
-/// Where the file says, or where models keep textures.
+/// Searches a texture at the given path, and where models have their textures.
 fs::path find_texture(const std::string& uri, const fs::path& mesh_file) {
   const std::string scheme = "file://";
   const fs::path named = decoded(uri.rfind(scheme, 0) == 0 ? uri.substr(scheme.size()) : uri);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours and textures that a mesh file brings.
+// Colours and textures of a mesh file.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace bubblesim {
 
-/// In the order of the file; none when it has neither a colour nor a texture. A texture that cannot be found or read
-/// leaves its material's colour.
+/// The materials in the order of the file; empty when the file has neither colours nor textures. If a texture cannot be
+/// found or read, its material's colour is used.
 std::vector<Material> mesh_materials(const std::vector<FileMaterial>& materials, const std::filesystem::path& file);
 
 }  // namespace bubblesim

@@ -28,11 +28,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A stream socket's two ends. This process's own closes itself, in programs that others start as well.
+/// A pair of stream sockets. This process's end is close-on-exec, also for programs started elsewhere.
 struct SocketPair {
   SocketPair() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      throw MeshError(std::string("cannot be read: there is no socket to be had (") + std::strerror(errno) + ")");
+      throw MeshError(std::string("cannot be read: cannot create a socket (") + std::strerror(errno) + ")");
     }
   }
   ~SocketPair() {
@@ -46,7 +46,7 @@ struct SocketPair {
   int ends[2] = {-1, -1};
 };
 
-/// With `socket` as its input and nothing else that is open here.
+/// Starts the program with `socket` as its input and no other open files.
 pid_t start(const fs::path& program, int socket) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
@@ -70,17 +70,17 @@ pid_t start(const fs::path& program, int socket) {
   ::posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) {
     throw MeshError("cannot be read: the program " + name + " cannot be started (" + std::strerror(failed) +
-                    "): build and install bubblesim again");
+                    "): rebuild and install bubblesim");
   }
   return child;
 }
 
 std::string reason_of_end(int status, std::uint64_t size) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    return "it takes over " + std::to_string(mesh_seconds(size)) + " s";
+    return "it takes more than " + std::to_string(mesh_seconds(size)) + " s";
   }
   if (WIFSIGNALED(status)) {
-    return "its reader crashed with the signal " + std::string(::sigabbrev_np(WTERMSIG(status)));
+    return "its reader crashed with signal " + std::string(::sigabbrev_np(WTERMSIG(status)));
   }
   return "its reader ended";
 }
@@ -88,7 +88,7 @@ std::string reason_of_end(int status, std::uint64_t size) {
 std::uint64_t digest_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   constexpr std::size_t kPart = 1U << 20U;
-  std::vector<char> buffer(sizeof(std::uint64_t) + kPart);  // each part comes after the digest of those before
+  std::vector<char> buffer(sizeof(std::uint64_t) + kPart);  // each part is preceded by the digest of the earlier parts
   std::uint64_t digest = 0;
   while (stream.read(buffer.data() + sizeof digest, kPart), stream.gcount() > 0) {
     std::memcpy(buffer.data(), &digest, sizeof digest);
@@ -112,7 +112,7 @@ class MeshReader::Process {
   /// Throws StreamClosed and StreamTimeout.
   MeshContent ask(const MeshQuery& query) {
     MeshStream stream(sockets_.ends[0]);
-    // It counts its own time on the processor: this is for one that waits.
+    // The reader limits its own CPU time; this limit is for a reader that waits.
     stream.set_deadline(MeshStream::Clock::now() + std::chrono::seconds(30 + 4 * mesh_seconds(query.size)));
     each_value(query, [&stream](const auto& value) { stream.send(value); });
     MeshContent content;
@@ -124,10 +124,10 @@ class MeshReader::Process {
     return content;
   }
 
-  /// Its status as waitpid gives it.
+  /// Returns its status as waitpid does.
   int end() {
     if (child_ <= 0) return 0;
-    ::kill(child_, SIGKILL);  // does nothing to one that ended by itself
+    ::kill(child_, SIGKILL);  // does nothing if it ended already
     int status = 0;
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -149,13 +149,13 @@ const MeshReader::Content& MeshReader::content(const std::string& file) {
   try {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) {
-      throw MeshError(fs::exists(file, error) ? "is no regular file" : "is no file");
+      throw MeshError(fs::exists(file, error) ? "is not a regular file" : "does not exist");
     }
     const std::uint64_t size = fs::file_size(file, error);
     if (error) throw MeshError("cannot be read (" + error.message() + ")");
     if (size > kLargestMeshFile) {
-      throw MeshError("is " + std::to_string(size / kMegabyte) + " MB large, at most " +
-                      std::to_string(kLargestMeshFile / kMegabyte) + " MB are read");
+      throw MeshError("is " + std::to_string(size / kMegabyte) + " MB large; the maximum is " +
+                      std::to_string(kLargestMeshFile / kMegabyte) + " MB");
     }
     found->second = {size, digest_of(file)};
   } catch (const MeshError&) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads mesh files in another process, which may crash or be ended for taking too much.
+// Reads mesh files in another process, which may crash or be killed at its limits.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 
 namespace bubblesim {
 
-/// One process for all files of a load, started with the first and again after one that it did not survive.
+/// One process for all files of a load. It is started with the first file and again after a file that made it crash.
 class MeshReader {
  public:
   MeshReader();
@@ -21,15 +21,15 @@ class MeshReader {
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
 
-  /// What identifies the content of a file.
+  /// Identifies the content of a file.
   struct Content {
     std::uint64_t size = 0;  ///< bytes
     std::uint64_t digest = 0;
   };
-  /// Looked at once in the life of this reader. Throws MeshError when it is no regular file or too large.
+  /// Computed once per file and reader. Throws MeshError when it is not a regular file or too large.
   const Content& content(const std::string& file);
 
-  /// Throws MeshError when it cannot be read, whatever happens to the process that reads it.
+  /// Throws MeshError when the mesh cannot be read, also when the reader process crashes.
   MeshContent read(const MeshQuery& query);
 
  private:

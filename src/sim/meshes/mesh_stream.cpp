@@ -14,7 +14,7 @@ void MeshStream::send_bytes(const void* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t sent = ::send(socket_, next, size, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) throw StreamClosed("the other end is closed");
+    if (sent <= 0) throw StreamClosed("the socket is closed");
     next += sent;
     size -= static_cast<std::size_t>(sent);
   }
@@ -26,7 +26,7 @@ void MeshStream::receive_bytes(void* bytes, std::size_t size) {
     wait_for_input();
     const ssize_t received = ::recv(socket_, next, size, 0);
     if (received < 0 && errno == EINTR) continue;
-    if (received <= 0) throw StreamClosed("the other end is closed");
+    if (received <= 0) throw StreamClosed("the socket is closed");
     next += received;
     size -= static_cast<std::size_t>(received);
   }
@@ -38,7 +38,7 @@ void MeshStream::wait_for_input() const {
     pollfd waiting{socket_, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left, 0)));
     if (ready > 0) return;
-    if (ready == 0) throw StreamTimeout("nothing was sent in time");
+    if (ready == 0) throw StreamTimeout("timeout of the socket");
     if (errno != EINTR) throw StreamClosed("the socket cannot be read");
   }
 }

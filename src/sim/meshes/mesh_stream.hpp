@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values and arrays over a stream socket, from one process to another of the same machine.
+// Values and arrays over a stream socket, between processes of one machine.
 #pragma once
 
 #include <chrono>
@@ -13,12 +13,12 @@
 
 namespace bubblesim {
 
-/// The other end is gone, or sent what is no value of the kind expected.
+/// The socket was closed, or received an unexpected value.
 struct StreamClosed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The other end did not send in time.
+/// The other process did not send in time.
 struct StreamTimeout : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,10 +27,10 @@ class MeshStream {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The socket stays the caller's.
+  /// The caller keeps ownership of the socket.
   explicit MeshStream(int socket) : socket_(socket) {}
 
-  /// Until when what is received must be there; nothing: for ever.
+  /// Time limit for receiving; empty: none.
   void set_deadline(std::optional<Clock::time_point> deadline) { deadline_ = deadline; }
 
   template <class T>

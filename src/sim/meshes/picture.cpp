@@ -20,17 +20,17 @@ struct Free {
 };
 
 [[noreturn]] void fail() {
-  throw MeshError(std::string("cannot be read as a picture (") + stbi_failure_reason() +
-                  "); png, jpg, bmp, tga and gif are known");
+  throw MeshError(std::string("cannot be read as an image (") + stbi_failure_reason() +
+                  "); supported formats: png, jpg, bmp, tga, gif");
 }
 
-// A picture of a few bytes may say that it is as large as it likes.
+// An image file of a few bytes may declare any size.
 constexpr std::int64_t kMostPixels = 8192LL * 8192;
 
 void check_pixels(bool known, int width, int height) {
-  if (!known || std::int64_t{width} * height <= kMostPixels) return;  // what is not known fails when it is read
-  throw MeshError("is a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
-                  std::to_string(kMostPixels) + " are read");
+  if (!known || std::int64_t{width} * height <= kMostPixels) return;  // unknown formats fail later, when they are read
+  throw MeshError("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; the maximum is " +
+                  std::to_string(kMostPixels));
 }
 
 void check_pixels(const std::filesystem::path& file) {
@@ -40,7 +40,7 @@ void check_pixels(const std::filesystem::path& file) {
   check_pixels(stbi_info(file.c_str(), &width, &height, &channels) != 0, width, height);
 }
 
-/// Takes the pixels over.
+/// Takes ownership of the pixels.
 std::shared_ptr<const Texture> to_texture(stbi_uc* pixels, int width, int height) {
   if (pixels == nullptr) fail();
   const std::unique_ptr<stbi_uc, Free> owner(pixels);
@@ -82,7 +82,7 @@ std::shared_ptr<const Texture> read_texture(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<const Texture> decode_texture(const unsigned char* bytes, std::size_t size) {
-  if (size > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw MeshError("is too large a picture");
+  if (size > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw MeshError("is too large for an image");
   int width = 0;
   int height = 0;
   int channels = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures from files: png, jpg, bmp, tga, gif, psd, pnm.
+// Reads image files: png, jpg, bmp, tga, gif, psd, pnm.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace bubblesim {
 
-/// A picture in shades of grey.
+/// A grey image.
 struct Heights {
   std::size_t width = 0;
   std::size_t height = 0;
-  std::vector<float> values;  ///< from 0 to 1, row by row, the uppermost first
+  std::vector<float> values;  ///< from 0 to 1, row by row from the top
 };
 
 /// Throws MeshError.
 Heights read_heights(const std::filesystem::path& file);
 
-/// A picture is read once and shared as long as anybody uses it. Throws MeshError.
+/// Each image is read once and shared by its users. Throws MeshError.
 std::shared_ptr<const Texture> read_texture(const std::filesystem::path& file);
 
-/// From the bytes of such a file. Throws MeshError.
+/// Decodes the bytes of such a file. Throws MeshError.
 std::shared_ptr<const Texture> decode_texture(const unsigned char* bytes, std::size_t size);
 
-/// The mean of all pixels: what shapes without texture coordinates show.
+/// Mean colour of all pixels, for shapes without texture coordinates.
 Color mean_color(const Texture& texture);
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls from a floor plan: the dark pixels of a picture as boxes, each as many pixels as make a rectangle.
+// Walls from a floor plan: the dark pixels of an image as boxes, each over a rectangle of pixels.
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -11,12 +11,12 @@
 namespace bubblesim {
 namespace {
 
-/// Of pixels, the second corner not included.
+/// A rectangle of pixels, without its second corner.
 struct Rectangle {
   std::size_t left, top, right, bottom;
 };
 
-/// Row by row, each as wide as it goes and then as high.
+/// Covers the dark pixels row by row with rectangles, each as wide as possible and then as high as possible.
 std::vector<Rectangle> cover(std::vector<bool> dark, std::size_t width, std::size_t height) {
   std::vector<Rectangle> rectangles;
   for (std::size_t top = 0; top < height; ++top) {

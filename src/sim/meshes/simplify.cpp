@@ -11,7 +11,7 @@ namespace bubblesim {
 namespace {
 
 constexpr int kRounds = 8;
-constexpr float kAnyError = 1;  // as a part of the mesh's size
+constexpr float kAnyError = 1;  // relative to the mesh's size
 constexpr std::size_t kCoordinates = 3 * sizeof(float);
 
 }  // namespace
@@ -45,7 +45,7 @@ double simplify(const std::vector<float>& coordinates, CornerIndices& triangles,
     float error = 0;
     std::size_t left = meshopt_simplify(fewer.data(), triangles.data(), triangles.size(), coordinates.data(), corners,
                                         kCoordinates, target, kAnyError, 0, &error);
-    if (left > (target + triangles.size()) / 2) {  // it keeps holes and loose parts, of which there may be too many
+    if (left > (target + triangles.size()) / 2) {  // it keeps holes and separate parts, of which there may be too many
       left = meshopt_simplifySloppy(fewer.data(), triangles.data(), triangles.size(), coordinates.data(), corners,
                                     kCoordinates, target, kAnyError, &error);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An icosahedron whose triangles are divided by four, again and again, their corners put onto the sphere.
+// An icosahedron whose triangles are repeatedly divided into four, with the corners moved to the sphere.
 #include <array>
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What touches what, and the contact joints that come of it.
+// Collision detection and contact joints.
 #include <algorithm>
 
 #include "physics/contact_defaults.hpp"
@@ -21,7 +21,7 @@ Vector3 turned(dGeomID geom, const Vector3& direction) {
   return Quaternion(q[0], q[1], q[2], q[3]).RotateVector(direction);
 }
 
-/// Friction along a direction of the surface; nothing when it sticks out of the contact's plane.
+/// Sets the friction direction, projected on the contact plane; does nothing when it is normal to the plane.
 void direct(const Vector3& wanted, dContact& contact) {
   const dReal* n = contact.geom.normal;
   const Vector3 normal(n[0], n[1], n[2]);
@@ -32,7 +32,7 @@ void direct(const Vector3& wanted, dContact& contact) {
   for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
 }
 
-/// Has rigid shapes sink to where they rest, the slower the nearer it is.
+/// Makes rigid shapes sink to their rest depth, with a speed that decreases near it.
 void sink(double depth, const SurfacePair& pair, double step, dContact& contact) {
   const double left = pair.sink - kSurfaceLayer - depth;
   if (pair.sink_speed == 0 || left <= 0) return;
@@ -40,7 +40,7 @@ void sink(double depth, const SurfacePair& pair, double step, dContact& contact)
   contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
 }
 
-/// Whether a body stays where it is until something else wakes it. Null is what cannot move.
+/// Whether a body sleeps. Null is the static world.
 bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
 
 bool sleeps(const PlacedModel& model) {
@@ -63,7 +63,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (count == 0) return;
   state.islands.touch(a.island, b.island, count);
   const SurfacePair pair = combine(a.surface, b.surface, step);
-  dContact contact;  // fdir1 counts only with its bit of the mode
+  dContact contact;  // fdir1 is used only with its bit of the mode
   for (int i = 0; i < count; ++i) {
     contact.surface = pair.ode;
     contact.geom = found[static_cast<std::size_t>(i)];
@@ -95,7 +95,7 @@ void find_contacts(World::State& state, double step) {
   state.found.clear();
   state.islands.clear(state.moving.size());
   Search search{state, step};
-  // Models against each other; the shapes of one model do not meet, unless it says so.
+  // Collide models with each other; shapes of one model collide only with self_collide.
   if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &search, touch_spaces);
   for (const PlacedModel* model : state.moving) {
     dSpaceID space = model->space.get();

@@ -13,14 +13,15 @@
 namespace bubblesim {
 namespace {
 
-// A mesh that fills its hull up to this part is convex; files round their corners.
+// A mesh is convex if its volume differs from that of its hull by less than this fraction; files round their corners.
 constexpr double kConvex = 0.001;
-// ODE takes ten microseconds for each that a body may touch, each time that it looks: with so many in a cubic metre, a
-// tenth of a second and more. Of fewer than the second number a body takes some hundredths.
+// ODE takes ten microseconds for each triangle that a body may touch, in each collision check: with this many triangles
+// in a cubic metre, a tenth of a second and more. With fewer than the second number a check takes some hundredths of a
+// second.
 constexpr std::size_t kTooManyInCubicMetre = 10'000;
 constexpr std::size_t kFewInCubicMetre = 3'000;
 
-/// Corners that lie in the same place become one: files repeat them, and each would make contacts of its own.
+/// Merges corners with equal positions: files repeat them, and each would make its own contacts.
 void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
   std::map<TriangleMesh::Point, dTriIndex> index_of;
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
@@ -48,11 +49,11 @@ bool is_convex(const TriangleMesh& mesh, const Hull& hull) {
     const TriangleMesh::Point& place = mesh.vertices[i];
     return Vector3(place[0], place[1], place[2]);
   });
-  // Also when it is inside out.
+  // Also for a mesh that is inside out.
   return full > 0 && std::abs(std::abs(own) / full - 1) < kConvex;
 }
 
-/// Leaves the corners that nothing needs any more where they are: ODE looks at triangles only.
+/// Keeps unused corners in the array: ODE reads triangles only.
 void make_coarser(CollisionMesh& mesh) {
   const std::vector<float> coordinates(mesh.coordinates.begin(), mesh.coordinates.end());
   CornerIndices triangles(mesh.indices.begin(), mesh.indices.end());
@@ -63,9 +64,9 @@ void make_coarser(CollisionMesh& mesh) {
   mesh.indices.assign(triangles.begin(), triangles.end());
   char millimetres[32];
   std::snprintf(millimetres, sizeof millimetres, "%.2g", 1000 * moved);
-  mesh.remark = "is too fine to collide with (" + std::to_string(before) + " triangles, " + std::to_string(fullest) +
-                " of them within a cubic metre): it collides as a surface of " + std::to_string(triangles.size() / 3) +
-                " triangles that is up to about " + millimetres + " mm off; give the collision a simpler mesh";
+  mesh.remark = "mesh too fine for collisions (" + std::to_string(before) + " triangles, up to " +
+                std::to_string(fullest) + " in a cubic metre): simplified to " + std::to_string(triangles.size() / 3) +
+                " triangles, which deviate up to about " + millimetres + " mm; use a simpler collision mesh";
 }
 
 std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
@@ -87,7 +88,7 @@ std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh) {
-  // By owner, not by address: a new mesh may lie where an old one was.
+  // Keyed by owner, not by address: a new mesh may have the address of an old one.
   using Known = std::map<std::weak_ptr<const TriangleMesh>, std::weak_ptr<const CollisionMesh>,
                          std::owner_less<std::weak_ptr<const TriangleMesh>>>;
   static std::mutex mutex;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface as ODE collides it.
+// A collision mesh for ODE.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,16 +13,16 @@
 
 namespace bubblesim {
 
-/// ODE reads the arrays as long as it lives.
+/// Must live as long as ODE's mesh, which reads the arrays.
 struct CollisionMesh {
   std::vector<double> coordinates;  // of the corners
   std::vector<dTriIndex> indices;
   ode::TriMeshDataHandle data;
-  std::string remark;  // on what was changed beyond what rounding does; or empty
+  std::string remark;  // warning about simplification beyond rounding; or empty
 };
 
-/// Each mesh is prepared once and shared as long as anybody uses it. One that is convex is simplified: corners amid its
-/// faces would only yield contacts that hold nothing. One with very many triangles is simplified, with a remark.
+/// Each mesh is prepared once and shared by its users. A convex mesh is simplified: corners inside its faces would only
+/// add useless contacts. A mesh with very many triangles is simplified, with a remark.
 std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh);
 
 }  // namespace bubblesim

@@ -8,8 +8,8 @@
 namespace bubblesim {
 namespace {
 
-// A face of a mesh may touch with many corners, and ODE gives them in the order of the file: the first eight may all
-// lie on one side, and the body tips over them.
+// A face of a mesh may touch with many corners, in the order of the file: the first eight may all lie on one side, and
+// the body would tip over them.
 constexpr int kMaxMeshContacts = 1024;
 
 bool is_mesh(dGeomID geom) { return dGeomGetClass(geom) == dTriMeshClass; }
@@ -41,7 +41,7 @@ int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
   if (!is_mesh(first) && !is_mesh(second)) {
     return dCollide(first, second, kMaxContactsPerPair, points.data(), sizeof(dContactGeom));
   }
-  // Debian's ODE keeps what it needs for meshes once for the process.
+  // Debian's ODE shares the working memory for meshes in the process.
   static std::mutex mutex;
   static std::vector<dContactGeom> found;
   const std::scoped_lock lock(mutex);

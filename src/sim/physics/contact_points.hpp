@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where two shapes touch, in a few points that hold them.
+// Contact points of two shapes, reduced to a few that hold them.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,10 +13,10 @@ namespace bubblesim {
 constexpr int kMaxContactsPerPair = 8;
 using ContactPoints = std::array<dContactGeom, kMaxContactsPerPair>;
 
-/// Returns how many there are.
+/// Returns the number of points.
 int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points);
 
-/// Which `most` of more points lie apart: the deepest, then each time the one farthest from those taken.
+/// Selects `most` points that are far apart: the deepest, then repeatedly the one farthest from those selected.
 std::vector<std::size_t> spread(const std::vector<dContactGeom>& points, std::size_t most);
 
 }  // namespace bubblesim

@@ -14,23 +14,23 @@ namespace {
 constexpr std::size_t kEnough = 4;   // points on a plane
 constexpr double kSamePlane = 0.99;  // cosine between normals
 
-/// Contacts of two links, by their place among all.
+/// Contacts of two links, as indices into all contacts.
 using Patch = std::vector<std::size_t>;
 
 bool same_surface(const dSurfaceParameters& a, const dSurfaceParameters& b) {
   const auto values = [](const dSurfaceParameters& s) {
     return std::tie(s.mu, s.mu2, s.rhoN, s.bounce, s.bounce_vel, s.soft_erp, s.soft_cfm, s.slip1, s.slip2);
   };
-  return values(a) == values(b);  // what the mode does not ask for is 0 in both
+  return values(a) == values(b);  // unused values are 0 in both
 }
 
 bool belong_together(const dContact& a, const dContact& b) {
   return dCalcVectorDot3(a.geom.normal, b.geom.normal) > kSamePlane && same_surface(a.surface, b.surface);
 }
 
-/// The patches of islands with many contacts, each of contacts between the same links.
+/// The patches of islands with many contacts; a patch consists of contacts between the same two links.
 std::map<int, std::vector<Patch>> patches_by_island(const std::vector<FoundContact>& found, Islands& islands) {
-  std::map<std::pair<const Link*, const Link*>, std::vector<std::size_t>> by_links;  // to places in `all`
+  std::map<std::pair<const Link*, const Link*>, std::vector<std::size_t>> by_links;  // indices into `all`
   std::vector<std::pair<int, Patch>> all;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const int island = islands.of(found[i].first->island, found[i].second->island);
@@ -51,7 +51,7 @@ std::map<int, std::vector<Patch>> patches_by_island(const std::vector<FoundConta
   return sorted;
 }
 
-/// Those that are enough of a patch.
+/// Selects the contacts of a patch that are enough to hold it.
 Patch enough(const Patch& patch, const std::vector<FoundContact>& found) {
   if (patch.size() <= kEnough) return patch;
   std::vector<dContactGeom> points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the points in which two links touch are enough to hold them.
+// Reduces the contacts of two links to those that hold them.
 #pragma once
 
 #include <ode/ode.h>
@@ -12,16 +12,16 @@ namespace bubblesim {
 
 struct Collider;
 
-/// A point in which two shapes touch, before it is one of ODE's joints.
+/// A contact point of two shapes, before it becomes an ODE joint.
 struct FoundContact {
   const Collider* first = nullptr;
   const Collider* second = nullptr;
   dContact contact{};
 };
 
-/// Wheels of several shapes and meshes touch the ground in more points than hold them. In each island with more
-/// contacts than the exact solver takes, and only where this leaves few enough, keeps of those that two links have on
-/// one plane with one kind of surface the four that lie farthest apart. The order stays.
+/// Wheels with several shapes, and meshes, touch the ground in more points than necessary. In each contact island with
+/// more contacts than the exact solver takes, and only if the result is few enough, keeps four of the contacts of two
+/// links on one plane with equal surface parameters: those that are farthest apart. The order is kept.
 void thin_out(std::vector<FoundContact>& found, Islands& islands);
 
 }  // namespace bubblesim

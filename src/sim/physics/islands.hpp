@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which models hang together by contacts, and by how many.
+// Contact islands: sets of models that are connected by contacts, with their number of contacts.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace bubblesim {
 
-/// Sets of models by number that grow together, as a union-find.
+/// Sets of models, by index, as a union-find.
 class Islands {
  public:
-  static constexpr int kNone = -1;  ///< the number of what cannot move
-  /// An island with more contacts than these is too big for the exact solver, whose cost grows with their cube; a model
-  /// that touches none that moves may have more: a robot's wheels creep under the iterative solver.
+  static constexpr int kNone = -1;  ///< index of static objects
+  /// An island with more contacts is too big for the exact solver, whose cost grows with the cube of the contacts. A
+  /// model that touches no other moving model may have more, because a robot's wheels creep under the iterative solver.
   static constexpr int kFew = 20;
   static constexpr int kFewOfOne = 40;
 
@@ -27,7 +27,7 @@ class Islands {
     most_ = 0;
   }
 
-  /// Two models, one of which may be kNone, touch in some points.
+  /// Adds contacts between two models, one of which may be kNone.
   void touch(int a, int b, int contacts) {
     if (a == kNone) std::swap(a, b);
     a = root(a);
@@ -40,16 +40,16 @@ class Islands {
     most_ = std::max(most_, contacts_[index(a)]);
   }
 
-  /// Contacts in the island that has the most.
+  /// Number of contacts in the island that has the most.
   int most_contacts() const { return most_; }
-  /// The island of two models that touch, one of which may be kNone.
+  /// The island of two touching models, one of which may be kNone.
   int of(int a, int b) { return root(a == kNone ? b : a); }
-  /// How many contacts the exact solver takes in an island.
+  /// Maximum number of contacts in an island for the exact solver.
   int limit(int island) const { return models_[index(island)] == 1 ? kFewOfOne : kFew; }
   int contacts(int island) const { return contacts_[index(island)]; }
   void set_contacts(int island, int contacts) { contacts_[index(island)] = contacts; }
 
-  /// Whether there is an island that the exact solver does not take.
+  /// Whether an island is too big for the exact solver.
   bool any_beyond_limit() const {
     if (most_ <= kFew) return false;
     for (int island = 0; island < static_cast<int>(parents_.size()); ++island) {

@@ -12,7 +12,7 @@
 namespace bubblesim::ode {
 namespace {
 
-// ODE declares its handlers as C functions, but calls them from C++ code that exceptions pass through.
+// ODE declares its handlers as C functions, and calls them from C++ code that exceptions can pass through.
 void throw_diverged(int number, const char* format, va_list arguments) {
   char text[512];
   std::vsnprintf(text, sizeof text, format, arguments);
@@ -21,7 +21,7 @@ void throw_diverged(int number, const char* format, va_list arguments) {
 
 thread_local bool complained = false;
 
-// ODE says here only that its exact solver found no solution, for each time.
+// ODE reports here that its exact solver found no solution, each time.
 void note_complaint(int, const char*, va_list) { complained = true; }
 
 }  // namespace

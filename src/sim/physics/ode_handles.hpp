@@ -32,7 +32,7 @@ using ThreadingHandle =
 /// instead of aborting the process.
 void prepare_this_thread();
 
-/// Whether a solver of ODE complained on this thread since this was asked last.
+/// Whether an ODE solver reported a warning on this thread since the last call.
 bool solver_warned();
 
 }  // namespace bubblesim::ode

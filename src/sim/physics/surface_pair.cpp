@@ -10,16 +10,16 @@ namespace bubblesim {
 namespace {
 
 constexpr double kSoftest = 1e-3;  // N/m
-/// A stiffer contact gives less under a robot's weight than the layer in which rigid ones rest.
+/// Above this stiffness, the deflection under a robot's weight is smaller than the overlap of rigid contacts.
 constexpr double kStiff = 1e6;  // N/m
 
 using Optional = std::optional<double>;
 
-/// The lower of two values of which any may be missing.
+/// The lower of two values; a missing value is ignored.
 Optional lower(const Optional& a, const Optional& b) { return a && b ? std::min(*a, *b) : (a ? a : b); }
 Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max(*a, *b) : (a ? a : b); }
 
-/// How a contact gives, in ODE's terms.
+/// Softness of a contact, in ODE's terms.
 struct Softness {
   int mode = 0;
   double erp = kErrorReduction;
@@ -27,7 +27,7 @@ struct Softness {
   bool rigid = true;
 };
 
-/// Two springs one behind the other, two dampers side by side: what both do in a step.
+/// Springs in series, dampers in parallel: their combined effect in a step.
 Softness soften(const Surface& a, const Surface& b, double step) {
   Softness made;
   if (a.kp || b.kp) {
@@ -53,7 +53,7 @@ Softness soften(const Surface& a, const Surface& b, double step) {
 SurfacePair combine(const Surface& a, const Surface& b, double step) {
   SurfacePair pair;
   dSurfaceParameters& made = pair.ode;
-  // Approximation 1 makes mu a coefficient; without it ODE takes mu as a force and wheels drift outwards.
+  // Approximation 1 makes mu a coefficient; without it mu is a force in ODE and wheels drift outwards.
   made.mode = dContactApprox1;
   made.mu = std::min(a.mu, b.mu);
   made.mu2 = std::min(a.mu2.value_or(a.mu), b.mu2.value_or(b.mu));
@@ -62,7 +62,7 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   const bool b_directed = b.fdir1 != Vector3::Zero;
   if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
 
-  // As Gazebo has it since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
+  // Like Gazebo since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
   made.slip1 = a.slip1 + b.slip1;
   made.slip2 = a.slip2 + b.slip2;
   if (made.slip1 > 0) made.mode |= dContactSlip1;
@@ -80,9 +80,9 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.soft_erp = softness.erp;
   made.soft_cfm = softness.cfm;
   pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
-  // As deep as they may, and in no time: else each wheel would rest at a depth of its own, and a robot lean.
+  // Sink to the full depth at once: otherwise each wheel rests at a different depth, and a robot leans.
   if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;
-  // What is soft pushes as its spring does; a limit would let heavy things sink in.
+  // A soft contact pushes with its spring force; with a limit, heavy bodies would sink in.
   const double speed = higher(a.max_vel, b.max_vel).value_or(kMaxCorrectingVelocity);
   const bool limited = softness.rigid && softness.erp > 0;
   pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();

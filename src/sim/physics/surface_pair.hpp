@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two surfaces in touch make together, as Gazebo combines them.
+// Combines the parameters of two touching surfaces, like Gazebo.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,10 +10,10 @@ namespace bubblesim {
 
 struct SurfacePair {
   dSurfaceParameters ode{};
-  const Surface* directed = nullptr;  ///< the one whose fdir1 counts; null when none has a direction
-  double sink = 0;                    ///< m that the shapes may sink into one another
-  double sink_speed = 0;              ///< m/s at most at which they do, when the contact is rigid; 0: only by chance
-  double max_depth = 0;               ///< m; a deeper overlap is treated as this one, or things would fly apart
+  const Surface* directed = nullptr;  ///< the surface whose fdir1 is used; null when none has a direction
+  double sink = 0;                    ///< m, allowed penetration depth
+  double sink_speed = 0;              ///< m/s, maximum sinking speed of a rigid contact; 0: not actively sunk
+  double max_depth = 0;               ///< m; deeper overlaps are clamped to this, so that bodies do not fly apart
 };
 
 /// For a substep of `step` seconds.

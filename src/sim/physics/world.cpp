@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of a world; time passes in world_step.cpp, its objects are read and written in world_objects.cpp and
-// world_joints.cpp.
+// Construction, reset, and adding and removing models; world_step.cpp advances time, world_objects.cpp and
+// world_joints.cpp read and write the objects.
 #include "bubblesim/world.hpp"
 
 #include <algorithm>
@@ -23,8 +23,7 @@ void check_not_diverged(const World::State& state) {
 }  // namespace
 
 void World::Discard::operator()(State* state) const {
-  // When ODE was left in the middle of a step, perhaps with its spaces locked, taking them down would trip its
-  // assertions.
+  // When ODE was left in the middle of a step, its spaces may be locked, and destroying them would fail its assertions.
   if (!state->interrupted) std::default_delete<State>()(state);
 }
 
@@ -42,8 +41,7 @@ World::World(const SceneDescription& scene, std::uint64_t seed) {
 World::~World() = default;
 
 void World::reset() {
-  // Built anew, for ODE keeps more of the past than poses and velocities: forces of the last step, the order of its
-  // lists.
+  // Rebuilt, because ODE keeps more state than poses and velocities: forces of the last step, the order of its lists.
   std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->gravity, state_->seed).release());
   built->tree = state_->tree;
   for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
@@ -58,7 +56,7 @@ ObjectId World::add_model(ModelDescription model) {
   for (const ObjectId id : state_->tree.models()) {
     if (state_->tree.at(id).name != model.name) continue;
     problems.push_back({model.source.file, model.source.line, "/" + model.name,
-                        "the world has a model of this name already; choose another name, or remove that one first"});
+                        "a model with this name exists already; choose another name, or remove that model first"});
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   ode::prepare_this_thread();
@@ -82,14 +80,14 @@ void World::check_removable(ObjectId model) const {
   const Object& object = state_->tree.at(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
     throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
-                       ": it belongs to its model; remove that");
+                      ": it cannot be removed on its own; remove its model");
   }
 }
 
 void World::remove_model(ObjectId model) {
   check_removable(model);
-  dJointGroupEmpty(state_->contacts.get());  // those of the last step may be with its bodies
-  forget_forces(*state_);                    // and these name its shapes
+  dJointGroupEmpty(state_->contacts.get());  // contacts of the last step may refer to the model's bodies
+  forget_forces(*state_);                    // and these refer to its shapes
   state_->models.erase(model);
   state_->tree.remove(model);
   std::vector<ObjectId>& lost = state_->lost_models;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the description of a model to bodies, joints and shapes in ODE.
+// Builds bodies, joints and shapes in ODE from the description of a model.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -16,9 +16,9 @@ namespace bubblesim {
 namespace {
 
 constexpr int kIterations = 50;       // of the iterative solver
-constexpr int kSleepSamples = 10;     // substeps over which it is seen whether a body lies still
-constexpr double kSleepSpeed = 3e-3;  // m/s and rad/s; what is slower lies still
-constexpr double kSleepTime = 0.5;    // s that it lies still before it sleeps
+constexpr int kSleepSamples = 10;     // substeps over which the speed of a body is averaged
+constexpr double kSleepSpeed = 3e-3;  // m/s and rad/s; a slower body is at rest
+constexpr double kSleepTime = 0.5;    // s at rest before a body sleeps
 
 void set_pose(dGeomID geom, const Pose& pose) {
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
@@ -75,7 +75,7 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
   return body;
 }
 
-/// Whether nobody commands or watches the model: it may sleep when it lies still.
+/// Whether nothing commands or observes the model: it may sleep when it is at rest.
 bool is_prop(const ModelDescription& model) {
   const auto quiet = [](const NestedModelDescription& nested) {
     return nested.child_script.empty() && nested.plugins.empty();
@@ -93,7 +93,7 @@ bool is_watched(const LinkDescription& link, const std::string& collision) {
   });
 }
 
-/// Makes what one model has in ODE, for the objects that it has in the tree.
+/// Creates the ODE objects of one model; its objects are in the tree already.
 class ModelBuilder {
  public:
   ModelBuilder(const World::State& state, ObjectId id, ModelDescription description) : state_(state), id_(id) {
@@ -153,7 +153,7 @@ class ModelBuilder {
     std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
   }
 
-  /// After the joints are made, whose positions it decides.
+  /// Sets the initial pose. Call it after the joints are created: their zero positions are those of the description.
   void start_at(const LinkDescription& description, const Link& link) const {
     if (!description.start || link.body == nullptr) return;
     place_body(link.body.get(), description, model_.description.pose * *description.start);
@@ -172,14 +172,14 @@ class ModelBuilder {
     collider.in_link = description.pose;
     dGeomID geom = collider.geom.get();
     dGeomSetData(geom, &collider);
-    // Pairs of shapes that share no bit are left out before anything else is looked at.
+    // Pairs of shapes without a common bit are skipped before any other test.
     const unsigned long bits = description.surface.collide_without_contact ? 0 : description.surface.collide_bitmask;
     dGeomSetCategoryBits(geom, bits);
     dGeomSetCollideBits(geom, bits);
     if (std::holds_alternative<Plane>(description.geometry)) {
       dSpaceAdd(state_.planes.get(), geom);
     } else if (link.body == nullptr) {
-      set_pose(geom, pose);  // goes into the statics' space when their extent is known
+      set_pose(geom, pose);  // added to the statics' space when their extent is known
     } else {
       dSpaceAdd(model_.space.get(), geom);
       dGeomSetBody(geom, link.body.get());
@@ -220,7 +220,7 @@ class ModelBuilder {
     model_.joints.push_back(std::move(joint));
   }
 
-  /// A point in the world of the axis about which a link turns in the reference body of a gearbox.
+  /// A point, in the world, on the axis of a link in the reference body of a gearbox.
   Vector3 shaft_point(const std::string& reference, const std::string& link) const {
     const JointDescription* hinge = hinge_between(model_.description, reference, link);
     return (model_.description.pose * hinge->pose).Pos();

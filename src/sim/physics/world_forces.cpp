@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forces that sensors feel: those of contacts and those that joints transmit.
+// Forces for sensors: those of contacts and those that joints transmit.
 #include <algorithm>
 
 #include "bubblesim/error.hpp"
@@ -8,9 +8,9 @@
 namespace bubblesim {
 namespace {
 
-/// The force of a contact on its first shape's body, or what a body would get that is not there.
+/// The force of a contact on its first shape's body, or on the static shape.
 Vector3 force_on_first(const TouchReport& report) {
-  // ODE's first force acts on the body that the joint has, when it has one only.
+  // If the joint has one body, ODE's first force acts on that body.
   const bool first_is_fixed = report.first->link->body == nullptr;
   const Vector3 force = to_vector(report.feedback.f1);
   return first_is_fixed ? -force : force;
@@ -37,11 +37,11 @@ void add_point(World::State& state, const TouchReport& report, bool of_first, do
       {to_vector(report.contact.pos), to_vector(report.contact.normal) * sign, report.contact.depth, force});
 }
 
-/// What the parent does to the child, by one of ODE's joints: torque about the child's centre of mass.
+/// Wrench of the parent on the child through one of ODE's joints: torque about the child's centre of mass.
 Wrench on_child(dJointID joint, const dJointFeedback& feedback, dBodyID child) {
   const dBodyID first = dJointGetBody(joint, 0);
   const dBodyID second = dJointGetBody(joint, 1);
-  // A joint with one body tells its force first, whichever place the body has.
+  // A joint with one body reports its force first, whichever place the body has.
   if (first == child || second == nullptr || first == nullptr) return {to_vector(feedback.f1), to_vector(feedback.t1)};
   return {to_vector(feedback.f2), to_vector(feedback.t2)};
 }
@@ -52,13 +52,13 @@ void gather_wrench(const World::State& state, const PlacedJoint& placed, double 
   const Vector3 lever = to_vector(dBodyGetPosition(child.body.get())) - origin;
   for (const JointReport& report : placed.meter->reports) {
     const Wrench wrench = on_child(report.joint, report.feedback, child.body.get());
-    // The child does the opposite to the parent.
+    // The child exerts the opposite wrench on the parent.
     placed.meter->sum.force -= wrench.force * step;
     placed.meter->sum.torque -= (wrench.torque + lever.Cross(wrench.force)) * step;
   }
 }
 
-/// The frame that an axis stands still in: of several, the first is fixed in the parent and the second in the child.
+/// The frame in which an axis is fixed: with two axes, the first is fixed in the parent and the second in the child.
 Pose frame_of_axis(const World::State& state, const PlacedJoint& placed, int axis) {
   if (axis == placed.joint->axis_count() - 1) return link_pose(state.link(placed.child)) * placed.in_child;
   return placed.parent == kNoObject ? placed.in_parent : link_pose(state.link(placed.parent)) * placed.in_parent;
@@ -146,7 +146,9 @@ void gather_forces(World::State& state, double step) {
 }
 
 std::vector<Contact> World::contacts(ObjectId link) const {
-  if (state_->tree.at(link).kind != ObjectKind::kLink) throw WrongObject(state_->shown(link) + " is a " + std::string(kind_name(state_->tree.at(link).kind)) + ", not a link");
+  if (state_->tree.at(link).kind != ObjectKind::kLink)
+    throw WrongObject(state_->shown(link) + " is a " + std::string(kind_name(state_->tree.at(link).kind)) +
+                      ", not a link");
   std::vector<Contact> contacts;
   for (const Touch& touch : state_->touches) {
     if (touch.watched->link->object != link) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints as scripts and programs see them.
+// Joint functions of World.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -24,7 +24,7 @@ const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
   return state.model_of(id).joints[object.index];
 }
 
-/// A joint and one of its axes. The second axis of a joint is an object of its own.
+/// A joint and one of its axes. The second axis of a joint is a separate object.
 struct JointAxis {
   Joint& joint;
   int index;
@@ -36,7 +36,7 @@ JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
   if (placed.joint == nullptr) throw WrongObject(state.shown(id) + " belongs to a static model: it does not move");
   if (axis < 0 || axis >= placed.joint->axis_count()) {
     throw WrongObject(state.shown(id) + " has " + std::to_string(placed.joint->axis_count()) +
-                       " axes: there is none with index " + std::to_string(axis));
+                      " axes: there is no axis with index " + std::to_string(axis));
   }
   return {*placed.joint, axis};
 }
@@ -140,7 +140,7 @@ void World::set_joint_position(ObjectId joint, double position) {
   const bool slides = description.type == "prismatic";
   if (!slides && description.type != "revolute" && description.type != "continuous") {
     throw WrongObject(state_->shown(joint) + " is a " + description.type +
-                       " joint: only revolute, continuous and prismatic ones can be put somewhere");
+                      " joint: the position can be set only for revolute, continuous and prismatic joints");
   }
   check_target(*state_, joint, "position", position);
   const double way = position - joint_position(joint);
@@ -151,7 +151,7 @@ void World::set_joint_position(ObjectId joint, double position) {
                              : to_frame * Pose(Vector3::Zero, Quaternion(axis, way)) * to_frame.Inverse();
   const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
   if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
-    throw WrongObject(state_->shown(joint) + " belongs to a closed chain of links: no part hangs on it alone");
+    throw WrongObject(state_->shown(joint) + " belongs to a closed chain of links: its position cannot be set");
   }
   for (const ObjectId link : moved) set_pose(link, motion * pose(link));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is kept of all models together when one comes or goes: the tree's names, static shapes, islands, sleep.
+// Data of all models together, updated when a model is added or removed: names in the tree, static shapes, islands,
+// sleep.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -10,11 +11,11 @@
 namespace bubblesim {
 namespace {
 
-// Static shapes of finite size are in a quadtree: a moving shape then meets only those near it. 6 levels: its cells are
-// 1/64 of the scene.
+// Static shapes of finite size are in a quadtree, so a moving shape is tested only against those near it. 6 levels: its
+// cells are 1/64 of the scene.
 constexpr int kQuadtreeDepth = 6;
 
-/// The largest a finite static scene needs; grows with the shapes in it.
+/// Bounding box of the finite static shapes; grows with the shapes.
 struct Extent {
   Vector3 low{-1, -1, -1};
   Vector3 high{1, 1, 1};
@@ -31,8 +32,8 @@ struct Extent {
 
 ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
   const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
-  std::map<std::string, ObjectId> models{{"", id}};  // the outermost one, and those in it by name
-  // `a::b` lies below `a` by the name of b.
+  std::map<std::string, ObjectId> models{{"", id}};  // the outermost model, and nested models by name
+  // `a::b` becomes `b` below `a`.
   const auto add = [&](ObjectKind kind, const std::string& name, std::size_t index) {
     const std::size_t split = name.rfind("::");
     const auto outer = models.find(split == std::string::npos ? "" : name.substr(0, split));
@@ -54,7 +55,7 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
     for (const SensorDescription& sensor : model.joints[i].sensors) {
       tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++);
     }
-    // The second axis of a steered wheel is an object of its own, so that scripts can name it.
+    // The second axis of a steered wheel is a separate object, so that scripts can refer to it.
     for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
       tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);
     }

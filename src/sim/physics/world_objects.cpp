@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a world's objects are and how they move.
+// Poses and velocities of a world's objects.
 #include <cmath>
 #include <string>
 
@@ -12,15 +12,15 @@
 namespace bubblesim {
 namespace {
 
-/// The links that move with a model or link; throws when it is neither or does not move at all.
+/// The links of a model, or the link itself; throws for other objects and for static models.
 std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   const Object& object = state.tree.at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
-                       ": it moves with its link; move that or the model");
+                      ": it cannot be moved on its own; move its link or model");
   }
   if (state.model_of(id).description.is_static) {
-    throw WrongObject(state.shown(id) + " is static: it stays where the scene put it");
+    throw WrongObject(state.shown(id) + " is static: it cannot be moved");
   }
   if (object.kind == ObjectKind::kLink) return {&state.link(id)};
   std::vector<const Link*> links;
@@ -28,7 +28,7 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   return links;
 }
 
-/// The link that carries an object; kNoObject for what is fixed to the world.
+/// The link that carries an object; kNoObject for objects that are fixed to the world.
 ObjectId carrier(const World::State& state, const Object& object) {
   switch (object.kind) {
     case ObjectKind::kModel:
@@ -111,7 +111,7 @@ Vector3 World::acceleration(ObjectId object) const {
   const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
   const Vector3 of_centre = (now.linear - link.before.linear) / state_->last_duration;
   const Vector3 angular = (now.angular - link.before.angular) / state_->last_duration;
-  // A rigid body's point: what its centre has, Euler's and the centripetal acceleration.
+  // Acceleration of a point of a rigid body: that of its centre, the Euler and the centripetal acceleration.
   return of_centre + angular.Cross(lever) + now.angular.Cross(now.angular.Cross(lever));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models that move in the plane as a whole, as if pushed by wheels in all directions.
+// Planar motion of whole models, as with omnidirectional wheels.
 #include <cmath>
 #include <string>
 
@@ -11,9 +11,9 @@
 namespace bubblesim {
 namespace {
 
-// m/s^2, of the motor's force over the model's mass: twice what a friction of 1 takes away.
+// m/s^2, the motor's force divided by the model's mass: twice the deceleration of a friction coefficient of 1.
 constexpr double kMaxAcceleration = 20;
-constexpr double kLever = 1;  // m, of its torque over its force
+constexpr double kLever = 1;  // m, its torque divided by its force
 
 double total_mass(const ModelDescription& model) {
   double mass = 0;
@@ -44,19 +44,19 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
   const std::string name = state_->shown(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
     throw WrongObject(name + " is a " + std::string(kind_name(object.kind)) +
-                       ": only an outermost model is driven as a whole");
+                      ": the planar velocity can be set for outermost models only");
   }
   PlacedModel& placed = state_->models.at(model);
-  if (placed.description.is_static) throw WrongObject(name + " is static: it stays where the scene put it");
+  if (placed.description.is_static) throw WrongObject(name + " is static: it cannot be moved");
   if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
-    throw InvalidInput(name + ": a velocity in the plane must be finite and at most 1e6");
+    throw InvalidInput(name + ": the planar velocity must be finite and at most 1e6");
   }
   const Link& link = state_->link(placed.frame.canonical_link);
   dBodyID body = link.body.get();
   if (placed.planar_motor.linear == nullptr) {
     placed.planar_motor = make_motor(state_->world.get(), body, kMaxAcceleration * total_mass(placed.description));
   }
-  // ODE's motor moves the centre of mass, which goes round the model's origin.
+  // ODE's motor moves the centre of mass, which moves in a circle around the model's origin.
   const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).Pos();
   dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel, x - turning * arm.Y());
   dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel2, y + turning * arm.X());

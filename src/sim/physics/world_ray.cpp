@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays against the world's shapes.
+// Ray casts against the world's shapes.
 #include "bubblesim/world.hpp"
 #include "physics/world_state.hpp"
 #include "rays/ray_shapes.hpp"

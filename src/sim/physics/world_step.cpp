@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How time passes in a world, and what it notices when the motion leaves the finite world.
+// Advances time in a world, and detects divergence.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -16,7 +16,7 @@ namespace bubblesim {
 namespace {
 
 constexpr double kMaxDuration = 1000;  // s, of one call
-/// When the exact solver found no solution, what hangs together so badly has this long to change.
+/// Substeps with the iterative solver after the exact solver found no solution.
 constexpr int kStepsToIterate = 20;
 constexpr std::size_t kRememberedPasses = 10;
 
@@ -43,11 +43,11 @@ void check_bodies(World::State& state) {
   throw Diverged("the physics diverged at " + state.tree.path(first->object) + ": position " +
                  text(to_vector(dBodyGetPosition(body))) + " m, velocity " + text(velocity.linear) + " m/s, " +
                  text(velocity.angular) +
-                 " rad/s; check masses, inertias, forces and overlapping shapes, or take a smaller physics substep");
+                 " rad/s; check masses, inertias, forces and overlapping shapes, or use a smaller physics substep");
 }
 
-/// ODE keeps one state of random numbers for all worlds and threads, which its iterative solver draws from: each world
-/// has its own in there while it steps.
+/// ODE has one random state for the iterative solvers of all worlds and threads: each world sets its own while it
+/// steps.
 void step_iteratively(World::State& state, double step) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
@@ -82,7 +82,7 @@ void substep(World::State& state, double step) {
   check_bodies(state);
 }
 
-/// Remembers where everything is, for a report when it diverges.
+/// Records the current states, for the report of a divergence.
 void remember(World::State& state, double duration) {
   std::vector<LinkState> now;
   for (PlacedModel* model : state.moving) {

@@ -7,9 +7,9 @@
 namespace bubblesim::rays {
 
 RTCDevice device() {
-  // One thread: results do not depend on how many there are, and none of them spins.
-  static RTCDevice shared = rtcNewDevice("threads=1,set_affinity=0");  // lives as long as the process
-  if (shared == nullptr) throw std::runtime_error("Embree cannot be started on this machine");
+  // One thread: results do not depend on the number of threads, and no thread spins.
+  static RTCDevice shared = rtcNewDevice("threads=1,set_affinity=0");  // never destroyed
+  if (shared == nullptr) throw std::runtime_error("Embree cannot be initialized on this machine");
   return shared;
 }
 

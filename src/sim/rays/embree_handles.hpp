@@ -19,13 +19,14 @@ struct ReleaseGeometry {
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
-/// Embree for this process, on the calling thread alone. Throws std::runtime_error when it cannot be had.
+/// The Embree device of this process; it uses the calling thread only. Throws std::runtime_error when Embree is not
+/// available.
 RTCDevice device();
 
-/// Throws std::runtime_error when Embree noted an error on this thread.
+/// Throws std::runtime_error if Embree reported an error on this thread.
 void check_embree();
 
-/// A scene that loses no ray between neighbouring faces.
+/// Creates a scene in which no ray passes between neighbouring faces.
 SceneHandle make_scene(RTCBuildQuality quality);
 
 }  // namespace bubblesim::rays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sixteen rays at a time, as Embree takes them.
+// A packet of sixteen rays, the unit of Embree queries.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -11,13 +11,13 @@
 namespace bubblesim::rays {
 
 constexpr std::size_t kPacket = 16;
-constexpr int kUsed = -1;  ///< in a mask; 0 leaves a ray out
+constexpr int kUsed = -1;  ///< in a mask; 0: ray not used
 
 struct alignas(64) RayMask {
   int use[kPacket];
 };
 
-/// Where ray `i` starts and goes.
+/// Sets origin and direction of ray `i`.
 inline void aim(RTCRay16& rays, std::size_t i, const Vector3& origin, const Vector3& direction) {
   rays.org_x[i] = static_cast<float>(origin.X());
   rays.org_y[i] = static_cast<float>(origin.Y());
@@ -32,7 +32,7 @@ struct RayPacket {
   RTCRayHit16 data;
   RayMask mask;
 
-  /// Makes the first `count` rays start at `origin` and reach from `near` to `far`. Directions are yours to set.
+  /// Sets origin and range (`near` to `far`) of the first `count` rays. The caller sets the directions.
   void start(const Vector3& origin, float near, float far, std::size_t count) {
     const auto x = static_cast<float>(origin.X());
     const auto y = static_cast<float>(origin.Y());

@@ -37,7 +37,7 @@ VisualDescription as_visual(const CollisionDescription& collision) {
   return visual;
 }
 
-/// Turns down hits from inside and on the ignored model. Ray and normal are in the same frame here.
+/// Rejects hits from inside and on the ignored model. Ray and normal are in the same frame here.
 void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   const auto& context = *reinterpret_cast<const QueryContext*>(arguments->context);
@@ -134,7 +134,7 @@ void RayScene::add_moving(ModelShapes& model, std::size_t first, ObjectId link) 
   moving->id = link;
   moving->scene = make_scene(RTC_BUILD_QUALITY_MEDIUM);
   for (std::size_t i = first; i < model.shapes.size(); ++i) {
-    if (is_infinite(model.shapes[i]->geometry)) continue;  // cannot move: the scene check tells
+    if (is_infinite(model.shapes[i]->geometry)) continue;  // a moving plane is an error of the scene check
     rtcAttachGeometry(moving->scene.get(), make_geometry(*model.shapes[i]).get());
     moving->shapes.push_back(model.shapes[i].get());
   }
@@ -211,7 +211,7 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
   if (!links_.empty()) rtcIntersect16(mask.use, movers_.get(), &context.embree, &packet.data);
 }
 
-/// Marks the rays that met a face from inside.
+/// Marks the rays that hit a face from inside.
 bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const {
   const RTCRay16& ray = packet.data.ray;
   const RTCHit16& hit = packet.data.hit;
@@ -243,7 +243,7 @@ void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   trace_once(packet, packet.mask, context);
   RayMask inside;
   if (ignored != kNoObject || !seen_from_inside(packet, inside)) return;
-  // Only a ray that starts inside a shape gets here: once more, turning down each such hit.
+  // Only a ray that starts inside a shape gets here: trace again and reject each such hit.
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (inside.use[i] == 0) continue;
     packet.data.ray.tfar[i] = far[i];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all ray-traced sensors look at: the visuals of a scene in Embree, in single precision. Static models are traced
-// directly; each moving link is an instance, moved only when a sensor fires. Surfaces are met from outside only, so
-// that a sensor inside its own housing looks out of it.
+// The scene of all ray-traced sensors: the visuals in Embree, in single precision. Static models are traced directly;
+// each moving link is an instance, moved only when a sensor measures. Rays hit surfaces from outside only, so a sensor
+// inside its own housing sees through it.
 #pragma once
 
 #include <map>
@@ -22,26 +22,26 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Adds the shapes of a model that stands in the world as `model`.
+  /// Adds the shapes of the model with the handle `model`.
   void add_model(const World& world, ObjectId model, const ModelDescription& description);
   void remove_model(ObjectId model);
 
-  /// Brings moving links to where they are now. Costs next to nothing when nothing moved.
+  /// Updates the poses of moving links. Cheap when nothing moved.
   void refresh(const World& world);
 
-  /// Finds the nearest surface for each ray used, leaving out the model `ignored`. `coherent` says that neighbouring
-  /// rays run nearly alike.
+  /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: neighbouring rays are
+  /// nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
-  /// Sets tfar of each ray that meets anything to -infinity. Infinite planes throw no shadow.
+  /// Sets tfar of each ray with a hit to -infinity. Infinite planes cast no shadow.
   void occlude(RTCRay16& rays, const rays::RayMask& mask) const;
 
-  /// What ray `i` of a traced packet hit; it must have hit something.
+  /// The shape that ray `i` of a traced packet hit; the ray must have a hit.
   const rays::RayShape& shape(const rays::RayPacket& packet, std::size_t i) const;
-  /// Of unit length, world axes.
+  /// The surface normal at the hit; unit length, world axes.
   Vector3 normal(const rays::RayPacket& packet, std::size_t i) const;
-  /// The same as light sees it: meshes may be smooth.
+  /// The normal for shading, which is interpolated on smooth meshes.
   Vector3 shading_normal(const rays::RayPacket& packet, std::size_t i) const;
-  /// A world point in the frame of the shape that was hit.
+  /// Converts a world point to the frame of the shape that was hit.
   Vector3 in_shape(const rays::RayPacket& packet, std::size_t i, const Vector3& point) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace bubblesim::rays {
 namespace {
 
-/// Half the lengths of the box around a shape, in the shape's frame.
+/// Half the size of the bounding box of a shape, in the shape's frame.
 struct HalfExtent {
   Vector3 operator()(const Box& box) const { return box.size / 2; }
   Vector3 operator()(const Sphere& sphere) const { return Vector3::One * sphere.radius; }
@@ -22,7 +22,7 @@ struct HalfExtent {
   }
   Vector3 operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii; }
   Vector3 operator()(const Plane&) const { return Vector3::Zero; }
-  Vector3 operator()(const Mesh&) const { return Vector3::Zero; }  // Embree bounds its triangles itself
+  Vector3 operator()(const Mesh&) const { return Vector3::Zero; }  // Embree computes the bounds of triangles itself
 };
 
 void bounds(const RTCBoundsFunctionArguments* arguments) {
@@ -34,7 +34,7 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
     const double reach = std::abs(shape.turn(axis, 0)) * half.X() + std::abs(shape.turn(axis, 1)) * half.Y() +
                          std::abs(shape.turn(axis, 2)) * half.Z();
     const double centre = shape.pose.Pos()[axis];
-    const double margin = 1e-6 * (1 + std::abs(centre) + reach);  // single precision rounds
+    const double margin = 1e-6 * (1 + std::abs(centre) + reach);  // for rounding in single precision
     low[axis] = static_cast<float>(centre - reach - margin);
     high[axis] = static_cast<float>(centre + reach + margin);
   }
@@ -47,11 +47,12 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
   box.upper_z = high[2];
 }
 
-/// Where ray `i` of a packet enters the shape, as a multiple of its direction; the normal in the shape's outer frame.
+/// Where ray `i` of a packet enters the shape, as a multiple of the ray's direction; the normal is in the shape's outer
+/// frame.
 std::optional<ShapeHit> meet(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
   const Vector3 start(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
   const Vector3 origin = shape.turn_back * (start - shape.pose.Pos());
-  if (is_inside(origin, shape.geometry)) return std::nullopt;  // soon told, for a lidar in its housing
+  if (is_inside(origin, shape.geometry)) return std::nullopt;  // fast exit, for a lidar in its housing
   const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
   const double length = direction.Length();
   const Ray ray{origin, shape.turn_back * (direction / length)};
@@ -97,7 +98,7 @@ void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
   }
 }
 
-/// For faces that throw no shadow.
+/// For faces that cast no shadow.
 void let_light_through(const RTCFilterFunctionNArguments* arguments) { std::fill_n(arguments->valid, arguments->N, 0); }
 
 GeometryHandle make_round() {
@@ -126,7 +127,7 @@ GeometryHandle make_box(const Box& box, const Pose& pose) {
   return geometry;
 }
 
-/// Embree's normals point to where the corners run counter-clockwise.
+/// Embree's normals point to the side on which the corners run counter-clockwise.
 GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
   GeometryHandle geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -169,7 +170,7 @@ Vector3 smooth_normal(const RayShape& shape, unsigned triangle, float u, float v
 GeometryHandle make_geometry(const RayShape& shape) {
   GeometryHandle geometry = make_any(shape);
   if (!shape.cast_shadows) rtcSetGeometryOccludedFilterFunction(geometry.get(), let_light_through);
-  // Callbacks read the shape only; Embree's interface knows no const.
+  // Callbacks only read the shape; Embree's interface has no const.
   rtcSetGeometryUserData(geometry.get(), const_cast<RayShape*>(&shape));
   rtcCommitGeometry(geometry.get());
   check_embree();

@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Where along the ray it is inside a convex shape, and the normal where it enters.
+/// The interval of a ray inside a convex shape, and the normal at its start.
 struct Interval {
   double enter = -kNever;
   double leave = kNever;
   Vector3 normal;
 
-  /// Keeps the part between two parallel planes `axis` * x = +-half.
+  /// Clips to the part between two parallel planes `axis` * x = +-half.
   void clip_slab(double origin, double direction, double half, const Vector3& axis) {
     if (direction == 0) {
       if (std::abs(origin) > half) leave = -kNever;
@@ -34,7 +34,7 @@ struct Interval {
   }
 };
 
-/// Interval in which a t^2 + 2 b t + c <= 0.
+/// The interval in which a t^2 + 2 b t + c <= 0.
 std::optional<std::pair<double, double>> inside_quadric(double a, double b, double c) {
   const double discriminant = b * b - a * c;
   if (discriminant < 0 || a == 0) return std::nullopt;
@@ -78,7 +78,7 @@ struct Intersector {
     return entry(inside);
   }
 
-  /// Entered where the first of its cylinder and its two spheres is.
+  /// The entry is the first entry of its cylinder and its two spheres.
   std::optional<ShapeHit> operator()(const Capsule& capsule) const {
     Interval first;
     first.enter = kNever;
@@ -102,7 +102,7 @@ struct Intersector {
     return first.enter < kNever ? entry(first) : std::nullopt;
   }
 
-  /// A unit sphere, in units of its radii.
+  /// A unit sphere after division by the radii.
   std::optional<ShapeHit> operator()(const Ellipsoid& ellipsoid) const {
     const Vector3 o = ray.origin / ellipsoid.radii;
     const Vector3 d = ray.direction / ellipsoid.radii;
@@ -112,8 +112,8 @@ struct Intersector {
     return entry({roots->first, roots->second, normal.Normalized()});
   }
 
-  /// Every triangle that is met from its front: for a query now and then, not for sensors, which ask Embree. After
-  /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
+  /// Tests every triangle, front faces only: for occasional queries; sensors use Embree. Möller and Trumbore, "Fast,
+  /// Minimum Storage Ray/Triangle Intersection", 1997.
   std::optional<ShapeHit> operator()(const Mesh& mesh) const {
     const TriangleMesh& triangles = *mesh.triangles;
     if (!meets_box(triangles.low, triangles.high)) return std::nullopt;
@@ -181,7 +181,7 @@ struct Inside {
   }
   bool operator()(const Ellipsoid& ellipsoid) const { return (point / ellipsoid.radii).SquaredLength() < 1; }
   bool operator()(const Plane& plane) const { return plane.normal.Dot(point) < 0; }
-  bool operator()(const Mesh&) const { return false; }  // a surface; its triangles are not met from behind
+  bool operator()(const Mesh&) const { return false; }  // a surface; its back faces are not hit
 };
 
 }  // namespace

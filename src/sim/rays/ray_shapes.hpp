@@ -18,11 +18,11 @@ struct ShapeHit {
   Vector3 normal;  ///< outwards
 };
 
-/// The first point at which the ray enters the shape, if it lies nearer than `max_distance`. A ray that starts
-/// inside a shape does not see it.
+/// The first point at which the ray enters the shape, if it is nearer than `max_distance`. A ray that starts inside a
+/// shape does not hit it.
 std::optional<ShapeHit> intersect(const Ray& ray, const Geometry& geometry, double max_distance);
 
-/// Whether a ray that starts there starts inside the shape, and so does not see it.
+/// Whether the point is inside the shape; a ray that starts there does not hit the shape.
 bool is_inside(const Vector3& point, const Geometry& geometry);
 
 }  // namespace bubblesim

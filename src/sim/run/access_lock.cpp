@@ -23,7 +23,7 @@ void AccessLock::release() {
   owner_ = std::thread::id();
   const std::uint64_t number = ++served_;
   if (next_ == number) return;
-  { const std::lock_guard lock(mutex_); }  // who has seen the old number waits by now
+  { const std::lock_guard lock(mutex_); }  // a thread that read the old number waits by now
   changed_.notify_all();
 }
 

@@ -26,10 +26,10 @@ struct Simulation::SensorSlot {
   std::unique_ptr<Sensor> sensor;
   double period = 0;    // s
   double due = 0;       // s of simulation time
-  double time = 0;      // s, at which it was last due, or measured for somebody who wanted it at once
-  bool wanted = false;  // somebody read it since it last measured
+  double time = 0;      // s, when it was last due, or last measured on request
+  bool wanted = false;  // it was read since its last measurement
   bool measured = false;
-  bool shows = false;  // a picture that somebody gave it
+  bool shows = false;  // the image was replaced by override_image()
 };
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
@@ -78,7 +78,7 @@ void Simulation::process_input() {
 
 namespace {
 
-/// Sets a flag as long as it lives.
+/// Sets a flag during its lifetime.
 class Noted {
  public:
   explicit Noted(bool& flag) : flag_(flag) { flag_ = true; }
@@ -90,7 +90,7 @@ class Noted {
   bool& flag_;
 };
 
-/// Seconds of a physics substep when scripts have changed the time step: a whole number of them make a step.
+/// Duration of a physics substep in s, after a change of the time step: a step consists of a whole number of substeps.
 double substep(const SceneDescription& scene) {
   constexpr double kRounding = 1e-6;
   return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.substep - kRounding));
@@ -109,13 +109,13 @@ void Simulation::set_time_step(double seconds) {
 
 void Simulation::step() {
   if (stepping_.is_mine()) {
-    throw std::logic_error("a step is being run: step() cannot be called by what takes part in it");
+    throw std::logic_error("step() cannot be called during a step");
   }
   const AccessLock::Hold alone(stepping_);
   process_input();
   const AccessLock::Hold hold(world_.access());
   const Noted in_pass(in_step_);
-  const double now = time();  // a reset by input sets it back
+  const double now = time();  // process_input() may reset it
   for (System* system : systems_) system->actuate(world_, now);
   advance_physics(scene_.time_step == first_time_step_ ? scene_.substep : substep(scene_));
   update_sensors();
@@ -127,9 +127,10 @@ void Simulation::step() {
 void Simulation::check_may_change() const {
   if (!in_step_) return;
   if (!stepping_.is_mine()) {
-    throw std::logic_error("another thread is in the middle of a step of this simulation: change it between steps");
+    throw std::logic_error("cannot change the simulation: another thread is running a step; change it between steps");
   }
-  throw std::logic_error("a step is being run: the world can be changed before its actuation or after it");
+  throw std::logic_error(
+      "cannot change the world in this phase of a step; change it before the actuation or after the step");
 }
 
 void Simulation::reset_world() {
@@ -138,7 +139,7 @@ void Simulation::reset_world() {
   world_.reset();
   std::vector<SensorSlot> before = std::exchange(sensors_, {});
   make_all_sensors();
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // they keep to their rates, for time goes on
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // the sensors keep their rates, because time goes on
     sensors_[i].due = before[i].due;
     sensors_[i].wanted = before[i].wanted;
   }
@@ -182,14 +183,14 @@ void Simulation::remove_model_now(ObjectId model) {
 }
 
 void Simulation::update_sensors() {
-  // Half a step of tolerance: a due time that lies on a step must not slip to the next by rounding.
+  // Half a step of tolerance: rounding must not move a due time from one step to the next.
   const double until = time() + scene_.time_step / 2;
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
     slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
     if (slot.shows) continue;
     slot.time = time();
-    slot.measured = slot.wanted;  // nobody reads it: it measures when somebody does
+    slot.measured = slot.wanted;  // without readers, it measures on the next read
     if (slot.wanted) update(slot);
     slot.wanted = false;
   }
@@ -205,7 +206,7 @@ Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
     if (slot.id == sensor) return slot;
   }
   throw WrongObject(world_.tree().short_path(sensor) + " is a " +
-                     std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
+                    std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
 }
 
 std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
@@ -229,12 +230,12 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
   const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
   if (image == nullptr) {
     throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
-                       ", not a camera");
+                      ", not a camera");
   }
   if (image->rgb.size() != rgb.size()) {
-    throw InvalidInput(world_.tree().short_path(camera) + " shows " + std::to_string(image->width) + " x " +
-                       std::to_string(image->height) + " pixels in " + std::to_string(image->rgb.size()) +
-                       " bytes: a picture of " + std::to_string(rgb.size()) + " bytes does not fit");
+    throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +
+                       std::to_string(image->height) + " pixels (" + std::to_string(image->rgb.size()) +
+                       " bytes), not one of " + std::to_string(rgb.size()) + " bytes");
   }
   CameraImage picture = *image;
   picture.rgb = rgb;
@@ -252,7 +253,7 @@ std::string_view Simulation::sensor_kind(ObjectId sensor) {
 void Simulation::require_proximity(ObjectId sensor) {
   if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
   throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
-                     ", not a proximity sensor");
+                    ", not a proximity sensor");
 }
 
 ProximityReading Simulation::read_proximity(ObjectId sensor) {

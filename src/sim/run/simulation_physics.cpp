@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The physics of a step, and what comes of models that leave the world in it.
+// The physics of a step, and the handling of divergence and of fallen models.
 #include <unistd.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@
 namespace bubblesim {
 namespace {
 
-/// Writes where everything was before; tells the file, or nothing when it cannot be written.
+/// Writes the last states to a file. Returns a note with the file name, or an empty string when it cannot be written.
 std::string dump(const World& world) {
   std::error_code failed;
   const std::filesystem::path folder = std::filesystem::temp_directory_path(failed);
@@ -37,7 +37,7 @@ void Simulation::advance_physics(double substep) {
     handle(divergence);
   }
   for (const ObjectId model : world_.fallen_models()) {
-    warn(world_.tree().path(model) + " fell off the world and is removed");
+    warn(world_.tree().path(model) + " fell below the scene; removed");
     remove_model_now(model);
   }
 }
@@ -46,13 +46,13 @@ void Simulation::handle(const Diverged& divergence) {
   const std::string what = divergence.what() + dump(world_);
   const std::vector<ObjectId> lost = world_.diverged_models();
   if (scene_.on_divergence == OnDivergence::kReset) {
-    warn(what + "; the world is put back to its start");
+    warn(what + "; world reset");
     world_.reset();
     make_all_sensors();
     for (System* system : systems_) system->reset();
   } else if (scene_.on_divergence == OnDivergence::kRemove && !lost.empty()) {
     for (const ObjectId model : lost) {
-      warn(what + "; " + world_.tree().path(model) + " is removed");
+      warn(what + "; " + world_.tree().path(model) + " removed");
       remove_model_now(model);
     }
   } else {

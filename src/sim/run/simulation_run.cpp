@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a simulation is started, paused and stopped by those who do not run its steps.
+// Start, pause and stop requests from other threads than the one that runs the steps.
 #include <algorithm>
 #include <utility>
 
@@ -64,7 +64,7 @@ void Simulation::carry_out_requests() {
     const std::lock_guard lock(requests_mutex_);
     requests.swap(requests_);
   }
-  // Not those that come meanwhile: scripts that start what was stopped, and stop it again, must not keep this busy.
+  // Only the requests made so far: scripts that keep starting and stopping the simulation must not keep this loop busy.
   for (const Request wanted : requests) carry_out(wanted);
 }
 
@@ -85,9 +85,9 @@ void Simulation::carry_out(Request wanted) {
       if (before == RunState::kStopped) return;
       state_ = RunState::kStopping;
       try {
-        step();  // scripts see that it is the last one
+        step();  // scripts see that it is the last step
       } catch (const Diverged&) {
-        // It paused for that, and is put back now.
+        // The divergence paused it; it is reset now.
       }
       if (ends_at_stop_) return end();
       for (System* system : systems_) system->stop();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as error messages show them.
+// Formats numbers for error messages.
 #pragma once
 
 #include <sstream>

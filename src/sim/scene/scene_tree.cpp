@@ -31,14 +31,14 @@ Segment parse_segment(std::string_view text) {
   return segment;
 }
 
-/// Whether `name` fits `pattern`, in which `*` stands for any characters.
+/// Whether `name` matches `pattern`, in which `*` stands for any characters.
 bool fits(std::string_view name, std::string_view pattern) {
   std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return name == pattern;
   if (name.substr(0, star) != pattern.substr(0, star)) return false;
   name.remove_prefix(star);
   pattern.remove_prefix(star + 1);
-  // What stands between two stars may be taken where it occurs first: that leaves the most for the rest.
+  // Match the text between two stars at its first occurrence: that leaves the most for the rest.
   while ((star = pattern.find('*')) != std::string_view::npos) {
     const std::size_t place = name.find(pattern.substr(0, star));
     if (place == std::string_view::npos) return false;
@@ -120,7 +120,7 @@ std::vector<ObjectId> SceneTree::parts(ObjectId model, ObjectKind kind) const {
   return ids;
 }
 
-/// What lies directly below an object, or for kNoObject the models.
+/// The children of an object; for kNoObject the models.
 const std::vector<ObjectId>& SceneTree::level_below(ObjectId parent) const {
   return parent == kNoObject ? models_ : at(parent).children;
 }
@@ -182,7 +182,7 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
     const bool from_parent = anchor == "..";
     parts.erase(parts.begin());
     while (from_parent && !parts.empty() && parts.front() == "..") {
-      if (start == kNoObject) return {};  // nothing lies above the scene
+      if (start == kNoObject) return {};  // the scene has no parent
       start = at(start).parent;
       parts.erase(parts.begin());
     }
@@ -195,7 +195,7 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
     const Segment segment = parse_segment(part);
     std::vector<ObjectId> found;
     for (const ObjectId root : roots) {
-      // Breadth first, so that what lies nearer to the root comes first.
+      // Breadth first, so that objects nearer to the root come first.
       std::vector<ObjectId> level = level_below(root);
       while (!level.empty()) {
         std::vector<ObjectId> next;
@@ -233,7 +233,7 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
   const std::string shown(path);
   if (!found.empty()) {
     throw NoSuchObject("only " + std::to_string(found.size()) + " objects match '" + shown +
-                       "', there is none with index " + std::to_string(index));
+                       "': there is no match with index " + std::to_string(index));
   }
   std::vector<std::string> known;
   for (const auto& [id, object] : objects_) {

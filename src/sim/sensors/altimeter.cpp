@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Altimeter: height above where it came into the world, and how fast it climbs.
+// Altimeter: height above its start position, and vertical velocity.
 #include "sensors/kinds.hpp"
 #include "sensors/noise.hpp"
 

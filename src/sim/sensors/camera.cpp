@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera: a pinhole picture with depth and the objects seen. The centre of pixel (column, row) lies at column + 0.5,
-// row + 0.5 from the upper left corner, the axis at the middle of the picture.
+// Camera: a pinhole image with depth and visible objects. The centre of pixel (column, row) is at column + 0.5, row +
+// 0.5 from the upper left corner; the optical axis is at the centre of the image.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
-/// Where in its pixel a ray passes, from the pixel's upper left corner.
+/// Position of a ray in its pixel, from the pixel's upper left corner.
 struct SubPixel {
   double column;
   double row;
@@ -90,7 +90,7 @@ class Camera final : public Sensor {
   /// Directions have length 1 along the camera's axis: distances are depths.
   void aim(rays::RayPacket& packet, const Pose& sensor, const ignition::math::Matrix3d& turn, std::size_t column,
            std::size_t row, const SubPixel& part, std::size_t count) const {
-    // What is nearer than the near plane is left out, as by a graphics card.
+    // Surfaces nearer than the near plane are clipped, as by a graphics card.
     packet.start(sensor.Pos(), static_cast<float>(description_.near), static_cast<float>(description_.far), count);
     RTCRay16& ray = packet.data.ray;
     const double up = (description_.height / 2.0 - (static_cast<double>(row) + part.row)) / focal_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact sensor, or bumper: what a link touches, where, and how hard.
+// Contact sensor (bumper): contacts of a link, with positions and forces.
 #include <algorithm>
 #include <utility>
 

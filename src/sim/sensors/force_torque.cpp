@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Force-torque sensor: what a joint's child does to its parent, or the other way round.
+// Force-torque sensor: wrench of a joint's child on its parent, or of the parent on the child.
 #include "sensors/kinds.hpp"
 #include "sensors/noise.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maker of each sensor kind; a new kind adds its file, its description in scene.hpp, its measurement in sensor.hpp
-// and its line here and in registry.cpp.
+// Factory functions of the sensor kinds. A new kind adds its file, its description in scene.hpp, its measurement in
+// sensor.hpp and its line here and in registry.cpp.
 #pragma once
 
 #include "bubblesim/sensor.hpp"

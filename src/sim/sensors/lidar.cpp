@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lidar: ranges along a fan of rays, in one ring or several. Rays begin at the minimal range, as Gazebo's do: what is
-// nearer, such as the robot's own housing, does not hide what lies behind it.
+// Lidar: ranges along a fan of rays, in one or several rings. Rays start at the minimum range, like Gazebo's: nearer
+// surfaces, such as the robot's own housing, do not hide those behind them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,7 +68,7 @@ class Lidar final : public Sensor {
     distort(moment, scan.ranges);
   }
 
-  /// Directions in double precision: single would cost a millimetre on ground that is 100 m away.
+  /// Directions in double precision: single precision has an error of a millimetre on ground at a distance of 100 m.
   void aim(rays::RayPacket& packet, std::size_t first, const ignition::math::Matrix3d& turn) const {
     RTCRay16& ray = packet.data.ray;
     const double r[9] = {turn(0, 0), turn(0, 1), turn(0, 2), turn(1, 0), turn(1, 1),

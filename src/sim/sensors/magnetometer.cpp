@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Magnetometer: the magnetic field of the world, which is the same everywhere.
+// Magnetometer: the magnetic field of the world, which is uniform.
 #include "sensors/kinds.hpp"
 #include "sensors/noise.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Satellite navigation: place on the ellipsoid WGS84 and velocity. The scene is a plane that touches the ellipsoid at
-// its origin; GeographicLib's LocalCartesian tells where its points are.
+// Satellite navigation: position on the WGS84 ellipsoid and velocity. The scene is the tangent plane of the ellipsoid
+// at the scene's origin; GeographicLib's LocalCartesian converts its points.
 #include <GeographicLib/LocalCartesian.hpp>
 
 #include "sensors/kinds.hpp"
@@ -31,9 +31,9 @@ class NavSat final : public Sensor {
       distort(velocity[axis], of_velocity, moment, id_, 3 + axis);
     }
     NavSatReading reading;
-    std::vector<double> turn(9);  // from east, north, up here to those of the place, row by row in columns of the Earth
+    std::vector<double> turn(9);  // row-major, from east, north, up at this position to those at the origin
     earth_.Reverse(place.X(), place.Y(), place.Z(), reading.latitude, reading.longitude, reading.altitude, turn);
-    // The place's own east, north and up differ from the scene's, for the Earth is round.
+    // East, north and up at this position differ from those at the origin, because the Earth is round.
     for (std::size_t row = 0; row < 3; ++row) {
       reading.velocity[row] = turn[row] * velocity.X() + turn[3 + row] * velocity.Y() + turn[6 + row] * velocity.Z();
     }

@@ -59,7 +59,7 @@ Noise::Noise(const NoiseDescription& description, const MeasurementContext& mome
       active_(description.mean != 0 || description.stddev > 0 || description.bias_mean != 0 ||
               description.bias_stddev > 0 || description.precision > 0),
       normal_(seed_of(moment.seed, sensor, 2 * channel, bits_of(moment.time))) {
-  // The bias knows no time: it is the same in each measurement.
+  // The bias does not depend on time: it is equal in all measurements.
   NormalSource once(seed_of(moment.seed, sensor, 2 * channel + 1, 0));
   bias_ = description.bias_mean + description.bias_stddev * once.next();
 }

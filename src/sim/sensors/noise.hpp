@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers of sensors. They follow from the simulation's seed, the sensor and the time of the measurement alone,
-// so that a reading is the same whether or not others were taken before it.
+// Random numbers of sensors. They depend only on the simulation's seed, the sensor and the time of the measurement, so
+// a reading does not depend on other readings.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// SplitMix64 (Steele, Lea, Flood 2014) as a source of normal numbers.
+/// Normally distributed random numbers from SplitMix64 (Steele, Lea, Flood 2014).
 class NormalSource {
  public:
   explicit NormalSource(std::uint64_t state) : state_(state) {}
@@ -27,11 +27,11 @@ class NormalSource {
 /// Noise of the values of one measurement.
 class Noise {
  public:
-  /// `channel` tells apart several noises of one sensor.
+  /// `channel` distinguishes the noises of one sensor.
   Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
         std::uint64_t channel = 0);
 
-  /// False when values stay as they are.
+  /// False when values are not changed.
   bool active() const { return active_; }
   double operator()(double value);
 
@@ -42,7 +42,7 @@ class Noise {
   NormalSource normal_;
 };
 
-/// Noise of a measurement's single value.
+/// Adds noise to the single value of a measurement.
 void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
              std::uint64_t channel);
 

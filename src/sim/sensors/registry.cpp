@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sensor kinds there are.
+// The registry of sensor kinds.
 #include "sensors/kinds.hpp"
 
 namespace bubblesim {

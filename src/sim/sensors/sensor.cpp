@@ -25,7 +25,7 @@ std::string_view kind_name(const Measurement& measurement) {
 }
 
 void Sensor::update(const MeasurementContext& moment) {
-  if (reading_.use_count() > 1) {  // somebody holds the last one
+  if (reading_.use_count() > 1) {  // a caller holds the last one
     reading_ = std::make_shared<Reading>();
     reading_->measurement = empty_;
   }

@@ -26,14 +26,14 @@ void accumulate(Color& sum, const Color& color, float weight) {
   sum.b += weight * color.b;
 }
 
-/// The points seen, on their way to a light.
+/// The points to shade.
 struct Points {
   std::array<Vector3, rays::kPacket> place;
   std::array<Vector3, rays::kPacket> normal;
   std::array<Color, rays::kPacket> color;
 };
 
-/// How a light comes to a point.
+/// Light at a point.
 struct Arrival {
   Vector3 to_light;  // of unit length
   float distance = 0;
@@ -41,7 +41,7 @@ struct Arrival {
 };
 using Arrivals = std::array<Arrival, rays::kPacket>;
 
-/// From 0 beyond the outer cone to 1 within the inner one, as OGRE's fixed pipeline has it.
+/// From 0 outside the outer cone to 1 inside the inner cone, as in OGRE's fixed pipeline.
 double spot_brightness(const Light& light, const Vector3& axis, const Vector3& to_light) {
   const double cosine = -to_light.Dot(axis);
   const double outer = std::cos(light.outer_angle / 2);
@@ -106,7 +106,7 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, std::siz
       arrivals[i] = arrive(light, axis, points.place[i]);
       if (arrivals[i].brightness <= 0 || points.normal[i].Dot(arrivals[i].to_light) <= 0) continue;
       lit.use[i] = any = rays::kUsed;
-      // Off the surface by more than single precision can be wrong, or it would shade itself.
+      // Offset from the surface by more than the error of single precision; otherwise the surface shades itself.
       const double gap = 1e-4 + 1e-5 * ray.tfar[i];
       rays::aim(shadow, i, points.place[i] + points.normal[i] * gap, arrivals[i].to_light);
       shadow.tnear[i] = shadow.time[i] = 0;

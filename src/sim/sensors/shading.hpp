@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which colour a traced ray sees: Lambert's law under the scene's lights, their shadows, the sky.
+// Colours of traced rays: Lambert's law with the scene's lights and shadows, and the sky.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ class Shading {
  public:
   explicit Shading(Environment environment) : environment_(std::move(environment)), lights_(environment_.lights) {}
 
-  /// Takes the scene's lights and those that links carry, where these are now.
+  /// Collects the scene's lights and those of links, at their current poses.
   void place_lights(const World& world);
 
-  /// Adds `weight` times what the first `count` rays of a traced packet see to `colors`.
+  /// Adds `weight` times the colours of the first `count` rays of a traced packet to `colors`.
   void add(const RayScene& scene, const rays::RayPacket& packet, std::size_t count, float weight, Color* colors) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sonar and other proximity sensors: the nearest thing in a volume, found by rays that fill it.
+// Sonar and other proximity sensors: the nearest surface in a volume, found by rays that fill the volume.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,11 +10,11 @@
 namespace bubblesim {
 namespace {
 
-// Rays on concentric rings: at the default 15 degrees and 1 m they lie at most 7 cm apart.
+// Rays on concentric rings: at the default 15 degrees and 1 m they are at most 7 cm apart.
 constexpr int kRings = 4;
 constexpr int kRaysPerRing = 6;  // on the first ring; the n-th has n times as many
 constexpr int kRaysAcross = 8;   // of a pyramid, in each direction
-constexpr int kRaysOfDisc = 61;  // odd: one looks straight ahead
+constexpr int kRaysOfDisc = 61;  // odd: one ray is on the axis
 
 struct VolumeRay {
   Vector3 start;      // in the sensor's frame
@@ -104,7 +104,7 @@ class Sonar final : public Sensor {
 
   SonarDescription description_;
   ObjectId id_;
-  ObjectId model_;  // the sensor's own robot, which it does not see
+  ObjectId model_;  // the sensor's own model, which it does not detect
   std::vector<VolumeRay> rays_;
 };
 

@@ -11,16 +11,16 @@
 namespace bubblesim {
 namespace {
 
-using Place = std::array<float, 2>;  // on a picture, from its lower left corner to 1, 1
+using Place = std::array<float, 2>;  // on an image, from its lower left corner (0, 0) to (1, 1)
 
 Color checker(const Material& material, const Vector3& in_shape) {
-  // Half a millionth of a field: a face that lies on a border between fields must not flicker between the two.
+  // Tolerance of half a millionth of a square: a face on a border between squares must not flicker.
   const auto field = [&](double place) { return std::lround(std::floor(place / material.checker_size + 5e-7)); };
   const long parity = field(in_shape.X()) + field(in_shape.Y()) + field(in_shape.Z());
   return parity % 2 == 0 ? material.diffuse : material.checker_color;
 }
 
-/// The picture repeats itself; between the middles of its pixels colours blend.
+/// The image repeats; colours are interpolated between pixel centres.
 Color sample(const Texture& texture, const Place& place) {
   const auto along = [](float part, int pixels, bool flipped) {
     const double turned = flipped ? 1.0 - static_cast<double>(part) : static_cast<double>(part);
@@ -51,7 +51,7 @@ Color sample(const Texture& texture, const Place& place) {
   return sum;
 }
 
-/// Each face of a box shows the whole picture: upright on its sides, its upper edge at +x on its top and bottom.
+/// Each face of a box shows the whole image: upright on the sides, the upper edge at +x on top and bottom.
 Place place_on_box(const Box& box, const Vector3& point) {
   const Vector3 part = point / box.size;  // from -0.5 to 0.5
   std::size_t face = 0;

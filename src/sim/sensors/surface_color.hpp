@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which colour a surface has where a ray meets it: of its material, a checkerboard, or a picture on it.
+// The colour of a surface where a ray hits it: from its material, checkerboard or texture.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct SurfaceColor {
   Color emissive;
 };
 
-/// Of what ray `i` of a traced packet hit, at `point` in the world.
+/// The colour of the surface that ray `i` of a traced packet hit, at `point` in the world.
 SurfaceColor surface_color(const RayScene& scene, const rays::RayPacket& packet, std::size_t i, const Vector3& point);
 
 }  // namespace bubblesim

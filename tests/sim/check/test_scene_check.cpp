@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that were not read from a file, so that every field can hold anything.
+// Scenes built in code, so that every field can have any value.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace bubblesim::test::test_scene_check {
 namespace {
 
-/// A fine scene that has one of everything.
+/// A valid scene with one object of each kind.
 SceneDescription fine() {
   SceneDescription all = jointed(joint("revolute", {axis(Vector3::UnitZ)}));
   ModelDescription& robot = all.models[0];
@@ -38,7 +38,7 @@ SonarDescription& cone(SceneDescription& scene) { return std::get<SonarDescripti
 
 TEST(SceneCheck, FindsNothingInAFineScene) { EXPECT_TRUE(check_scene(fine()).empty()); }
 
-/// A field, where it stands, how messages call it, and values that it cannot have beside those that nothing can.
+/// A field, the path of its object, its name in messages, and invalid values besides NaN.
 struct Field {
   const char* object;
   const char* called;
@@ -104,8 +104,8 @@ std::vector<Field> fields() {
        "update rate",
        [](auto& s) -> double& { return base(s).sensors[0].update_rate; },
        {-1, kNever, 1e300}},
-      {"/Robot/base/Sonar", "minimal range", [](auto& s) -> double& { return cone(s).min_range; }, {-1, 2, kNever}},
-      {"/Robot/base/Sonar", "maximal range", [](auto& s) -> double& { return cone(s).max_range; }, {0, -1, kNever}},
+      {"/Robot/base/Sonar", "minimum range", [](auto& s) -> double& { return cone(s).min_range; }, {-1, 2, kNever}},
+      {"/Robot/base/Sonar", "maximum range", [](auto& s) -> double& { return cone(s).max_range; }, {0, -1, kNever}},
       {"/Robot/base/Sonar", "half angle", [](auto& s) -> double& { return cone(s).half_angle; }, {-1, 1.6, kNever}},
       {"/Robot/joint", "position", [](auto& s) -> double& { return s.models[0].joints[0].pose.Pos()[0]; }, {1e300}},
       {"/Robot/joint", "axis", [](auto& s) -> double& { return first_axis(s).direction[2]; }, {0, 0.5, kNever, 1e300}},
@@ -132,7 +132,7 @@ TEST(SceneCheck, NoFieldTakesANumberThatPhysicsCannotTake) {
       field.of(scene) = bad;
       EXPECT_TRUE(reports(check_scene(scene), field.object, field.called))
           << field.object << " " << field.called << " = " << bad;
-      EXPECT_THROW(World(scene, 0), SceneError) << "and the world does not take it either";
+      EXPECT_THROW(World(scene, 0), SceneError) << "the world rejects it, too";
     }
   }
 }
@@ -171,10 +171,10 @@ TEST(SceneCheck, ProblemsOfAModelCarryItsSource) {
   scene.models[0].joints.clear();
   const std::vector<Problem> problems = check_scene(scene);
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].text(), "robot.sdf:7: /Robot: has no link, so there is nothing to simulate; add a <link>");
+  EXPECT_EQ(problems[0].text(), "robot.sdf:7: /Robot: has no link; add a <link>");
 }
 
-/// The only problem of the fine scene after a change.
+/// The problems of the valid scene after a change.
 std::string problem_after(const std::function<void(ModelDescription&)>& change) {
   SceneDescription scene = fine();
   change(scene.models[0]);
@@ -190,11 +190,11 @@ TEST(SceneCheck, NamesOfLinksAndJointsAreUsedOnce) {
 
 TEST(SceneCheck, LinksOfJointsExist) {
   EXPECT_EQ(problem_after([](auto& robot) { robot.joints[0].child = "wheal"; }),
-            "/Robot/joint: the child 'wheal' is no link of this model; did you mean wheel?\n");
+            "/Robot/joint: the child 'wheal' is not a link of this model; did you mean wheel?\n");
   EXPECT_EQ(problem_after([](auto& robot) { robot.joints[0].parent = "bass"; }),
-            "/Robot/joint: the parent 'bass' is no link of this model; did you mean base?\n");
+            "/Robot/joint: the parent 'bass' is not a link of this model; did you mean base?\n");
   EXPECT_EQ(problem_after([](auto& robot) { robot.canonical_link = "arms"; }),
-            "/Robot: the canonical link 'arms' is no link of this model; did you mean arm?\n");
+            "/Robot: the canonical link 'arms' is not a link of this model; did you mean arm?\n");
   EXPECT_NE(problem_after([](auto& robot) { robot.joints[0].child = "world"; }), "");
 }
 
@@ -205,7 +205,7 @@ TEST(SceneCheck, JointsConnectTwoLinks) {
 
 TEST(SceneCheck, UnknownJointTypesNameTheKnownOnes) {
   EXPECT_EQ(problem_after([](auto& robot) { robot.joints[0].type = "rope"; }),
-            "/Robot/joint: joints of type 'rope' are not supported; supported are revolute, continuous, prismatic, "
+            "/Robot/joint: joint type 'rope' is not supported; supported types: revolute, continuous, prismatic, "
             "fixed, ball, revolute2, universal, screw, gearbox\n");
 }
 

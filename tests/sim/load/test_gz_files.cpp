@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What worlds made for gz-sim, and robots as they are sold, hold.
+// Worlds for gz-sim, and files of commercial robots.
 #include <gtest/gtest.h>
 
 #include "bubblesim/scene_loader.hpp"
@@ -54,7 +54,7 @@ TEST(Sensor, SaysWhereGzSimPublishesIt) {
                "<collision>c</collision><topic>bumps</topic></contact></sensor><collision name='c'><geometry><sphere>"
                "<radius>1</radius></sphere></geometry></collision></link></model>"));
   const std::string told = ::testing::internal::GetCapturedStderr();
-  EXPECT_EQ(told.find("left out"), std::string::npos) << told;
+  EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
   const std::vector<SensorDescription>& sensors = scene.models.at(0).links.at(0).sensors;
   ASSERT_EQ(sensors.size(), 3U);
   EXPECT_EQ(sensors[0].type, "depth_camera");
@@ -78,7 +78,7 @@ TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
              "</model></world></sdf>");
   const std::string told = ::testing::internal::GetCapturedStderr();
   EXPECT_EQ(scene.models.at(0).joints.at(1).axes.at(0).mimic->multiplier, 2);
-  EXPECT_EQ(told.find("left out"), std::string::npos) << told;
+  EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
 }
 
 TEST(Lights, OfOneNameAreOne) {

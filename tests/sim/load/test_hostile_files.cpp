@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that would take a parser for ever, all memory or the whole process.
+// Files that would make a parser hang, use all memory or crash the process.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -73,21 +73,21 @@ TEST_F(HostileFiles, IncludesThatMultiplyAreAnError) {
     write_model("m" + std::to_string(i), ten);
   }
   const std::string told = complaint(in_world(included("m10")));
-  EXPECT_TRUE(holds(told, "over 1000000 of them")) << told;
+  EXPECT_TRUE(holds(told, "more than 1000000,")) << told;
 }
 
 TEST_F(HostileFiles, AnIncludedFifoIsAnError) {
   fs::create_directories(folder_ / "pipe");
   ASSERT_EQ(::mkfifo((folder_ / "pipe/model.config").c_str(), 0600), 0);
   const std::string told = complaint(in_world(included("pipe")));
-  EXPECT_TRUE(holds(told, "pipe/model.config, which is no regular file")) << told;
+  EXPECT_TRUE(holds(told, "pipe/model.config, which is not a regular file")) << told;
 }
 
 TEST_F(HostileFiles, ADeviceAsAHeightmapIsAnError) {
   const std::string told =
       complaint(in_world("<model name='m'><link name='l'><collision name='c'><geometry><heightmap><uri>/dev/zero"
                          "</uri></heightmap></geometry></collision></link></model>"));
-  EXPECT_TRUE(holds(told, "/m/l/c: /dev/zero is no regular file")) << told;
+  EXPECT_TRUE(holds(told, "/m/l/c: /dev/zero is not a regular file")) << told;
 }
 
 TEST_F(HostileFiles, AModelConfigWithoutANameIsAnError) {
@@ -106,7 +106,7 @@ TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
   EXPECT_LT(named.size() + posed.size(), 1000U);
 }
 
-/// Old files have the links of inner models in the outer one, called inner::link: this joint of `a` has a link of `b`.
+/// Old files refer to links of nested models from the outer model as inner::link: this joint of `a` has a link of `b`.
 const char* const kAsserted =
     "<sdf version='1.6'><world name='w'><model name='m'><link name='a::l'/><link name='b::l'/>"
     "<joint name='a::j' type='revolute'><parent>b::l</parent><child>a::l</child><axis><xyz>0 0 1</xyz></axis></joint>"
@@ -127,7 +127,7 @@ TEST_F(HostileFiles, WhatSdformatAssertsOfAnIncludedFileNamesThatFile) {
   EXPECT_TRUE(holds(told, "odd/model.sdf: SDFormat cannot read it: Joint's")) << told;
 }
 
-// SDFormat alone takes a megabyte for each of these models.
+// SDFormat takes a megabyte for each of these models.
 TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
   std::string models;
   for (int i = 0; i < 3000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a camera sees of textures, smooth meshes, lamps and shadows: one ray, one pixel.
+// Textures, smooth meshes, lights and shadows in camera images: one ray, one pixel.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ using Rgb = std::array<double, 3>;
 
 constexpr double kHalfLevel = 0.51 / 255;
 
-/// The colour that a ray from the origin of `pose` along its x sees.
+/// The colour seen by a ray from the origin of `pose` along its x axis.
 Rgb seen(const Pose& pose, std::vector<ModelDescription> models, const std::vector<Light>& lights,
          const Color& ambient = {}) {
   CameraDescription camera;
@@ -68,7 +68,7 @@ Material textured() {
   return material;
 }
 
-/// A square in the yz plane, 2 m wide, seen from -x; its picture upright for who looks along x.
+/// A square in the yz plane, 2 m wide, seen from -x; its texture is upright when looking along x.
 TriangleMesh screen() {
   TriangleMesh mesh;
   mesh.vertices = {{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}};
@@ -79,7 +79,7 @@ TriangleMesh screen() {
 
 TEST(Texture, LiesUprightOnTheSidesOfABox) {
   const ModelDescription box = showing(visual(Box{{2, 2, 2}}, textured()));
-  // Seen from each side, to the upper left of its middle: red.
+  // Seen from each side, at the upper left of its centre: red.
   for (const double yaw : {0.0, M_PI / 2, M_PI, -M_PI / 2}) {
     const Pose eye = Pose(0, 0, 0, 0, 0, yaw) * at(-3, 0.5, 0.5);
     expect_color(seen(eye, {box}, {}, kFullyLit), kRed);
@@ -127,7 +127,8 @@ TEST(SmoothMesh, IsLitByItsOwnNormals) {
   along_x.direction = {1, 0, 0};
   along_x.diffuse = {1, 1, 1};
   TriangleMesh mesh = screen();
-  // Turned by 1 rad at the lower corners, straight at the upper ones: halfway up in between, along both normals' sum.
+  // Turned by 1 rad at the lower corners, straight at the upper ones: at half height in between, along the sum of the
+  // normals.
   const Vector3 tilted(-std::cos(1.0), 0, -std::sin(1.0));
   const TriangleMesh::Point low = {static_cast<float>(tilted.X()), 0, static_cast<float>(tilted.Z())};
   mesh.normals = {low, low, {-1, 0, 0}, {-1, 0, 0}};
@@ -143,7 +144,7 @@ TEST(SmoothMesh, IsLitByItsOwnNormals) {
   }
 }
 
-/// What a camera sees of white ground right below it.
+/// The colour of white ground directly below a camera.
 double on_the_ground(const Light& light, std::vector<ModelDescription> others = {}) {
   Material white;
   white.diffuse = {1, 1, 1};
@@ -230,7 +231,7 @@ TEST(Lamp, OfALinkGoesWithIt) {
   carrier.links[0].lights.push_back(lamp);
   Material white;
   white.diffuse = kFullyLit;
-  // The lamp looks ahead; the camera, at the same place, down at a white floor.
+  // The light points forward; the camera, at the same place, looks down at a white floor.
   SceneDescription described =
       with_sensor("Camera", camera, {showing(visual(Box{{9, 9, 0.1}}, white), Pose(0, 0, -0.05, 0, 0, 0)), carrier},
                   Pose(0, 0, 1, 0, M_PI / 2, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nested models: names, frames, joints across them, and what moves with what.
+// Nested models: names, frames, joints between them, motion.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"
@@ -11,7 +11,7 @@
 namespace bubblesim::test::test_nested_models {
 namespace {
 
-/// A cart whose arm is a model in it, with a hand in that; turned and moved so that frames matter.
+/// A cart with a nested arm model, which has a nested hand; rotated and moved, so that frames matter.
 constexpr const char* kCart = R"(
   <model name='Cart'>
     <pose>1 0 1 0 0 1.5707963267948966</pose>
@@ -51,7 +51,7 @@ TEST_F(NestedModels, HaveTheirPathsInTheTree) {
 }
 
 TEST_F(NestedModels, StandInTheFramesThatTheyName) {
-  // The cart is turned by a quarter: its x is the world's y.
+  // The cart is rotated by a quarter turn: its x is the world's y.
   EXPECT_LT((world_.pose(find("/Arm")).Pos() - Vector3(1, 0.2, 1.5)).Length(), 1e-9);
   EXPECT_LT((world_.pose(find("/palm")).Pos() - Vector3(1, 0.5, 1.5)).Length(), 1e-9);
   EXPECT_LT((world_.pose(find("/shoulder")).Pos() - Vector3(1, 0.2, 1.5)).Length(), 1e-9);

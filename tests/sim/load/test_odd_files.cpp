@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that are odd but legal, or that Gazebo takes all the same.
+// Unusual files that are valid, or that Gazebo accepts.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"
@@ -55,7 +55,7 @@ TEST(PhysicsStep, ThatDoesNotFitADefaultPassMakesItShorter) {
 
 TEST(Version, IsAskedFor) {
   EXPECT_TRUE(holds(complaint("<sdf><world name='w'/></sdf>"), ":1: <sdf> has no version"));
-  EXPECT_TRUE(holds(complaint("<sdf version='abc'><world name='w'/></sdf>"), ":1: the version 'abc' is not one such"));
+  EXPECT_TRUE(holds(complaint("<sdf version='abc'><world name='w'/></sdf>"), ":1: invalid version 'abc': expected"));
 }
 
 TEST(Latin1, IsRead) {
@@ -115,7 +115,7 @@ TEST(Inertia, ThatIsPositiveByRoundingOnlyIsReplaced) {
       in_world("<model name='m'><link name='l'><inertial><mass>1</mass><inertia><ixx>0.2125</ixx><iyy>0.205</iyy>"
                "<izz>0.0125</izz><ixy>-0.005</ixy><ixz>0.0225</ixz><iyz>0.045</iyz></inertia></inertial></link>"
                "</model>"));
-  // The least moment, 0, becomes a thousandth of the greatest, and the sum of them grows by as much.
+  // The least moment, 0, becomes a thousandth of the greatest, and their sum grows by as much.
   EXPECT_NEAR(the_robot(scene).links[0].inertia_diagonal.Sum(), 0.43 + 0.000220, 1e-5);
 }
 
@@ -150,7 +150,7 @@ TEST(Elements, ThatSdformatDoesNotKnowAreTold) {
   testing::internal::CaptureStderr();
   loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>");
   const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(holds(told, "odd.sdf:3: <contact> is no element of <link>: it is left out\n")) << told;
+  EXPECT_TRUE(holds(told, "odd.sdf:3: <contact> is not an element of <link>: ignored\n")) << told;
 }
 
 TEST(SeveralModels, InAFileWithoutAWorldAreOne) {
@@ -192,7 +192,7 @@ TEST(Urdf, StandsWhenItsFirstLinkHasNoMass) {
 }
 
 TEST(Urdf, WithoutALinkOfItsOwnTellsSo) {
-  EXPECT_TRUE(holds(complaint(robot("<link name='world'/>"), "odd.urdf"), "holds no <link> but the world"));
+  EXPECT_TRUE(holds(complaint(robot("<link name='world'/>"), "odd.urdf"), "contains no <link> except the world"));
 }
 
 TEST(Urdf, RunsWithoutWhatHangsOnALinkWithoutMass) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pages about joints, models and surfaces show loads and steps.
+// The examples in the pages about joints, models and surfaces load and run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Snippet {
   std::string xml;
 };
 
-/// Puts an excerpt into what it is an excerpt of.
+/// Completes an excerpt to a scene.
 std::string completed(const std::string& xml) {
   if (xml.rfind("<model", 0) == 0) return in_world(xml);
   const std::string links = "<link name='base'>" + (xml.rfind("<collision", 0) == 0 ? xml : "") + "</link>";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped robots move as the geometry of their wheels says.
+// The installed robots move according to the geometry of their wheels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace bubblesim::test::test_robots {
 namespace {
 
-/// A shipped scene without what its robot could run into.
+/// An installed scene without obstacles for its robot.
 SceneDescription open_field(const std::string& name) {
   SceneDescription scene = load_scene(name);
   const auto in_the_way = [](const ModelDescription& m) { return m.name == "Room"; };
@@ -26,7 +26,7 @@ struct Circle {
   double radius = 0;
 };
 
-/// The circle through points in the least squares' sense of (x-a)^2 + (y-b)^2 = r^2, about the points' mean.
+/// The least-squares circle of points: (x-a)^2 + (y-b)^2 = r^2, about the points' mean.
 Circle fit_circle(const std::vector<Vector3>& points) {
   Vector3 mean;
   for (const Vector3& point : points) mean += point / static_cast<double>(points.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is read from <visual>, <material>, <scene> and <light>.
+// Reading <visual>, <material>, <scene> and <light>.
 #include <gtest/gtest.h>
 
 #include "bubblesim/scene_loader.hpp"

@@ -19,7 +19,7 @@ namespace {
 const fs::path kBadScenes = BUBBLESIM_TEST_SCENES;
 const fs::path kScenes = BUBBLESIM_SCENES;
 
-/// What is wrong with a scene, as texts without the file: `12: /Robot: ...`.
+/// The problems of a scene, as texts without the file: `12: /Robot: ...`.
 std::vector<std::string> complaints(const std::string& name_or_path) {
   try {
     load_scene(name_or_path);
@@ -48,8 +48,7 @@ std::string content(const fs::path& file) {
 
 class BadScene : public ::testing::TestWithParam<fs::path> {};
 
-/// Each file says in comments what is to be found wrong with it: `expect: LINE: TEXT`, LINE being 0 where only the
-/// file can be told.
+/// Each file has its expected problems in comments: `expect: LINE: TEXT`, where LINE is 0 if only the file is known.
 TEST_P(BadScene, EveryProblemIsReportedInItsPlaceAndNoOther) {
   static const std::regex pattern("<!-- expect: (\\d+: )(.*?) -->");
   const std::string text = content(GetParam());
@@ -103,7 +102,7 @@ TEST(SceneFile, MissingFileIsNamed) {
     load_scene("nowhere/robot.sdf");
     FAIL();
   } catch (const SceneError& error) {
-    EXPECT_STREQ(error.what(), "nowhere/robot.sdf: no such file");
+    EXPECT_STREQ(error.what(), "nowhere/robot.sdf: file not found");
   }
 }
 
@@ -116,8 +115,8 @@ TEST(SceneFile, BinaryFileIsNoScene) {
 }
 
 TEST(SceneName, UnknownNameSuggestsAKnownOne) {
-  EXPECT_NE(all_complaints("trycicle").find("no scene is named 'trycicle'; did you mean tricycle?"), std::string::npos);
-  EXPECT_NE(all_complaints("").find("no scene is named ''"), std::string::npos);
+  EXPECT_NE(all_complaints("trycicle").find("scene not found: 'trycicle'; did you mean tricycle?"), std::string::npos);
+  EXPECT_NE(all_complaints("").find("scene not found: ''"), std::string::npos);
 }
 
 TEST(SceneName, ShippedScenesAreFoundByName) {
@@ -195,7 +194,7 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
   const LinkDescription& a = robot.links[0];
   EXPECT_EQ(a.mass, 4);
   EXPECT_EQ(a.centre_of_mass, Vector3(0.1, 0.2, 0.3));
-  // The inertia's frame is turned a quarter about z: x and y change places, and the product its sign.
+  // The inertia's frame is rotated by a quarter turn about z: x and y are exchanged, and the product changes its sign.
   EXPECT_LT(a.inertia_diagonal.Distance({2, 1, 2.5}), 1e-12);
   EXPECT_LT(a.inertia_products.Distance({-0.1, 0, 0}), 1e-12);
   EXPECT_EQ(std::get<Box>(a.collisions[0].geometry).size, Vector3(1, 2, 3));
@@ -294,14 +293,14 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "<data-string>: is empty"},
       {"ball", "<data-string>"},
-      {"<sdf version='1.9'>\n<model name='Ball'>\n<link></sdf>", "<data-string>:3: is not well-formed XML here"},
-      {"<html/>", "<data-string>:1: is no scene"},
+      {"<sdf version='1.9'>\n<model name='Ball'>\n<link></sdf>", "<data-string>:3: is not well-formed XML"},
+      {"<html/>", "<data-string>:1: is not an SDFormat file"},
       {"<sdf version='1.9'/>", "<data-string>"},
-      {"<sdf version='1.9'><world name='w'/></sdf>", "holds a <world>: a <model> is wanted"},
+      {"<sdf version='1.9'><world name='w'/></sdf>", "contains a <world>: expected a <model>"},
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
       {sphere_model("heavy"), "<data-string>:3: /Ball/l: <mass> is 'heavy'"},
       {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
-      {"<robot name='r'><link name='world'/></robot>", "holds no <link> but the world"},
+      {"<robot name='r'><link name='world'/></robot>", "contains no <link> except the world"},
       {"<robot/>", "<data-string>: No name given for the robot."},
   };
   for (const auto& [text, expected] : cases) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces read from files and made from outlines and pictures.
+// Meshes from files, outlines and images.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -96,7 +96,7 @@ usemtl blue
 f 4//1 5//1 6//1
 )";
 
-/// One triangle in the xz plane, in inches, moved by its node; the file says that y is up, which nobody heeds.
+/// One triangle in the xz plane, in inches, moved by its node; the file declares y up, which is ignored.
 const char* const kDae = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit meter="0.0254" name="inch"/><up_axis>Y_UP</up_axis></asset>
@@ -194,10 +194,10 @@ TEST(MeshFile, ThatCannotBeReadTellsWhy) {
   EXPECT_NE(complaint([&] { load({broken.path()}); }).find("cannot be read as a mesh"), std::string::npos);
   const TemporaryFile empty("empty.stl", "solid nothing\nendsolid nothing\n");
   EXPECT_NE(complaint([&] { load({empty.path()}); }), "");
-  EXPECT_EQ(complaint([&] { load({"/nowhere/at_all.stl"}); }), "is no file");
+  EXPECT_EQ(complaint([&] { load({"/nowhere/at_all.stl"}); }), "does not exist");
 }
 
-// What they do in assimp: a token that is no number takes memory without end, and so many nodes overflow its stack.
+// Their effect in assimp: an invalid token takes memory without end, and the nodes overflow its stack.
 TEST(MeshFile, ThatItsReaderDoesNotSurviveIsAnErrorAndTheNextOneIsRead) {
   std::string endless = kDae;
   endless.replace(endless.find("<p>0 1 2</p>"), 12, "<p>0 x 2</p>");
@@ -245,7 +245,7 @@ TEST(MeshFile, ThatIsAFifoIsAnError) {
   const TemporaryFile beside("corner.stl", kStl);
   const std::string fifo = beside.folder() + "/fifo.stl";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  EXPECT_EQ(complaint([&] { load({fifo}); }), "is no regular file");
+  EXPECT_EQ(complaint([&] { load({fifo}); }), "is not a regular file");
 }
 
 TEST(Surface, LosesTrianglesWithoutAnArea) {
@@ -283,9 +283,9 @@ TEST(Extrusions, TakeAClosedOutlineAndCornersInOneLine) {
 }
 
 TEST(Extrusions, TellWhatIsWrongWithAnOutline) {
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}}, 1}}); }), "has less than three corners");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}}, 1}}); }), "has fewer than three corners");
   EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {2, 0}}, 1}}); }), "has no area");
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {1, 1}}, 0}}); }), "has no height above 0");
+  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {1, 1}}, 0}}); }), "must have a height above 0");
   EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {2, 2}, {2, 0}, {0, 3}}, 1}}); }), "crosses itself");
 }
 
@@ -300,7 +300,7 @@ TEST(Extrusions, HaveHolesWhereOutlinesLieInOthers) {
 }
 
 TEST(Walls, StandOnTheDarkPixelsOfAPicture) {
-  // Three pixels in an L, of 3 x 2; the picture's upper edge is at +y.
+  // Three pixels in an L, of 3 x 2; the image's upper edge is at +y.
   const Heights picture{3, 2, {0, 1, 1, 0, 0.5F, 1}};
   const auto mesh = raise_walls(picture, 0.1, 200, 2);
   EXPECT_NEAR(volume(*mesh), 3 * 0.1 * 0.1 * 2, 1e-6);

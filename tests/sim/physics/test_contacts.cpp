@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What touches what, and how it holds or slides.
+// Contacts: resting, sticking and sliding.
 #include <gtest/gtest.h>
 
 #include "bubblesim/world.hpp"
@@ -9,7 +9,7 @@ namespace bubblesim::test::test_contacts {
 namespace {
 
 constexpr double kStep = 0.005;
-constexpr double kLayer = 0.001;  // how deep things may sink into one another, m
+constexpr double kLayer = 0.001;  // m, allowed penetration
 
 /// Height of the model's frame after a second over the floor.
 double height_after_a_second(ModelDescription dropped, ModelDescription ground = floor()) {
@@ -48,7 +48,8 @@ TEST(Contact, ShapesKeepTheirPlaceInALinkWithAnOffsetCentreOfMass) {
 
 class Slope : public ::testing::TestWithParam<double> {};
 
-/// How far a box gets down a slope in one second; `mu_box` and `mu_slope` are the frictions of the two surfaces.
+/// The distance that a box slides down a slope in one second; `mu_box` and `mu_slope` are the frictions of the two
+/// surfaces.
 double slide(double angle, double mu_box, double mu_slope) {
   const Quaternion tilt = turn(0, angle, 0);
   ModelDescription slope = still(model("Slope", link_with(Box{{40, 4, 1}}, mu_slope), Pose(Vector3::Zero, tilt)));
@@ -102,7 +103,7 @@ TEST(Contact, MovingModelsPushEachOther) {
   EXPECT_NEAR(world.velocity(world.tree().find("/Right")).linear.X(), 1, 0.06);
 }
 
-/// Two balls of one model that lie in one another, and how far apart they get.
+/// Two overlapping balls of one model, and how far apart they move.
 double distance_of_overlapping_links(bool self_collide, bool jointed) {
   ModelDescription pair = model("Pair", link_with(Sphere{0.5}));
   LinkDescription other = link_with(Sphere{0.5});
@@ -140,7 +141,7 @@ TEST(Contact, OverlappingShapesPartSlowly) {
   const ObjectId ball = world.tree().find("/Ball");
   for (int i = 0; i < 400; ++i) {
     world.advance(kStep, kStep);
-    ASSERT_LT(world.velocity(ball).linear.Length(), 0.11) << "overlap must not throw things about";
+    ASSERT_LT(world.velocity(ball).linear.Length(), 0.11) << "overlapping bodies must not fly apart";
   }
 }
 

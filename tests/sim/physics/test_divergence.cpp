@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens when motion leaves the finite world, and when things fall off it.
+// Divergence handling, and models that fall below the scene.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -12,7 +12,7 @@
 namespace bubblesim::test::test_divergence {
 namespace {
 
-/// A ball that is about to leave the world, and a box on the floor.
+/// A ball that is about to leave the finite world, and a box on the floor.
 struct Leaving {
   explicit Leaving(OnDivergence policy) : simulation(described(policy)) {
     World& world = simulation.world();
@@ -30,7 +30,7 @@ struct Leaving {
   Simulation simulation;
 };
 
-/// Notes the models that are about to be removed.
+/// Records the models that are about to be removed.
 struct Witness : System {
   void model_removing(World& world, ObjectId model) override { removed.push_back(world.tree().path(model)); }
   std::vector<std::string> removed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kinds of joint leave free, and how their positions are counted.
+// Degrees of freedom of the joint kinds, and their positions.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStep = 0.005;
 
-/// A world of two jointed links and what the tests ask of it.
+/// A world of two links and a joint, with helper functions.
 struct Jointed {
   explicit Jointed(JointDescription description) : world(jointed(std::move(description)), 0) {}
 

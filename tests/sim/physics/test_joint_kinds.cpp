@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Universal joints, screws, gearboxes, springs and joints that follow others, against what mechanics says.
+// Universal joints, screws, gearboxes, springs and mimic joints, compared with theory.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"
@@ -75,7 +75,7 @@ TEST(Screw, MovesByItsLeadForEachTurn) {
   for (const double lead : {0.5, 0.01, -0.1}) {
     for (const char* parent : {"world", "base"}) {
       Jointed pair(screw(lead, parent));
-      pair.world.set_target_velocity(pair.joint, 2 * M_PI);  // a turn a second
+      pair.world.set_target_velocity(pair.joint, 2 * M_PI);  // a turn per second
       pair.world.advance(3, kStep);
       const double turns = pair.world.joint_position(pair.joint) / (2 * M_PI);
       EXPECT_NEAR(turns, 3, 0.1);
@@ -98,7 +98,7 @@ TEST(Screw, FallsAsItsInertiaLetsIt) {
   described.gravity = {0, 0, -9.81};
   Jointed pair(described);
   pair.world.advance(1, kStep);
-  // m g = (m + I / p^2) a, with p the way for a radian, here for 1 kg and 1 kg m^2.
+  // m g = (m + I / p^2) a, with the lead p per radian, here for 1 kg and 1 kg m^2.
   const double slope = kLead / (2 * M_PI);
   const double acceleration = 9.81 / (1 + 1 / (slope * slope));
   EXPECT_NEAR(pair.world.velocity(pair.arm).linear.Z(), -acceleration, acceleration * 1e-3);
@@ -166,7 +166,7 @@ TEST_P(Gearbox, CarriesTorqueByItsRatio) {
   const ObjectId in = world.tree().find("/joint0");
   world.set_target_velocity(in, 100);
   world.advance(1, kStep);
-  // 1 N m turns the inertias 1 and 1 ratio^2 kg m^2.
+  // 1 N m accelerates the inertias 1 and 1 ratio^2 kg m^2.
   EXPECT_NEAR(world.joint_velocity(in), 1 / (1 + kRatio * kRatio), 0.01);
 }
 
@@ -268,7 +268,7 @@ TEST_P(Motorised, DampingSetsTheSpeedOfAWeakMotor) {
   EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 3.0 / 2, 1e-6);
 }
 
-/// A leader and a follower on hinges of their own.
+/// A leader and a follower, each on a hinge.
 SceneDescription mimicking(MimicDescription mimic) {
   ModelDescription hand = model("Hand", link("left"));
   hand.links.push_back(link("right", {1, 0, 0}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motors, limits, friction and damping of joints, against what mechanics says.
+// Motors, limits, friction and damping of joints, compared with theory.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
@@ -156,8 +156,8 @@ TEST_P(AnyAxis, LimitsStopAMovingLink) {
       axis.run(kStep);
       furthest = std::max(furthest, side * axis.position());
     }
-    EXPECT_NEAR(furthest, 0.4, 1.5 * kStep) << "goes beyond by no more than a step's way";
-    EXPECT_LE(std::abs(axis.velocity()), 0.21) << "rebounds by no more than ODE's correction of that";
+    EXPECT_NEAR(furthest, 0.4, 1.5 * kStep) << "overshoots by at most the distance of one step";
+    EXPECT_LE(std::abs(axis.velocity()), 0.21) << "rebounds at most with ODE's correction of the overshoot";
   }
 }
 
@@ -186,7 +186,7 @@ TEST_P(AnyAxis, DampedLinkRestsOnItsLimit) {
   Axis axis(GetParam(), damped);
   axis.push(4);
   axis.run(3);
-  EXPECT_NEAR(axis.position(), 0.4, 0.1) << "but for the rebound";
+  EXPECT_NEAR(axis.position(), 0.4, 0.1) << "except for the rebound";
   EXPECT_NEAR(axis.velocity(), 0, 1e-3);
 }
 
@@ -221,7 +221,7 @@ TEST_P(AnyAxis, DampingDecaysExponentially) {
     axis.push(1);
     axis.run(0.4);
     const double exact = std::exp(-damping * 0.4);
-    // The implicit step errs by d h / 2m of the exponent.
+    // The error of the implicit step is d h / 2m of the exponent.
     EXPECT_NEAR(axis.velocity(), exact, exact * damping * 0.4 * damping * kStep);
   }
 }
@@ -247,7 +247,7 @@ TEST_P(AnyAxis, FrictionAndDampingAddUp) {
   const double exact = (2 + 0.5 / 0.4) * std::exp(-0.4 * 0.5) - 0.5 / 0.4;
   EXPECT_NEAR(axis.velocity(), exact, 0.005);
   axis.run(5);
-  EXPECT_NEAR(axis.velocity(), 0, 1e-9) << "friction brings it to a stand";
+  EXPECT_NEAR(axis.velocity(), 0, 1e-9) << "friction stops it";
 }
 
 TEST(Pendulum, SwingsWithThePeriodOfTheory) {
@@ -256,11 +256,11 @@ TEST(Pendulum, SwingsWithThePeriodOfTheory) {
   ModelDescription pendulum = model("Pendulum", link("arm", {kLength, 0, 0}));
   pendulum.links[0].inertia_diagonal = Vector3(0.01, 0.01, 0.01);
   pendulum.joints.push_back(joint("revolute", {axis(Vector3::UnitY)}, {}, "world"));
-  SceneDescription described = scene({pendulum}, Vector3(9.81, 0, 0));  // down is where the arm points
+  SceneDescription described = scene({pendulum}, Vector3(9.81, 0, 0));  // gravity along the arm
   World world(described, 0);
   const ObjectId id = world.tree().find("/joint");
   world.set_velocity(world.tree().find("/arm"), {{0, 0, -0.05 * kLength}, {0, 0.05, 0}});
-  // Upward passages through zero, found between steps by interpolation.
+  // Upward zero crossings, interpolated between steps.
   std::vector<double> passages;
   double before = 0;
   for (int i = 1; passages.size() < 11 && i < 40000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How capsules, ellipsoids and surfaces of triangles lie, roll and slide.
+// Capsules, ellipsoids and meshes: resting, rolling and sliding.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace bubblesim::test::test_mesh_contacts {
 namespace {
 
 constexpr double kStep = 0.005;
-constexpr double kLayer = 0.001;  // how deep things may sink into one another, m
+constexpr double kLayer = 0.001;  // m, allowed penetration
 
 ModelDescription solid(const char* name, const Geometry& geometry, const Pose& pose) {
   ModelDescription described = model(name, link_with(geometry), pose);
@@ -23,7 +23,7 @@ ModelDescription solid(const char* name, const Geometry& geometry, const Pose& p
   return described;
 }
 
-/// Where a thing is after two seconds, and how fast.
+/// Position and velocity of a body after two seconds.
 struct Rest {
   Pose pose;
   Twist velocity;
@@ -42,7 +42,7 @@ void expect_at_rest(const Rest& rest, double height) {
   EXPECT_LT(rest.velocity.angular.Length(), 1e-2);
 }
 
-/// Grounds whose top lies at z = 0.
+/// Grounds with their surface at z = 0.
 std::vector<ModelDescription> grounds() {
   return {floor(), still(model("Table", link_with(Box{{4, 4, 1}}), at(0, 0, -0.5))),
           still(model("Mesa", link_with(box_mesh({4, 4, 1})), at(0, 0, -0.5)))};
@@ -55,7 +55,7 @@ TEST(MeshContact, ABoxOfTrianglesRestsAsABoxDoes) {
   }
 }
 
-/// A square of a metre about the origin, of 2 n^2 triangles; `height` says how high it is where.
+/// A square of 1 m about the origin, of 2 n^2 triangles; `height` is the height at each point.
 template <class Height>
 std::shared_ptr<const TriangleMesh> fine_ground(std::uint32_t n, const Height& height) {
   TriangleMesh mesh;
@@ -151,7 +151,7 @@ TEST(MeshContact, AnEllipsoidComesToRestOnItsFlatSide) {
 }
 
 TEST(MeshContact, GroundFromHeightsHoldsABallInItsValley) {
-  // A V along y, 1 m deep over 2 m: a ball of radius r touches both slopes, its middle r * sqrt(2) above the bottom.
+  // A V along y, 1 m deep over 2 m: a ball of radius r touches both slopes, its centre is r * sqrt(2) above the bottom.
   const auto ground = raise_ground(Heights{3, 2, {1, 0, 1, 1, 0, 1}}, {2, 2, 1});
   const Rest rest = after_two_seconds(Sphere{0.1}, at(0, 0, 0.2), still(model("Valley", link_with(Mesh{ground}))));
   EXPECT_NEAR(rest.pose.Pos().Z(), 0.1 * std::sqrt(2.0), 3 * kLayer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models that come into a running world and leave it.
+// Adding models to a running world and removing them.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -46,7 +46,7 @@ std::vector<std::uint64_t> history(Simulation& simulation, int passes = 30) {
   return hashes;
 }
 
-/// The text of the error that an action ends in.
+/// The text of the error that an action throws.
 template <class Error>
 std::string error_of(const std::function<void()>& action) {
   try {
@@ -71,7 +71,7 @@ TEST(AddedModel, TakesPartAsIfItHadBeenThereFromTheStart) {
 }
 
 TEST(AddedModel, IsStoodUpon) {
-  for (const double x : {0.0, 500.0}) {  // within and outside the extent of what stood there before
+  for (const double x : {0.0, 500.0}) {  // inside and outside the extent of the existing models
     World world(scene({floor(), model("Ball", link_with(Sphere{0.1}), at(x, 0, 2))}), 0);
     world.advance(0.1, 0.005);
     world.add_model(still(model("Table", link_with(Box{{1, 1, 1}}), at(x, 0, 0.5))));
@@ -109,9 +109,9 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
       {[](auto& m) { m.links[1].inertia_diagonal.X() = -1; }, "/Robot/arm: the inertia is"},
       {[](auto& m) { m.links.clear(); }, "/Robot: has no link"},
       {[](auto& m) { m.joints[0].child = "amr"; }, "did you mean arm"},
-      {[](auto& m) { m.name = "Box0"; }, "/Box0: the world has a model of this name already"},
+      {[](auto& m) { m.name = "Box0"; }, "/Box0: a model with this name exists already"},
       {[](auto& m) { m.name = ""; }, "the model has no name"},
-      {[](auto& m) { m.name = "a/b"; }, "the name holds a '/'"},
+      {[](auto& m) { m.name = "a/b"; }, "the name contains '/'"},
   };
   Simulation simulation(scene(heap()));
   simulation.step();
@@ -163,7 +163,7 @@ TEST(RemovedModel, HasHandlesThatNameNothingAnyMore) {
   const ObjectId other = simulation.world().tree().find("/Box0");
   simulation.remove_model(first);
   const ObjectId second = simulation.add_model(robot(at(5, 6, 7)));
-  EXPECT_GT(second, sonar) << "no handle is used twice";
+  EXPECT_GT(second, sonar) << "handles are not reused";
   EXPECT_EQ(simulation.world().tree().at(other).name, "Box0");
   EXPECT_NE(error_of<NoSuchObject>([&] { simulation.world().pose(first); }).find("was removed"), std::string::npos);
   EXPECT_NE(error_of<NoSuchObject>([&] { simulation.read_proximity(sonar); }).find("was removed"), std::string::npos);
@@ -229,7 +229,7 @@ TEST(DivergedWorld, GoesOnWithoutWhatDiverged) {
   EXPECT_NO_THROW(simulation.step());
 }
 
-/// Notes which models it is told of, and adds or removes one where it is asked to.
+/// Records the models of its calls, and adds or removes one on request.
 struct Watcher : System {
   explicit Watcher(Simulation& s) : simulation(s) { s.add(*this); }
 
@@ -242,7 +242,7 @@ struct Watcher : System {
   void model_added(World& world, ObjectId model) override { told.push_back("+" + world.tree().path(model)); }
   void model_removing(World& world, ObjectId model) override {
     told.push_back("-" + world.tree().path(model));
-    world.pose(model);  // is still there
+    world.pose(model);  // still exists
   }
 
   Simulation& simulation;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Piles and things that lie still: the solver of big islands, and sleep.
+// Piles and resting bodies: the solver of large contact islands, and sleep.
 #include <gtest/gtest.h>
 #include <ode/ode.h>
 
@@ -16,7 +16,7 @@ ModelDescription box(const std::string& name, const Vector3& position) {
   return made;
 }
 
-/// Boxes in a wall of `rows`, which all touch.
+/// A wall of `rows` of boxes, which all touch.
 SceneDescription wall(int rows) {
   std::vector<ModelDescription> models{floor()};
   for (int row = 0; row < rows; ++row) {
@@ -53,7 +53,7 @@ TEST(Pile, DoesNotDependOnOtherWorlds) {
     one.advance(0.05, kStep);
     other.advance(0.05, kStep);
   }
-  EXPECT_EQ(dRandGetSeed(), 12345u) << "what others draw is left alone";
+  EXPECT_EQ(dRandGetSeed(), 12345u) << "the random state of others is unchanged";
   EXPECT_EQ(one.state_hash(), alone.state_hash());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots that nobody commands stand where they are, and upright, however many points their wheels touch in.
+// Robots without commands stand still and upright, however many contact points their wheels have.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
@@ -11,13 +11,13 @@ namespace {
 constexpr double kStep = 0.005;
 constexpr double kRadius = 0.0625;  // m, of all wheels
 
-/// Of a cylinder about its y axis.
+/// The inertia of a cylinder about its y axis.
 Vector3 inertia_of_wheel(double mass, double width) {
   const double across = mass * (3 * kRadius * kRadius + width * width) / 12;
   return {across, mass * kRadius * kRadius / 2, across};
 }
 
-/// A wheel with a tyre and a rim, as files have them: `shapes` cylinders side by side on one axle.
+/// A wheel with a tyre and a rim, as in robot files: `shapes` cylinders side by side on one axle.
 LinkDescription wheel(const std::string& name, double x, double y, int shapes, double min_depth) {
   LinkDescription wheel = link(name, {x, y, kRadius});
   wheel.mass = 1;
@@ -39,7 +39,7 @@ JointDescription hinge(const std::string& parent, const std::string& child, cons
   return made;
 }
 
-/// A base of 58 kg on two driven wheels and four casters that swivel.
+/// A base of 58 kg on two driven wheels and four swivel casters.
 ModelDescription carrier(int shapes, double min_depth, const Pose& pose) {
   LinkDescription base = link("base");
   base.mass = 58;
@@ -91,7 +91,7 @@ TriangleMesh wheel_triangles(double radius, double width, std::size_t segments) 
   return mesh;
 }
 
-/// A rover of 4 kg whose four driven wheels have a hard rim inside a mesh, and grip less across than along.
+/// A rover of 4 kg whose four driven wheels have a hard rim inside a mesh, with less friction across than along.
 ModelDescription rover() {
   LinkDescription base = link("base", {0, 0, 0.15});
   base.mass = 4.4;
@@ -125,7 +125,7 @@ ModelDescription rover() {
 
 double lean(const Pose& pose) { return std::acos(pose.Rot().RotateVector(Vector3::UnitZ).Z()); }
 
-/// Lets a robot fall a little askew and settle, and watches it for half a minute.
+/// Drops a robot slightly tilted, lets it settle, and measures its motion for half a minute.
 void expect_to_stand(int shapes, double min_depth) {
   SCOPED_TRACE(std::to_string(shapes) + " shapes a wheel, min_depth " + std::to_string(min_depth));
   World world(scene({floor(), carrier(shapes, min_depth, Pose(0, 0, 0.02, 0.01, 0.02, 0))}), 3);
@@ -134,7 +134,7 @@ void expect_to_stand(int shapes, double min_depth) {
   const Pose before = world.pose(robot);
   world.advance(30, kStep);
   const Pose after = world.pose(robot);
-  // Each wheel rests in the millimetre above the depth to which it may sink: over 0.4 m that is 0.14 degrees at most.
+  // Each wheel rests within a millimetre above its allowed penetration: over 0.4 m that is at most 0.14 degrees.
   EXPECT_LT(lean(after), 0.001 / 0.4);
   EXPECT_LE(after.Pos().Z(), 1e-4 - (min_depth - 0.001));
   EXPECT_GE(after.Pos().Z(), -1e-4 - min_depth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two surfaces in touch make together, against what mechanics says.
+// Combined parameters of two touching surfaces, compared with theory.
 #include <gtest/gtest.h>
 
 #include "physics/surface_pair.hpp"
@@ -9,7 +9,7 @@ namespace bubblesim::test::test_surfaces {
 namespace {
 
 constexpr double kStep = 0.005;
-constexpr double kLayer = 0.001;  // m in which rigid contacts rest
+constexpr double kLayer = 0.001;  // m, overlap of rigid contacts
 
 ModelDescription thing(Geometry geometry, const Surface& surface, const Pose& pose) {
   ModelDescription made = model("Thing", link_with(std::move(geometry)), pose);
@@ -37,7 +37,7 @@ Surface bouncy(double restitution, double threshold) {
   return surface;
 }
 
-/// How high a ball that is dropped from 1 m above its rest gets after the first bounce.
+/// The height after the first bounce of a ball that is dropped from 1 m above its rest position.
 double rebound(const Surface& ball, const Surface& ground) {
   Fall fall(ball, ground, Sphere{0.1}, at(0, 0, 1.1));
   double highest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How time passes in a world: free motion, divergence, independence of worlds.
+// Advancing a world: free motion, divergence, independence of worlds.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -104,7 +104,7 @@ TEST(DivergingWorld, DoesNotDisturbTheNextOne) {
   }
 }
 
-/// Boxes that fall into a heap: chaotic, so every influence from outside would show.
+/// Boxes that fall into a pile: chaotic, so every external influence would show.
 SceneDescription heap(int boxes) {
   std::vector<ModelDescription> models{floor()};
   for (int i = 0; i < boxes; ++i) {
@@ -124,7 +124,7 @@ std::uint64_t hash_after(int boxes, std::uint64_t seed) {
 
 TEST(StateHash, IsEqualForEqualHistories) {
   EXPECT_EQ(hash_after(5, 3), hash_after(5, 3));
-  EXPECT_NE(hash_after(5, 3), hash_after(5, 4)) << "the seed is a part of it";
+  EXPECT_NE(hash_after(5, 3), hash_after(5, 4)) << "the hash includes the seed";
   EXPECT_NE(hash_after(5, 3), hash_after(4, 3));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses and velocities of objects, and what setters refuse.
+// Poses and velocities of objects, and invalid arguments of setters.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 0.005;
 
-/// A turned robot: `base` with an offset centre of mass and a sensor, `arm` on a hinge; and a static wall.
+/// A rotated robot: `base` with an offset centre of mass and a sensor, `arm` on a hinge; and a static wall.
 SceneDescription robot() {
   ModelDescription robot = model("Robot", link("base", {0.1, 0.2, 0.3}), Pose(1, 2, 3, 0.1, 0.2, 0.3));
   robot.links[0].pose.Rot() = turn(0.5, -0.4, 0.2);
@@ -88,7 +88,7 @@ TEST_F(RobotWorld, SpinningFreeBodyTurnsAboutItsCentreOfMass) {
   top.links[0].centre_of_mass = {1, 0, 0};
   World one(scene({top}, Vector3::Zero), 0);
   const ObjectId id = one.tree().find("/Top");
-  one.set_velocity(id, {{0, -0.5, 0}, {0, 0, 0.5}});  // so that the centre of mass rests
+  one.set_velocity(id, {{0, -0.5, 0}, {0, 0, 0.5}});  // the centre of mass is at rest
   one.advance(2, kStep);
   const Vector3 centre = one.pose(id).CoordPositionAdd(Vector3(1, 0, 0));
   EXPECT_LT(centre.Distance({1, 0, 0}), 1e-9);
@@ -142,7 +142,7 @@ TEST_F(RobotWorld, ShapesAreReportedWhereTheyStand) {
   expect_same(shapes[0].pose, described.models[1].pose);
 }
 
-/// Expects an InvalidInput whose text holds all of `parts`, and a world that did not change.
+/// Expects an InvalidInput whose text contains all of `parts`, and an unchanged world.
 void expect_refused(World& world, const std::function<void()>& call, const std::vector<std::string>& parts) {
   const std::uint64_t before = world.state_hash();
   try {
@@ -206,8 +206,8 @@ TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
   expect_refused(world, [&] { world.joint_position(find("/base")); }, {"/base", "link", "not a joint"});
   expect_refused(world, [&] { world.joint_child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
   expect_refused(world, [&] { world.set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
-  expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "moves with its link"});
-  expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "moves with its link"});
+  expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "cannot be moved on its own"});
+  expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_pose(find("/Wall"), {}); }, {"/Wall", "static"});
   expect_refused(world, [&] { world.set_velocity(find("/Wall/link"), {}); }, {"/link", "static"});
   expect_refused(world, [&] { world.joint_position(find("/joint"), 1); }, {"/joint", "index 1"});

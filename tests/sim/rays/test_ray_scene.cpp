@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays in single precision beside the exact ones of World::cast_ray.
+// Single-precision rays compared with the exact rays of World::cast_ray.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kExact = 1e-4;  // m
 constexpr float kFar = 100;
 
-/// A world beside its rays.
+/// A world and its ray scene.
 struct Traced {
   explicit Traced(SceneDescription description) : scene(std::move(description)), world(scene, 0) {
     for (const ModelDescription& model : scene.models) {
@@ -119,7 +119,7 @@ TEST(RayScene, HasItsInfinitePlanesSolidBelow) {
   EXPECT_FALSE(traced.hit({0, 0, -1}, Vector3::UnitZ));
 }
 
-/// Shapes of all kinds in any pose, every other of them able to move.
+/// Shapes of all kinds in any pose; every second one can move.
 SceneDescription clutter(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-8, 8);
   std::uniform_real_distribution<double> angle(-3, 3);
@@ -140,14 +140,14 @@ SceneDescription clutter(std::mt19937& random) {
   return scene(models, Vector3::Zero);
 }
 
-/// Rays from anywhere to anywhere; those that only just touch an edge may go either way.
+/// Random rays; those that only touch an edge may or may not hit.
 void expect_as_exact_rays(const Traced& traced, std::mt19937& random, ObjectId ignored) {
   std::uniform_real_distribution<double> place(-12, 12);
   std::normal_distribution<double> any;
   int hits = 0;
   int differing = 0;
   for (int i = 0; i < 4000; ++i) {
-    // Starts that single precision holds exactly: the exact ray then is the same.
+    // Origins that are exact in single precision: the exact ray is then the same.
     const Vector3 origin(static_cast<float>(place(random)), static_cast<float>(place(random)),
                          static_cast<float>(place(random) + 8));
     const Vector3 direction = Vector3(any(random), any(random), any(random)).Normalized();
@@ -238,7 +238,7 @@ TEST(RayScene, TellsWhereOnAShapeARayEnded) {
     const rays::RayPacket packet = traced.trace({0, 0.5, 0.25}, Vector3::UnitX);
     ASSERT_TRUE(packet.hit(0));
     const Vector3 place = traced.rays.in_shape(packet, 0, {4, 0.5, 0.25});
-    EXPECT_LT(place.Distance({-0.5, 1, 0.25}), kExact);  // a quarter turn left: the box's y points to -x
+    EXPECT_LT(place.Distance({-0.5, 1, 0.25}), kExact);  // a quarter turn to the left: the box's y points to -x
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFar = 1000;
 
-/// Casts rays at one shape that stands still in an otherwise empty world.
+/// Casts rays at one static shape in an otherwise empty world.
 std::optional<RayHit> hit(const Geometry& geometry, const Vector3& origin, const Vector3& direction,
                           double max_distance = kFar, const Pose& pose = {}) {
   const World world(scene({still(model("Target", link_with(geometry), pose))}), 0);
@@ -71,7 +71,7 @@ TEST(RayOnCylinder, MeetsItsSide) {
 
 TEST(RayOnCylinder, MeetsItsCaps) {
   expect_hit(hit(kCylinder, {0.3, 0.4, 10}, {0, 0, -1}), 8, {0, 0, 1});
-  // Comes in over the rim's height, 45 degrees down, and lands on the cap half a metre from its middle.
+  // Passes above the rim, 45 degrees down, and hits the cap half a metre from its centre.
   expect_hit(hit(kCylinder, {-2.5, 0, 4}, {1, 0, -1}), 2 * std::sqrt(2.0), {0, 0, 1});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The step: its phases, its clock, when sensors measure, and that it repeats itself.
+// The simulation step: phases, clock, sensor updates, and repeatability.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace {
 
 using Log = std::vector<std::pair<std::string, double>>;
 
-/// Notes which of its phases is called when.
+/// Records the calls of its phases.
 class Recorder : public System {
  public:
   Recorder(std::string name, Log& log, const Simulation& simulation)
@@ -91,10 +91,10 @@ TEST(Drain, MovesNothing) {
 }
 
 constexpr double kExact = 1e-4;                   // m, of rays
-constexpr double kExactInPasses = kExact / 0.05;  // for what moves by 1 m/s
+constexpr double kExactInPasses = kExact / 0.05;  // for a motion of 1 m/s
 
-/// A sonar that looks along x at a sphere that starts 5 m away and comes nearer by 1 m/s: the distance tells when it
-/// was measured.
+/// A sonar that looks along x at a sphere, which starts 5 m away and approaches with 1 m/s: the distance shows the time
+/// of the measurement.
 SceneDescription approach(double update_rate) {
   ModelDescription eye = still(model("Eye", link("link")));
   SensorDescription sonar;
@@ -110,7 +110,7 @@ struct Approach {
   explicit Approach(double update_rate) : simulation(approach(update_rate)) {
     simulation.world().set_velocity(simulation.world().tree().find("/Ball"), {{-1, 0, 0}, {}});
   }
-  /// How many steps ago the sensor measured what it says now.
+  /// Age of the sensor's measurement in steps.
   double age_in_passes() {
     const double measured_at = 5 - simulation.read_proximity(sonar).distance;
     return (simulation.time() - measured_at) / simulation.time_step();
@@ -133,14 +133,14 @@ class SensorRate : public ::testing::TestWithParam<std::pair<double, int>> {};
 TEST_P(SensorRate, MeasuresOnceInItsPeriod) {
   const auto [rate, passes] = GetParam();
   Approach approach(rate);
-  approach.age_in_passes();  // from now on somebody wants it
+  approach.age_in_passes();  // the sensor has a reader from now on
   for (int i = 0; i < 60; ++i) {
     approach.simulation.step();
     EXPECT_NEAR(approach.age_in_passes(), i % passes, kExactInPasses) << "rate " << rate << " pass " << i;
   }
 }
 
-// A step is 1/20 s; rates above cannot be reached.
+// A step is 1/20 s; higher rates are not possible.
 INSTANTIATE_TEST_SUITE_P(Rates, SensorRate,
                          ::testing::Values(std::pair(20.0, 1), std::pair(10.0, 2), std::pair(5.0, 4),
                                            std::pair(2.0, 10), std::pair(1000.0, 1)));
@@ -160,10 +160,10 @@ TEST(SensorRateThatDoesNotDivideTheClock, IsKeptOnAverage) {
 TEST(SensorThatNobodyReads, MeasuresWhenItIsAsked) {
   Approach approach(1);
   for (int i = 0; i < 33; ++i) approach.simulation.step();
-  // Had it measured when it was due, at 1.0 s, the answer would be old.
+  // A measurement at its due time, 1.0 s, would be old.
   EXPECT_NEAR(approach.age_in_passes(), 0, kExactInPasses);
   approach.simulation.step();
-  EXPECT_NEAR(approach.age_in_passes(), 1, kExactInPasses) << "now it keeps to its rate again";
+  EXPECT_NEAR(approach.age_in_passes(), 1, kExactInPasses) << "now it measures with its rate again";
 }
 
 TEST(Measuring, IsIndependentOfTheRate) {
@@ -218,7 +218,7 @@ TEST(Sonar, SeesWhatStandsAsideWithinItsCone) {
   for (const double side : {0.9, 1.2}) {
     SceneDescription described = approach(0);
     std::get<SonarDescription>(described.models[0].links[0].sensors[0].kind).half_angle = 0.3;
-    // A thin post at the edge of the cone: 3 m ahead, off by the angle.
+    // A thin post at the edge of the cone: 3 m ahead, off the axis by the angle.
     described.models[1] = still(model("Post", link_with(Cylinder{0.1, 4}), at(3, 3 * std::tan(0.3 * side), 0)));
     Simulation simulation(described);
     const ProximityReading reading = simulation.read_proximity(simulation.world().tree().find("/Sonar"));
@@ -242,7 +242,7 @@ TEST(SameSeed, GivesTheSameStateInTwentyRuns) {
   for (int run = 1; run < 20; ++run) EXPECT_EQ(hash_of_a_run(7), first);
 }
 
-/// Boxes that fall on each other, and a sonar that somebody reads.
+/// Boxes that fall on each other, and a sonar that is read.
 SceneDescription tumble() {
   SceneDescription described = approach(3);
   described.gravity = {0, 0, -9.81};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests to start, pause, stop and end a simulation, and what becomes of them.
+// Requests to start, pause, stop and end a simulation, and their effects.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +13,7 @@
 namespace bubblesim::test::test_simulation_run {
 namespace {
 
-/// Notes the steps, stops and starts that it sees, with the simulation's state; does something more when stopped.
+/// Records steps, stops and starts with the simulation's state; calls a function when stopped.
 struct Witness : System {
   explicit Witness(const Simulation& watched) : simulation(watched) {}
 
@@ -36,7 +36,7 @@ struct Witness : System {
 
 using Seen = std::vector<std::string>;
 
-/// A ball in free fall, watched.
+/// A ball in free fall, with a recorder.
 struct Run : testing::Test {
   Run() { simulation.add(witness); }
 
@@ -123,13 +123,13 @@ TEST_F(Run, AStopMayBeAnEnd) {
   simulation.carry_out_requests();
   EXPECT_TRUE(simulation.ending());
   EXPECT_EQ(witness.seen, Seen{"pass stopping"});
-  EXPECT_EQ(simulation.state(), RunState::kStopping) << "as what takes part in it sees it at its end";
+  EXPECT_EQ(simulation.state(), RunState::kStopping) << "seen by systems in the last step";
   EXPECT_DOUBLE_EQ(simulation.time(), 0.05);
 }
 
 TEST_F(Run, InSynchronousModeEachTriggerIsGoodForOnePass) {
   EXPECT_TRUE(simulation.step_is_due());
-  simulation.trigger_step();  // not in the mode: nothing
+  simulation.trigger_step();  // no effect: not in synchronous mode
   simulation.set_synchronous(true);
   EXPECT_FALSE(simulation.step_is_due());
   simulation.trigger_step();
@@ -142,7 +142,7 @@ TEST_F(Run, InSynchronousModeEachTriggerIsGoodForOnePass) {
   simulation.set_synchronous(false);
   EXPECT_TRUE(simulation.step_is_due());
   simulation.set_synchronous(true);
-  EXPECT_FALSE(simulation.step_is_due()) << "a trigger of before";
+  EXPECT_FALSE(simulation.step_is_due()) << "an earlier trigger";
 }
 
 TEST_F(Run, APauseKeepsTriggersAndAStopForgetsThem) {

@@ -14,7 +14,7 @@ class SceneTreePaths : public ::testing::Test {
  protected:
   ObjectId add(ObjectKind kind, const std::string& name, ObjectId parent) { return tree.add(kind, name, parent, 0); }
 
-  /// What find() says when it finds nothing.
+  /// The error text of find().
   std::string complaint(const std::string& path, ObjectId from = kNoObject, std::size_t index = 0) const {
     try {
       tree.find(path, from, index);
@@ -85,18 +85,18 @@ TEST_F(SceneTreePaths, TwoDotsRepeatedGoUpLevelByLevel) {
   EXPECT_EQ(tree.find("../..", eye0), robot);
   EXPECT_EQ(tree.find("../../arm", eye0), arm);
   EXPECT_EQ(tree.find("../../../Other", eye0), other);
-  EXPECT_NE(complaint("../../../../Other", eye0), "found") << "there is nothing above the scene";
+  EXPECT_NE(complaint("../../../../Other", eye0), "found") << "the scene has no parent";
 }
 
 TEST_F(SceneTreePaths, ColonIsTheModel) {
   EXPECT_EQ(tree.find(":", eye0), robot);
   EXPECT_EQ(tree.find(":/Motor", eye0), motor);
-  EXPECT_EQ(tree.find(":", robot), robot) << "a model is its own";
+  EXPECT_EQ(tree.find(":", robot), robot) << "the model of a model is itself";
 }
 
 TEST_F(SceneTreePaths, TwoColonsAreWhatTheModelStandsIn) {
   EXPECT_EQ(tree.find("::/Other", eye0), other);
-  EXPECT_NE(complaint("::", eye0), "found") << "the scene is no object";
+  EXPECT_NE(complaint("::", eye0), "found") << "the scene is not an object";
 }
 
 TEST_F(SceneTreePaths, RelativePathNeedsAStart) {
@@ -111,7 +111,7 @@ TEST_F(SceneTreePaths, BracketsPickAmongSiblings) {
   EXPECT_EQ(tree.find("/wheel[2]"), wheel2);
   EXPECT_NE(complaint("/wheel[3]"), "found");
   EXPECT_EQ(tree.find("/Robot2/arm[0]"), robot2_arm);
-  EXPECT_NE(complaint("/arm[1]"), "found") << "the two arms are no siblings";
+  EXPECT_NE(complaint("/arm[1]"), "found") << "the two arms are not siblings";
 }
 
 TEST_F(SceneTreePaths, BracesPickInTheScene) {
@@ -138,7 +138,7 @@ TEST_F(SceneTreePaths, ManyStarsAreDecidedQuickly) {
 
 TEST_F(SceneTreePaths, IndexPicksALaterMatch) {
   EXPECT_EQ(tree.find("/arm", kNoObject, 1), robot2_arm);
-  EXPECT_EQ(complaint("/arm", kNoObject, 2), "only 2 objects match '/arm', there is none with index 2");
+  EXPECT_EQ(complaint("/arm", kNoObject, 2), "only 2 objects match '/arm': there is no match with index 2");
 }
 
 TEST_F(SceneTreePaths, SimilarNamesAreSuggested) {

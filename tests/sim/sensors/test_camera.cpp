@@ -28,7 +28,7 @@ ModelDescription thing(const std::string& name, const VisualDescription& visual,
   return thing;
 }
 
-/// Looks along x from the origin unless the camera's model is moved.
+/// A camera that looks along x from the origin, unless its model is moved.
 SceneDescription with_camera(const CameraDescription& camera, std::vector<ModelDescription> others,
                              const Pose& pose = {}) {
   return with_sensor("Camera", camera, std::move(others), pose);
@@ -114,7 +114,7 @@ TEST(Picture, LeavesOutWhatIsNearerThanItsNearPlane) {
 }
 
 TEST(Picture, HasTheUpperLeftFirst) {
-  // Left is +y, up is +z. At 2 m the picture is 4 m wide.
+  // Left is +y, up is +z. At 2 m the image is 4 m wide.
   const Picture picture(with_camera(camera(), {thing("UpperLeft", colored(Sphere{0.3}, {}), at(2, 1, 1))}));
   const ObjectId seen = picture.object(10, 5);
   EXPECT_NE(seen, kNoObject);
@@ -136,7 +136,8 @@ TEST(Picture, TellsTheLinkInEachPixel) {
 TEST(Picture, FollowsTheFieldOfView) {
   CameraDescription narrow = camera();
   narrow.horizontal_fov = 2 * std::atan(0.5);
-  // A wall 2 m ahead that ends in the picture's middle on the left and 0.5 m right of it: of the 2 m seen, a quarter.
+  // A wall 2 m ahead that ends in the image centre on the left and 0.5 m to the right of it: a quarter of the visible 2
+  // m.
   const Picture picture(with_camera(narrow, {thing("Wall", colored(Box{{1, 0.5, 99}}, {}), at(2.5, -0.25, 0))}));
   EXPECT_EQ(picture.object(19, 15), kNoObject);
   EXPECT_NE(picture.object(20, 15), kNoObject);
@@ -151,7 +152,7 @@ Light shining(const Vector3& direction, const Color& color) {
   return light;
 }
 
-/// Looks down at the ground from 2 m, with one light.
+/// A camera 2 m above the ground that looks down, with one light.
 SceneDescription ground_under(const Vector3& light, std::vector<ModelDescription> others = {}) {
   others.push_back(thing("Ground", colored(Plane{}, {0.8F, 0.6F, 0.4F})));
   SceneDescription described = with_camera(camera(), others, Pose(0, 0, 2, 0, M_PI / 2, 0));
@@ -173,7 +174,7 @@ TEST(Light, FromBelowLeavesAmbient) {
 }
 
 TEST(Light, ThrowsAShadowBesideAThing) {
-  // A pole's top at (-1, 0, 1) shades the origin from light that falls along (1, 0, -1).
+  // The top of a pole at (-1, 0, 1) shades the origin from light along (1, 0, -1).
   const ModelDescription ball = thing("Ball", colored(Sphere{0.2}, {}), at(-1, 0, 1));
   const Rgb ambient = bytes(0.8 * 0.2, 0.6 * 0.2, 0.4 * 0.3);
   SceneDescription described = ground_under({1, 0, -1}, {ball});
@@ -230,12 +231,12 @@ TEST(Checker, AlternatesInTheShapesFrame) {
   described.environment.ambient = {1, 1, 1};
   described.environment.lights = {};
   const Picture picture(described);
-  // 2 m ahead a pixel is 0.1 m: fields of 10 pixels, and the middle of the picture is a corner.
+  // 2 m ahead a pixel is 0.1 m: squares of 10 pixels, with a corner at the image centre.
   EXPECT_NE(picture.rgb(15, 10), picture.rgb(25, 10));
   EXPECT_NE(picture.rgb(15, 10), picture.rgb(15, 20));
   EXPECT_EQ(picture.rgb(15, 10), picture.rgb(25, 20));
-  EXPECT_EQ(picture.rgb(10, 10), picture.rgb(19, 14)) << "all of one field";
-  EXPECT_NE(picture.rgb(9, 10), picture.rgb(10, 10)) << "the next begins";
+  EXPECT_EQ(picture.rgb(10, 10), picture.rgb(19, 14)) << "all of one square";
+  EXPECT_NE(picture.rgb(9, 10), picture.rgb(10, 10)) << "the next square";
 }
 
 TEST(Antialias, MixesWhatMeetsInAPixel) {

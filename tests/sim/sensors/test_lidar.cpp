@@ -16,7 +16,7 @@ SceneDescription with_lidar(const LidarDescription& lidar, std::vector<ModelDesc
   return with_sensor("Lidar", lidar, std::move(others), pose);
 }
 
-/// What it measures; holds the reading.
+/// Its measurement; holds the reading.
 class Scan {
  public:
   explicit Scan(const SceneDescription& scene, std::uint64_t seed = 0) {
@@ -73,8 +73,8 @@ TEST(Lidar, MeasuresFromItsLeastToItsGreatestRange) {
   const Scan scan(with_lidar(lidar, {wall("Ahead", {1, 1, 1}, at(0.55, 0, 0)), wall("Far", {1, 1, 1}, at(0, 30.6, 0)),
                                      wall("Right", {1, 1, 1}, at(0, -1.5, 0))}));
   EXPECT_NEAR(scan->ranges[0], 1, kExact);
-  EXPECT_EQ(scan->ranges[1], INFINITY) << "nearer than the minimal range, where the ray begins";
-  EXPECT_EQ(scan->ranges[2], INFINITY) << "beyond the maximal range (REP 117)";
+  EXPECT_EQ(scan->ranges[1], INFINITY) << "nearer than the minimum range, where the ray begins";
+  EXPECT_EQ(scan->ranges[2], INFINITY) << "beyond the maximum range (REP 117)";
 }
 
 TEST(Lidar, SeesPastWhatIsNearerThanItsMinimalRange) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The volumes of proximity sensors, felt out with a small ball.
+// The volumes of proximity sensors, probed with a small ball.
 #include <gtest/gtest.h>
 
 #include "bubblesim/simulation.hpp"

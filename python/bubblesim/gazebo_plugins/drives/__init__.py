@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gazebo's plugins that move robots."""
+"""Gazebo plugins for drives."""

@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class AckermannDrive(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs in ROS 2; motors stand for its PID controllers.
+class AckermannDrive(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs in ROS 2; joint motors replace its PID controllers.
 
-    As there, a Twist's linear.x is the speed (m/s), its angular.z the steering angle (rad) to the left when driving
-    forward.
+    As in Gazebo, a Twist's linear.x is the speed (m/s), its angular.z the steering angle (rad), to the left when
+    driving forward.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -51,11 +51,11 @@ class AckermannDrive(Device):
         )
         self._rate = Rate(p.number("update_rate", 100.0, least=0.0), self.simulation.time_step)
         variances = (p.number("covariance_x", 1e-5), p.number("covariance_y", 1e-5), p.number("covariance_yaw", 1e-3))
-        tells = p.flag("publish_odom", default=False)
+        publishes = p.flag("publish_odom", default=False)
         p.check()
         self._odometry = Odometry(
             self,
-            topic="odom" if tells else None,
+            topic="odom" if publishes else None,
             frame=p.text("odometry_frame", "odom"),
             base_frame=p.text("robot_base_frame", "base_footprint"),
             transform=p.flag("publish_odom_tf", default=False),
@@ -71,7 +71,7 @@ class AckermannDrive(Device):
             self._wheels.angle = max(-self._max_steering, min(angle, self._max_steering))
 
     def reset(self) -> None:
-        """Stand still, steer ahead."""
+        """Stop and steer straight ahead."""
         self._wheels.reset()
         self._rate.reset()
 
@@ -80,6 +80,6 @@ class AckermannDrive(Device):
         self._wheels.command()
 
     def publish(self) -> None:
-        """Tell the odometry."""
+        """Publish the odometry."""
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion_in_world(self.world, self.context.model))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheels of a car: two steered front ones and driven rear ones."""
+"""The wheels of a car: two steered front wheels and driven rear wheels."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bubblesim.gazebo_plugins.drives.wheels import drive_by_velocity
 
 
 class AckermannWheels:
-    """Their joints, and what they are told to do: a speed and a steering angle in the middle of the car."""
+    """The wheels' joints and their command: a speed and a steering angle at the middle of the car."""
 
     def __init__(
         self,
@@ -25,10 +25,10 @@ class AckermannWheels:
         steering_track: float,
         radius: float,
     ) -> None:
-        """Of which nothing is wanted yet; `reset` makes the motors ready. All lengths in metres.
+        """Create it with zero command; call `reset` before use. All lengths in metres.
 
         :param steering: the joints that turn the front wheels, the left one first.
-        :param rears: those of the left and of the right wheels.
+        :param rears: the joints of the left and of the right rear wheels.
         :param track: between the rear wheels.
         :param steering_track: between the axes that the front wheels are steered about.
         :param radius: of the rear wheels.
@@ -43,14 +43,14 @@ class AckermannWheels:
         self._radius = radius
 
     def reset(self) -> None:
-        """Stand still, steer ahead."""
+        """Stop and steer straight ahead."""
         self.speed = self.angle = 0.0
         drive_by_velocity(self._world, [joint for side in self._rears for joint in side])
         for joint in self._steering:
             self._world.set_motor_mode(joint, MotorMode.POSITION)
 
     def command(self) -> None:
-        """Have the motors do it."""
+        """Set the targets of the motors."""
         speeds = rear_wheel_speeds(self._wheelbase, self._track, self.speed, self.angle)
         for joints, speed in zip(self._rears, speeds, strict=True):
             for joint in joints:

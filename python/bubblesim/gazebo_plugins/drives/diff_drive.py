@@ -4,18 +4,18 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics
+from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class DiffDrive(Device):
+class DiffDrive(Plugin):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs in ROS Kinetic to Noetic.
 
-    Joints that are named as in ROS 2, <left_joint>, make it the plugin of ROS 2, which has no legacyMode and takes
-    several pairs of wheels: <num_wheel_pairs> of them, each joint, separation and diameter in an element of its own.
+    Joint names as in ROS 2, <left_joint>, select the plugin of ROS 2, which has no legacyMode and supports several
+    pairs of wheels: <num_wheel_pairs> of them, each joint, separation and diameter in a separate element.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -26,12 +26,11 @@ class DiffDrive(Device):
         left, right = (self._joints(f"{side}Joint", f"{side}_joint") for side in ("left", "right"))
         pairs = self._count_pairs(left, right)
         is_of_ros2 = any(parameter.name in ("left_joint", "ros") for parameter in p.plugin.parameters)
-        # In its first years the plugin took one wheel for the other, and in ROS 1 it still does unless told not to.
+        # The first versions of the plugin swapped the wheels. In ROS 1 it still does, unless legacyMode is false.
         if p.flag("legacyMode", default=not is_of_ros2):
             p.hint_if_missing(
                 "legacyMode",
-                "is missing and thus true, as in Gazebo: it turns to the right for a positive angular.z; with false, "
-                "to the left",
+                "is missing and defaults to true, as in Gazebo: a positive angular.z turns right; with false, left",
             )
             left, right = right, left
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
@@ -39,7 +38,7 @@ class DiffDrive(Device):
         diameters, separations = p.lengths("wheelDiameter", 0.15, pairs), p.lengths("wheelSeparation", 0.34, pairs)
         torque = p.number("wheelTorque", p.number("max_wheel_torque", 5.0, least=0.0), least=0.0)
         acceleration = p.number("wheelAcceleration", p.number("max_wheel_acceleration", 0.0, least=0.0), least=0.0)
-        tells_odometry = p.flag("publish_odom", default=False) if is_of_ros2 else p.flag("publishTf", default=True)
+        publishes_odometry = p.flag("publish_odom", default=False) if is_of_ros2 else p.flag("publishTf", default=True)
         p.check()
         groups = [
             WheelGroup(DifferentialDrive(diameter / 2, separation, FASTEST), [left_one], [right_one])
@@ -54,9 +53,9 @@ class DiffDrive(Device):
             transform=p.flag("publishOdomTF", default=not is_of_ros2),
             pose_covariance=covariance(1e-5, 1e-5, 1e-3),
         )
-        self._tells_odometry = tells_odometry
+        self._publishes_odometry = publishes_odometry
         self._wheels = WheelTopics(self, [joint for pair in zip(right, left, strict=True) for joint in pair])
-        self._drive.hear(p.text("commandTopic", "cmd_vel"))
+        self._drive.subscribe(p.text("commandTopic", "cmd_vel"))
 
     def _joints(self, parameter: str, default: str) -> list[int]:
         return [self.joint_named(name, parameter) for name in self.parameters.names(parameter) or [default]]
@@ -67,12 +66,12 @@ class DiffDrive(Device):
         for side, joints in (("left", left), ("right", right)):
             if len(joints) != pairs:
                 raise p.fail(
-                    f"{side}Joint", f"stands there {len(joints)} times, it must be {pairs:g} times: once for each pair"
+                    f"{side}Joint", f"is given {len(joints)} times, expected {pairs:g}: once per pair of wheels"
                 )
         return len(left)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._drive.reset()
         self._rate.reset()
 
@@ -81,10 +80,10 @@ class DiffDrive(Device):
         self._drive.actuate()
 
     def publish(self) -> None:
-        """Tell the odometry and, on demand, of the wheels."""
+        """Publish the odometry and, if subscribed, the wheels' topics."""
         motion = self._drive.moved(by_wheels=self._by_wheels)
         if not self._rate.due(self.simulation.time):
             return
-        if self._tells_odometry:
+        if self._publishes_odometry:
             self._odometry.publish(motion)
         self._wheels.publish()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The drives of Gazebo itself, DiffDrivePlugin and SkidSteerDrivePlugin.
+"""DiffDrivePlugin and SkidSteerDrivePlugin of Gazebo itself.
 
-In Gazebo they listen to a topic of its own transport; here to cmd_vel in the model's namespace. Their wheels' measures
-are those of the model.
+In Gazebo they subscribe to a topic of Gazebo's transport; here to cmd_vel in the model's namespace. The wheels'
+dimensions are those of the model.
 """
 
 from __future__ import annotations
@@ -10,19 +10,19 @@ from __future__ import annotations
 import math
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
+from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
 
 
-class GazeboDiffDrive(Device):
+class GazeboDiffDrive(Plugin):
     """Two wheels, by <left_joint> and <right_joint>."""
 
     left: tuple[str, ...] = ("left_joint",)
     right: tuple[str, ...] = ("right_joint",)
 
     def __init__(self, context: PluginContext) -> None:
-        """Read the parameters; joints have the parameters' names when these are left out."""
+        """Read the parameters; the default of a joint name is the parameter's name."""
         super().__init__(context)
         p = self.parameters
         self.enter_namespace(of_model=True)
@@ -35,10 +35,10 @@ class GazeboDiffDrive(Device):
         p.check()
         group = WheelGroup(DifferentialDrive(radius, apart, FASTEST), left, right)
         self._drive = TwoSidedDrive(self, group, torque=torque)
-        self._drive.hear("cmd_vel")
+        self._drive.subscribe("cmd_vel")
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._drive.reset()
 
     def actuate(self) -> None:
@@ -47,7 +47,7 @@ class GazeboDiffDrive(Device):
 
 
 class GazeboSkidSteerDrive(GazeboDiffDrive):
-    """Four wheels, by joints of fixed names."""
+    """Four wheels, with joints of fixed names."""
 
     left = ("left_front", "left_rear")
     right = ("right_front", "right_rear")

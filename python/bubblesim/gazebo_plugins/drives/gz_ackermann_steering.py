@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gz-sim's AckermannSteering: names and defaults are those of its topics, the types are ROS's."""
+"""gz-sim's AckermannSteering: topics have its names and defaults, with ROS types."""
 
 from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
 from bubblesim.gazebo_plugins.drives.odometry import motion_in_world
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 SIDES = ("left", "right")
 
 
-class GzAckermannSteering(Device):
+class GzAckermannSteering(Plugin):
     """A Twist's angular.z is the rate of turn (rad/s). The odometry is exact; its transform goes to /tf."""
 
     def __init__(self, context: PluginContext) -> None:
@@ -34,8 +34,8 @@ class GzAckermannSteering(Device):
             steering_track=p.length("kingpin_width", 0.8),
             radius=p.length("wheel_radius", 0.2),
         )
-        self._most_steering = p.length("steering_limit", 0.5)
-        self._fastest = p.number("max_velocity", math.inf, least=0.0)
+        self._max_steering = p.length("steering_limit", 0.5)
+        self._max_speed = p.number("max_velocity", math.inf, least=0.0)
         p.ignore("tf_topic", "min_velocity", "min_acceleration", "max_acceleration", "min_jerk", "max_jerk")
         self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
         p.check()
@@ -46,12 +46,12 @@ class GzAckermannSteering(Device):
         speed, turning = twist["linear"]["x"], twist["angular"]["z"]
         if not self.usable("Twist", (speed, turning)):
             return
-        self._wheels.speed = max(-self._fastest, min(speed, self._fastest))
+        self._wheels.speed = max(-self._max_speed, min(speed, self._max_speed))
         angle = math.atan2(self._wheelbase * turning * math.copysign(1.0, speed), abs(speed)) if turning else 0.0
-        self._wheels.angle = max(-self._most_steering, min(angle, self._most_steering))
+        self._wheels.angle = max(-self._max_steering, min(angle, self._max_steering))
 
     def reset(self) -> None:
-        """Stand still, steer ahead."""
+        """Stop and steer straight ahead."""
         self._wheels.reset()
         self._rate.reset()
 
@@ -60,6 +60,6 @@ class GzAckermannSteering(Device):
         self._wheels.command()
 
     def publish(self) -> None:
-        """Tell the odometry."""
+        """Publish the odometry."""
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion_in_world(self.world, self.context.model))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gz-sim's DiffDrive: names and defaults are those of its topics, the types are ROS's."""
+"""gz-sim's DiffDrive: topics have its names and defaults, with ROS types."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import math
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.controllers.speed_ramp import approached
-from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
+from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class GzDiffDrive(Device):
-    """Any number of wheels on both sides. The transform goes to /tf, whatever <tf_topic> says."""
+class GzDiffDrive(Plugin):
+    """Any number of wheels on both sides. The transform is published on /tf; <tf_topic> is ignored."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -24,7 +24,7 @@ class GzDiffDrive(Device):
         model = self.world.name(context.model)
         self._left, self._right = (self._wheels(f"{side}_joint") for side in ("left", "right"))
         geometry = DifferentialDrive(p.length("wheel_radius", 0.2), p.length("wheel_separation", 1.0), FASTEST)
-        self._most = [self._limit(kind, "velocity") for kind in ("linear", "angular")]
+        self._max_velocities = [self._limit(kind, "velocity") for kind in ("linear", "angular")]
         self._accelerations = [self._limit(kind, "acceleration") for kind in ("linear", "angular")]
         self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
         p.ignore("tf_topic", "min_jerk", "max_jerk", "min_linear_jerk", "max_linear_jerk")
@@ -32,7 +32,7 @@ class GzDiffDrive(Device):
         self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._left, self._right))
         self._velocity = Velocity(0.0, 0.0)
         self._odometry = drive_odometry(self)
-        self._drive.hear(p.text("topic", f"/model/{model}/cmd_vel"))
+        self._drive.subscribe(p.text("topic", f"/model/{model}/cmd_vel"))
 
     def _wheels(self, parameter: str) -> list[int]:
         names = self.parameters.names(parameter)
@@ -41,31 +41,35 @@ class GzDiffDrive(Device):
         return [self.joint_named(name, parameter) for name in names]
 
     def _limit(self, kind: str, what: str) -> float:
-        """The greatest velocity or acceleration of one kind, or of both; the least is taken to be its negative."""
+        """Return the maximum velocity or acceleration of one kind, or of both; the minimum is its negative."""
         p = self.parameters
         p.ignore(f"min_{kind}_{what}", f"min_{what}")
         return p.number(f"max_{kind}_{what}", p.number(f"max_{what}", math.inf, least=0.0), least=0.0)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._velocity = Velocity(0.0, 0.0)
         self._drive.reset()
         self._rate.reset()
 
     def actuate(self) -> None:
         """Command the wheels."""
-        wanted, now = self._drive.wanted, self._velocity
+        wanted, now = self._drive.target, self._velocity
         linear, angular = (
             approached(before, max(-most, min(to, most)), acceleration * self.simulation.time_step)
             for before, to, most, acceleration in zip(
-                (now.linear, now.angular), (wanted.linear, wanted.angular), self._most, self._accelerations, strict=True
+                (now.linear, now.angular),
+                (wanted.linear, wanted.angular),
+                self._max_velocities,
+                self._accelerations,
+                strict=True,
             )
         )
         self._velocity = Velocity(linear, angular)
         self._drive.command(self._velocity)
 
     def publish(self) -> None:
-        """Tell the odometry of the wheels."""
+        """Publish the odometry of the wheels."""
         motion = self._drive.moved(by_wheels=True)
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion)

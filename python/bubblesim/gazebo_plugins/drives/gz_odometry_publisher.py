@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gz-sim's OdometryPublisher: where a model really is."""
+"""gz-sim's OdometryPublisher: the true pose and velocity of a model."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class GzOdometryPublisher(Device):
-    """Names and defaults are those of its topics; the transform goes to /tf, whatever <tf_topic> says."""
+class GzOdometryPublisher(Plugin):
+    """Topics have its names and defaults; the transform is published on /tf and <tf_topic> is ignored."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -29,10 +29,10 @@ class GzOdometryPublisher(Device):
         )
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the rate."""
         self._rate.reset()
 
     def publish(self) -> None:
-        """Tell pose and velocity."""
+        """Publish pose and velocity."""
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion_in_world(self.world, self.context.model))

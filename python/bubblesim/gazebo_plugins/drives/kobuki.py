@@ -8,23 +8,23 @@ from typing import Any
 from bubblesim._core import read_imu, read_lidar, read_sensor
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
-from bubblesim.gazebo_plugins.device import FASTEST, Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.kobuki_events import SIDES, bumpers_pressed, cliff_reading
 from bubblesim.gazebo_plugins.drives.odometry import Motion, Odometry, covariance, motion_on_plane
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import joint_states
+from bubblesim.gazebo_plugins.plugin import FASTEST, Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.imu import imu_message
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
-_BASE = "mobile_base"  # below which the Kobuki's own driver has its topics
-_ONLY_YAW = [1e6, 0.0, 0.0, 0.0, 1e6, 0.0, 0.0, 0.0, 0.05]  # variances: roll and pitch are not known
+_BASE = "mobile_base"  # namespace of the topics of the Kobuki's driver
+_ONLY_YAW = [1e6, 0.0, 0.0, 0.0, 1e6, 0.0, 0.0, 0.0, 0.05]  # variances: roll and pitch are unknown
 
 
-class Kobuki(Device):
-    """Parameters are the plugin's; a sensor that it does not name is left out, and what it would publish.
+class Kobuki(Plugin):
+    """Parameters are the plugin's. A sensor that it does not name is not used, and its topics are not published.
 
-    As in the Kobuki's driver, the odometry takes distances from the wheels and the heading from the gyroscope.
+    As in the Kobuki's driver, the odometry uses the distances from the wheels and the heading from the gyroscope.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -38,7 +38,7 @@ class Kobuki(Device):
         self._timeout = p.number("velocity_command_timeout", 0.6, least=0.0)
         self._threshold = p.number("cliff_detection_threshold", 0.04, least=0.0)
         cliffs = {side: self._sensor(f"cliff_sensor_{side}_name", "LidarScan") for side in SIDES}
-        cliffs["center"] = cliffs["center"] or self._sensor("cliff_sensor_front_name", "LidarScan")  # of the first ones
+        cliffs["center"] = cliffs["center"] or self._sensor("cliff_sensor_front_name", "LidarScan")  # old name
         self._cliffs = {side: sensor for side, sensor in cliffs.items() if sensor is not None}
         self._bumper = self._sensor("bumper_name", "ContactReading")
         self._imu = self._sensor("imu_name", "ImuReading")
@@ -47,17 +47,17 @@ class Kobuki(Device):
         p.check()
         self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._joints[:1], self._joints[1:]), torque=torque)
         self._advertise(transform)
-        self._start_over()
+        self._reset_state()
 
     def _sensor(self, parameter: str, kind: str) -> int | None:
-        """The handle of the sensor that a parameter names."""
+        """Return the handle of the sensor named by a parameter."""
         given = self.parameters.given(parameter)
         if given is None:
             return None
         sensor = self.part_named(given.rpartition("::")[2], parameter, "sensor")
         found = type(read_sensor(self.simulation, sensor)[1]).__name__
         if found != kind:
-            raise self.parameters.fail(parameter, f"names a sensor that gives a {found}, it must give a {kind}")
+            raise self.parameters.fail(parameter, f"names a sensor that measures a {found}, expected a {kind}")
         return sensor
 
     def _advertise(self, transform: bool) -> None:
@@ -81,7 +81,7 @@ class Kobuki(Device):
         self.subscribe(f"{_BASE}/commands/motor_power", "kobuki_msgs/MotorPower", self._switch)
         self.subscribe(f"{_BASE}/commands/reset_odometry", "std_msgs/Empty", self._reset_odometry)
 
-    def _start_over(self) -> None:
+    def _reset_state(self) -> None:
         self._powered = True
         self._commanded = -float("inf")  # s
         self._pose = Pose2D()
@@ -89,14 +89,14 @@ class Kobuki(Device):
         self._pressed = dict.fromkeys(SIDES, False)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._drive.reset()
-        self._start_over()
+        self._reset_state()
         if self._imu is not None:
             self._turns.reset()
 
     def _command(self, twist: Message) -> None:
-        self._drive.take(twist)
+        self._drive.set_command(twist)
         self._commanded = self.simulation.time
 
     def _switch(self, message: Message) -> None:
@@ -106,24 +106,24 @@ class Kobuki(Device):
         self._pose = Pose2D()
 
     def actuate(self) -> None:
-        """Command the wheels, unless the last command is too old."""
+        """Command the wheels; stop them if the last command is too old."""
         if self._powered and self.simulation.time - self._commanded <= self._timeout:
             self._drive.actuate()
         else:
             self._drive.command(Velocity(0.0, 0.0))
 
     def publish(self) -> None:
-        """Publish states, and what has changed at cliffs and bumpers."""
+        """Publish states, and events of cliff sensors and bumpers."""
         self._odometry.publish(self._moved())
-        if self.wanted(self._states):
+        if self.is_needed(self._states):
             states = joint_states(self, self._joints)
             self.bridge.publish(self._states, {**states, "header": self.header(self.frame("base_link"))})
-        if self._imu is not None and self.wanted(self._imus) and (reading := self._turns.take()):
+        if self._imu is not None and self.is_needed(self._imus) and (reading := self._turns.take()):
             header = self.header(self.frame("base_link"))
             self.bridge.publish(self._imus, {"header": header, **_imu_message(self, reading)})
-        if self._cliffs and self.wanted(self._cliff_events):
+        if self._cliffs and self.is_needed(self._cliff_events):
             self._publish_cliffs()
-        if self._bumper is not None and self.wanted(self._bumper_events):
+        if self._bumper is not None and self.is_needed(self._bumper_events):
             self._publish_bumpers()
 
     def _moved(self) -> Motion:
@@ -155,8 +155,8 @@ class Kobuki(Device):
                 self.bridge.publish(self._bumper_events, event)
 
 
-def _imu_message(device: Device, reading: Any) -> Message:
+def _imu_message(plugin: Plugin, reading: Any) -> Message:
     vectors = reading.orientation, reading.angular_velocity, reading.linear_acceleration
     orientation, angular, linear = (vector.tolist() for vector in vectors)
-    message = imu_message(orientation, angular, linear, Noise(device, 0.0))
+    message = imu_message(orientation, angular, linear, Noise(plugin, 0.0))
     return {**message, "orientation_covariance": _ONLY_YAW, "angular_velocity_covariance": _ONLY_YAW}

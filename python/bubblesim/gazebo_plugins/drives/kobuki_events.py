@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the Kobuki makes of distances to the floor and of what touches it."""
+"""Cliff sensor readings and bumper events of the Kobuki."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from collections.abc import Iterable, Sequence
 
 from bubblesim.geometry.rotations import heading_of
 
-SIDES = {"left": 0, "center": 1, "right": 2}  # of kobuki_msgs: both LEFT, CENTER and RIGHT of bumpers and cliff sensors
+SIDES = {"left": 0, "center": 1, "right": 2}  # kobuki_msgs: LEFT, CENTER, RIGHT of bumpers and of cliff sensors
 
-_LOWEST, _HIGHEST = 0.01, 0.13  # m above the model's origin, between which a contact presses a bumper
-_MIDDLE, _END = math.pi / 6, math.pi / 2  # rad from straight ahead: where the bumper in the middle ends, and the others
-_MOST = 0xFFFF  # of a uint16
+_LOWEST, _HIGHEST = 0.01, 0.13  # m above the model's origin: range of heights at which a contact presses a bumper
+_MIDDLE, _END = math.pi / 6, math.pi / 2  # rad from straight ahead: end of the middle bumper, and of the side bumpers
+_MAX = 0xFFFF  # maximum of a uint16
 
 
 def cliff_reading(distance: float) -> int:
-    """What the sensor's converter reads at a distance in metres, by the formula of the Kobuki's plugin."""
-    return min(int(76123.0 * math.atan2(0.995, distance)), _MOST)
+    """Return the sensor's A/D converter reading at a distance in metres, by the formula of the Kobuki's plugin."""
+    return min(int(76123.0 * math.atan2(0.995, distance)), _MAX)
 
 
 def bumpers_pressed(pose: Sequence[float], contacts: Iterable[tuple[Sequence[float], Sequence[float]]]) -> set[str]:
-    """The sides at which contacts press: each 60 degrees wide.
+    """Return the sides at which contacts press a bumper; each is 60 degrees wide.
 
-    :param pose: of the model, x, y, z, qx, qy, qz, qw.
-    :param contacts: positions and normals, these towards the robot; all in world axes.
+    :param pose: pose of the model, x, y, z, qx, qy, qz, qw.
+    :param contacts: positions and normals, towards the robot; all in world axes.
     """
     pressed = set()
     for position, normal in contacts:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How drives tell where they are: nav_msgs/Odometry and the transform from its frame to the robot's."""
+"""Odometry of drives: nav_msgs/Odometry and the transform from its frame to the robot's."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
-from bubblesim.gazebo_plugins.device import Device
+from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.geometry.rotations import heading_of, quaternion_of_heading
 from bubblesim.ros_messages import pose_message
 
-UNKNOWN = 1e12  # the variance of what wheels cannot know: height, roll and pitch
+UNKNOWN = 1e12  # variance of values that wheels cannot measure: height, roll and pitch
 SOURCES = {"encoder": "encoder", "world": "world", "0": "encoder", "1": "world"}
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Pose in the odometry's frame, and velocity along the robot's own axes."""
+    """Pose in the odometry frame, and velocity along the robot's axes."""
 
     pose: Sequence[float]  # x, y, z, qx, qy, qz, qw
     forward: float  # m/s
@@ -28,7 +28,7 @@ class Motion:
 
 
 def motion_in_world(world: Any, model: int) -> Motion:
-    """How a model moves, exactly."""
+    """Return the true motion of a model."""
     pose = world.pose(model)
     (x, y, _), (_, _, turning) = world.velocity(model)
     yaw = heading_of(*pose[3:])
@@ -37,22 +37,22 @@ def motion_in_world(world: Any, model: int) -> Motion:
 
 
 def motion_on_plane(pose: Pose2D, velocity: Velocity) -> Motion:
-    """How wheels say that a robot moves."""
+    """Return the motion computed from wheel encoders."""
     return Motion([pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)], velocity.linear, 0.0, velocity.angular)
 
 
 def covariance(x: float, y: float, yaw: float) -> list[float]:
-    """A matrix of variances; the rest is unknown."""
+    """Return a covariance matrix with these variances; the others are UNKNOWN."""
     variances = (x, y, UNKNOWN, UNKNOWN, UNKNOWN, yaw)
     return [variance if row == column else 0.0 for row, variance in enumerate(variances) for column in range(6)]
 
 
 class Odometry:
-    """The topic and the transform of a drive."""
+    """The odometry topic and transform of a drive."""
 
     def __init__(
         self,
-        device: Device,
+        plugin: Plugin,
         *,
         topic: str | None,
         frame: str,
@@ -61,9 +61,9 @@ class Odometry:
         pose_covariance: list[float],
         twist_covariance: list[float] | None = None,
     ) -> None:
-        """``topic`` None tells nothing but the transform."""
-        self._device = device
-        self._publisher = None if topic is None else device.advertise(topic, "nav_msgs/Odometry", 1)
+        """With ``topic`` None only the transform is published."""
+        self._plugin = plugin
+        self._publisher = None if topic is None else plugin.advertise(topic, "nav_msgs/Odometry", 1)
         self._frame = frame
         self._base_frame = base_frame
         self._transform = transform
@@ -71,15 +71,15 @@ class Odometry:
         self._twist_covariance = twist_covariance or [0.0] * 36
 
     def publish(self, motion: Motion) -> None:
-        """Tell it as that of this step."""
-        device = self._device
-        header = device.header(self._frame)
+        """Publish the motion of this step."""
+        plugin = self._plugin
+        header = plugin.header(self._frame)
         if self._transform:
-            device.context.transforms.add(header, self._base_frame, motion.pose)
-        if self._publisher is None or not device.wanted(self._publisher):
+            plugin.context.transforms.add(header, self._base_frame, motion.pose)
+        if self._publisher is None or not plugin.is_needed(self._publisher):
             return
         twist = {"linear": {"x": motion.forward, "y": motion.leftward}, "angular": {"z": motion.turning}}
-        device.bridge.publish(
+        plugin.bridge.publish(
             self._publisher,
             {
                 "header": header,

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_planar_move: a model that a Twist moves in the plane, in any direction."""
+"""gazebo_ros_planar_move: a model that follows a Twist in the plane, in any direction."""
 
 from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.geometry.rotations import heading_of
 
 
-class PlanarMove(Device):
-    """Parameters, topics and defaults are those of gazebo_ros_pkgs; it is pushed, and may fall and be stopped."""
+class PlanarMove(Plugin):
+    """Parameters, topics and defaults are those of gazebo_ros_pkgs. The model stays subject to gravity and contacts."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -20,7 +20,7 @@ class PlanarMove(Device):
         p = self.parameters
         self.enter_namespace()
         self._rate = Rate(p.number("odometryRate", 20.0, least=0.0), self.simulation.time_step)
-        self._patience = p.number("cmdTimeout", -1.0)  # s; below 0: for ever
+        self._timeout = p.number("cmdTimeout", -1.0)  # s; negative: no timeout
         p.ignore("update_rate", "publish_rate", "publish_odom", "publish_odom_tf")
         p.check()
         self._odometry = Odometry(
@@ -33,25 +33,25 @@ class PlanarMove(Device):
             twist_covariance=covariance(1e-5, 1e-5, 1e-3),
         )
         self._forward = self._leftward = self._turning = 0.0
-        self._heard_at = 0.0  # s of simulated time
+        self._commanded_at = 0.0  # s of simulated time
         self.subscribe(p.text("commandTopic", "cmd_vel"), "geometry_msgs/Twist", self._command)
 
     def _command(self, twist: Message) -> None:
         wanted = twist["linear"]["x"], twist["linear"]["y"], twist["angular"]["z"]
         if self.usable("Twist", wanted):
             self._forward, self._leftward, self._turning = wanted
-            self._heard_at = self.simulation.time
+            self._commanded_at = self.simulation.time
 
     def reset(self) -> None:
-        """Stand still."""
-        self._forward = self._leftward = self._turning = self._heard_at = 0.0
+        """Stop."""
+        self._forward = self._leftward = self._turning = self._commanded_at = 0.0
         self._rate.reset()
 
     def actuate(self) -> None:
-        """Push the model."""
-        if 0 <= self._patience < self.simulation.time - self._heard_at:
+        """Set the model's planar velocity."""
+        if 0 <= self._timeout < self.simulation.time - self._commanded_at:
             self._forward = self._leftward = self._turning = 0.0
-        # The heading in the middle of the step, so that it keeps to its arc.
+        # Use the heading in the middle of the step, so that the path is the commanded arc.
         yaw = heading_of(*self.world.pose(self.context.model)[3:]) + self._turning * self.simulation.time_step / 2
         cos, sin = math.cos(yaw), math.sin(yaw)
         x = cos * self._forward - sin * self._leftward
@@ -59,6 +59,6 @@ class PlanarMove(Device):
         self.world.set_planar_velocity(self.context.model, x, y, self._turning)
 
     def publish(self) -> None:
-        """Tell the odometry, which is exact."""
+        """Publish the odometry, which is exact."""
         if self._rate.due(self.simulation.time):
             self._odometry.publish(motion_in_world(self.world, self.context.model))

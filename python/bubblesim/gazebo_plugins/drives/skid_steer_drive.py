@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.device import FASTEST, Device, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
+from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class SkidSteerDrive(Device):
+class SkidSteerDrive(Plugin):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs; the odometry is exact."""
 
     def __init__(self, context: PluginContext) -> None:
@@ -35,10 +35,10 @@ class SkidSteerDrive(Device):
             pose_covariance=covariance(*variances),
             twist_covariance=covariance(*variances),
         )
-        self._drive.hear(p.text("commandTopic", "cmd_vel"))
+        self._drive.subscribe(p.text("commandTopic", "cmd_vel"))
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._drive.reset()
         self._rate.reset()
 
@@ -47,6 +47,6 @@ class SkidSteerDrive(Device):
         self._drive.actuate()
 
     def publish(self) -> None:
-        """Tell the odometry."""
+        """Publish the odometry."""
         if self._rate.due(self.simulation.time):
             self._odometry.publish(self._drive.moved(by_wheels=False))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_tricycle_drive: a steered and driven front wheel; two rear wheels that count."""
+"""gazebo_ros_tricycle_drive: a steered and driven front wheel, two rear wheels with encoders."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import math
 from bubblesim._core import MotorMode
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels
 from bubblesim.controllers.speed_ramp import SpeedRamp, approached
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
 from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance, motion_in_world, motion_on_plane
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics, drive_by_velocity
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 _RIGHT_ANGLE = math.pi / 2
 
 
-class TricycleDrive(Device):
+class TricycleDrive(Plugin):
     """Parameters, topics and defaults are those of gazebo_ros_pkgs.
 
-    As there, a Twist's linear.x is the speed of the front wheel's rim (m/s), its angular.z the steering angle (rad).
+    As in Gazebo, a Twist's linear.x is the rim speed of the front wheel (m/s), its angular.z the steering angle (rad).
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -54,7 +54,7 @@ class TricycleDrive(Device):
         self._begin()
 
     def _begin(self) -> None:
-        self._wanted_speed = self._wanted_angle = self._angle = 0.0
+        self._target_speed = self._target_angle = self._angle = 0.0
         self._ramp = SpeedRamp(self._acceleration, (0.0,))
         self._encoder = WheelOdometry(self._axle, self._angles())
 
@@ -64,10 +64,10 @@ class TricycleDrive(Device):
     def _command(self, twist: Message) -> None:
         speed, angle = twist["linear"]["x"] / self._radius, twist["angular"]["z"]
         if self.usable("Twist", (speed, angle)):
-            self._wanted_speed, self._wanted_angle = speed, max(-_RIGHT_ANGLE, min(angle, _RIGHT_ANGLE))
+            self._target_speed, self._target_angle = speed, max(-_RIGHT_ANGLE, min(angle, _RIGHT_ANGLE))
 
     def reset(self) -> None:
-        """Stand still, steer ahead."""
+        """Stop and steer straight ahead."""
         self._begin()
         self._rate.reset()
         drive_by_velocity(self.world, [self._wheel], self._torque)
@@ -78,13 +78,13 @@ class TricycleDrive(Device):
         """Command the front wheel."""
         dt = self.simulation.time_step
         most = self._steering_speed * dt if self._steering_speed > 0 else math.inf
-        self._angle = approached(self._angle, self._wanted_angle, most)
+        self._angle = approached(self._angle, self._target_angle, most)
         self.world.set_target_position(self._steering, self._angle)
-        (speed,) = self._ramp.update((self._wanted_speed,), dt)
+        (speed,) = self._ramp.update((self._target_speed,), dt)
         self.world.set_target_velocity(self._wheel, speed)
 
     def publish(self) -> None:
-        """Tell the odometry and, on demand, of the wheels."""
+        """Publish the odometry and, if subscribed, the wheels' topics."""
         if self._by_wheels:
             self._encoder.update(self._angles(), self.simulation.time_step)
             motion = motion_on_plane(self._encoder.pose, self._encoder.velocity)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gazebo's plugins that command and report joints."""
+"""Gazebo plugins that command and report joints."""

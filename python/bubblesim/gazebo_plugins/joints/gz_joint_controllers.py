@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gz-sim's JointController and JointPositionController: a joint that follows a std_msgs/Float64."""
+"""gz-sim's JointController and JointPositionController: a joint commanded by a std_msgs/Float64."""
 
 from __future__ import annotations
 
 from bubblesim._core import MotorMode
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 
 
-class GzJointController(Device):
-    """Holds a velocity, rad/s or m/s, by the joint's own motor: gains of controllers are not looked at."""
+class GzJointController(Plugin):
+    """Velocity control, rad/s or m/s, by the joint's motor; controller gains are ignored."""
 
     mode = MotorMode.VELOCITY
     initial = "initial_velocity"
@@ -25,39 +25,39 @@ class GzJointController(Device):
         default = f"/model/{self.world.name(context.model)}/joint/{self.world.name(self._joint)}/{self.default_topic()}"
         topic = p.text("topic", p.text("sub_topic", default))
         p.check()
-        self._wanted = self._first
+        self._target = self._first
         self.subscribe(topic, "std_msgs/Float64", self._command)
 
     def default_topic(self) -> str:
-        """Its end, after the joint."""
+        """Return the last part of the default topic, after the joint."""
         return self.command_topic
 
     def _command(self, message: Message) -> None:
         if self.usable("command", (message["data"],)):
-            self._wanted = message["data"]
+            self._target = message["data"]
 
     def reset(self) -> None:
-        """Begin with the first command."""
-        self._wanted = self._first
+        """Return to the initial command."""
+        self._target = self._first
         self.world.set_motor_mode(self._joint, self.mode)
 
     def actuate(self) -> None:
         """Command the joint."""
-        self.world.set_target_velocity(self._joint, self._wanted)
+        self.world.set_target_velocity(self._joint, self._target)
 
 
 class GzJointPositionController(GzJointController):
-    """Goes to a position, rad or m."""
+    """Position control, rad or m."""
 
     mode = MotorMode.POSITION
     initial = "initial_position"
     command_topic = "cmd_pos"
 
     def default_topic(self) -> str:
-        """Its end, with the axis' number."""
+        """Return the last part of the default topic, with the index of the axis."""
         index = int(self.parameters.number("joint_index", 0.0, least=0.0))
         return f"{index}/{self.command_topic}"
 
     def actuate(self) -> None:
         """Command the joint."""
-        self.world.set_target_position(self._joint, self._wanted)
+        self.world.set_target_position(self._joint, self._target)

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_joint_pose_trajectory: joints that go through the points of a trajectory."""
+"""gazebo_ros_joint_pose_trajectory: joints that follow the points of a trajectory."""
 
 from __future__ import annotations
 
 from bubblesim._core import MotorMode
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 
 
-class JointPoseTrajectory(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs; motors go to the points, where Gazebo puts the joints.
+class JointPoseTrajectory(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs. Motors move to the points; Gazebo sets the joints directly.
 
-    Each point holds from its time on; times count from when the message is taken.
+    Each point is the target from its time on; times are relative to the arrival of the message.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -30,7 +30,7 @@ class JointPoseTrajectory(Device):
             return
         names = trajectory["joint_names"]
         if any(len(positions) != len(names) for _, positions in points):
-            raise ValueError(f"each of its points must have {len(names)} positions, one for each joint")
+            raise ValueError(f"each point must have {len(names)} positions, one per joint")
         joints = [self.world.find(f"{self.world.path(self.context.model)}/{name}") for name in names]
         for joint in joints:
             self.world.set_motor_mode(joint, MotorMode.POSITION)
@@ -39,11 +39,11 @@ class JointPoseTrajectory(Device):
         self._points = sorted((start + after, positions) for after, positions in points)
 
     def reset(self) -> None:
-        """Forget the trajectory."""
+        """Delete the trajectory."""
         self._points = []
 
     def actuate(self) -> None:
-        """Go to the point that holds now."""
+        """Set the targets of the current point."""
         while self._points and self._points[0][0] <= self.simulation.time:
             _, positions = self._points.pop(0)
             for joint, position in zip(self._joints, positions, strict=True):

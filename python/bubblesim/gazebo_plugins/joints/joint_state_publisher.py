@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_joint_state_publisher, and gz-sim's: where the joints are."""
+"""gazebo_ros_joint_state_publisher, and gz-sim's JointStatePublisher."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, PluginContext
 from bubblesim.gazebo_plugins.drives.wheels import joint_states
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class JointStatePublisher(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs; without <jointName> all joints that move are told."""
+class JointStatePublisher(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs; without <jointName> all movable joints are published."""
 
     names = "jointName"
 
@@ -28,25 +28,25 @@ class JointStatePublisher(Device):
         return [joint for joint in joints if self.world.joint_axes(joint) > 0]
 
     def default_topic(self) -> str:
-        """The topic, which a plugin may name."""
+        """Return the topic; subclasses read it from a parameter."""
         return "joint_states"
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the rate."""
         self._rate.reset()
 
     def publish(self) -> None:
-        """Tell the joints' states."""
-        if self.wanted(self._publisher) and self._rate.due(self.simulation.time):
+        """Publish the joints' states."""
+        if self.is_needed(self._publisher) and self._rate.due(self.simulation.time):
             self.bridge.publish(self._publisher, joint_states(self, self._joints))
 
 
 class GzJointStatePublisher(JointStatePublisher):
-    """Of gz-sim, whose topic is named after world and model."""
+    """gz-sim's plugin; its topic contains the names of world and model."""
 
     names = "joint_name"
 
     def default_topic(self) -> str:
-        """As it is in Gazebo's transport."""
+        """Return the topic, by default as in Gazebo's transport."""
         default = f"/world/{self.simulation.world_name}/model/{self.world.name(self.context.model)}/joint_state"
         return "/" + self.parameters.text("topic", default).lstrip("/")

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""hector_quadrotor's gazebo_ros_baro: how high a link is, as a barometer would tell it."""
+"""hector_quadrotor's gazebo_ros_baro: the height of a link as measured by a barometer."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import PluginContext
+from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 
 
 class Baro(HectorSensor):
-    """Parameters and defaults are hector's. Its Altimeter message is not known here, so that topic is not there."""
+    """Parameters and defaults are hector's. Its Altimeter message is not available, so that topic is not published."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters; heights in metres."""
@@ -20,7 +20,7 @@ class Baro(HectorSensor):
         self._publisher = self.advertise(p.text("topicName", "pressure_height"), "geometry_msgs/PointStamped", 1)
 
     def publish(self) -> None:
-        """Tell the height."""
+        """Publish the height."""
         if self.is_due(self._publisher):
             (height,) = self._noise.on([self.world.pose(self._link)[2] + self._above])
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), "point": {"z": height}})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lidars as clouds of points: gazebo_ros_block_laser, and the Velodyne's plugin."""
+"""Lidars as point clouds: gazebo_ros_block_laser, and the Velodyne plugin."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 Array = np.ndarray[Any, Any]
@@ -22,7 +22,7 @@ _FIELDS = [
 ]
 
 
-class BlockLaser(Device):
+class BlockLaser(Plugin):
     """A sensor_msgs/PointCloud with intensities. Parameters and defaults are those of gazebo_ros_pkgs."""
 
     message_type = "sensor_msgs/PointCloud"
@@ -34,56 +34,58 @@ class BlockLaser(Device):
         self.enter_namespace()
         self._frame = p.text("frameName", "world").lstrip("/")
         self._scans = NewReadings(self, read_lidar, p.number("updateRate", 0.0, least=0.0))
-        p.ignore("gaussianNoise", "hokuyoMinIntensity")  # the sensor's own <noise> is what counts
+        p.ignore("gaussianNoise", "hokuyoMinIntensity")  # the sensor's own <noise> is used
         p.check()
         self._publisher = self.advertise(p.text("topicName", "/world"), self.message_type, 1)
         self._directions: Array | None = None  # unit vectors, rings x samples x 3
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the state."""
         self._scans.reset()
 
     def publish(self) -> None:
-        """Tell a new scan."""
-        if self.wanted(self._publisher) and (scan := self._scans.take()):
+        """Publish a new scan."""
+        if self.is_needed(self._publisher) and (scan := self._scans.take()):
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), **self.cloud(scan)})
 
     def cloud(self, scan: Any) -> Message:
-        """The message without its header; rays that meet nothing end at the greatest range, as in Gazebo."""
+        """Return the message without its header; rays without a return end at the maximum range, as in Gazebo."""
         ranges = np.clip(scan.ranges, scan.min_range, scan.max_range)
         points = (self.directions(scan) * ranges[:, :, None]).reshape(-1, 3)
         return {"points": points, "channels": [{"name": "intensities", "values": scan.intensities.reshape(-1)}]}
 
     def directions(self, scan: Any) -> Array:
-        """Where the rays go."""
+        """Return the directions of the rays, computed once."""
         if self._directions is None:
             self._directions = directions(scan)
         return self._directions
 
 
 class VelodyneLaser(BlockLaser):
-    """A sensor_msgs/PointCloud2 of what was met: x, y, z, intensity, ring and time, as velodyne_pointcloud has it."""
+    """A sensor_msgs/PointCloud2 of the returns: x, y, z, intensity, ring and time, as in velodyne_pointcloud."""
 
     message_type = "sensor_msgs/PointCloud2"
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
         p = context.parameters
-        self._least = p.number("min_range", 0.0, least=0.0)
-        self._most = p.number("max_range", np.inf, least=0.0)
+        self._min_range = p.number("min_range", 0.0, least=0.0)
+        self._max_range = p.number("max_range", np.inf, least=0.0)
         self._organized = p.flag("organize_cloud", default=False)
         p.ignore("min_intensity")
         super().__init__(context)
 
     def cloud(self, scan: Any) -> Message:
-        """The message without its header; an organized cloud has rays that meet nothing as not a number."""
-        return cloud_of_returns(scan, self.directions(scan), self._least, self._most, organized=self._organized)
+        """Return the message without its header; in an organized cloud, rays without a return are NaN."""
+        return cloud_of_returns(
+            scan, self.directions(scan), self._min_range, self._max_range, organized=self._organized
+        )
 
 
 def cloud_of_returns(
     scan: Any, rays: Array, least: float = 0.0, most: float = np.inf, *, organized: bool = False
 ) -> Message:
-    """A sensor_msgs/PointCloud2 without its header, of what was met between two ranges."""
+    """Return a sensor_msgs/PointCloud2 without its header, of the returns between two ranges."""
     met = np.isfinite(scan.ranges) & (scan.ranges > least) & (scan.ranges < most)
     points = np.zeros(scan.ranges.shape, _POINT)
     places = rays * np.where(met, scan.ranges, np.float32(np.nan))[:, :, None]
@@ -106,7 +108,7 @@ def cloud_of_returns(
 
 
 def directions(scan: Any) -> Array:
-    """Unit vectors of a lidar's rays in its frame, rings x samples x 3 of float32."""
+    """Return unit vectors of a lidar's rays in its frame, rings x samples x 3 of float32."""
     across, up = scan.angles[None, :], scan.elevations[:, None]
     vectors = np.cos(up) * np.cos(across), np.cos(up) * np.sin(across), np.sin(up) * np.ones_like(across)
     rays: Array = np.stack(vectors, axis=2).astype(np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_bumper: what a contact sensor's link touches."""
+"""gazebo_ros_bumper: contacts of a contact sensor's link."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from bubblesim._core import read_sensor
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.geometry.frames import into
 from bubblesim.ros_messages import vector_message
@@ -15,8 +15,8 @@ from bubblesim.ros_messages import vector_message
 _WORLD = ("/world", "world", "/map", "map")
 
 
-class Bumper(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs: places and forces are in the frame of a link."""
+class Bumper(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs; positions and forces are in the frame of a link."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -30,12 +30,12 @@ class Bumper(Device):
         self._publisher = self.advertise(p.text("bumperTopicName", "bumper_states"), "gazebo_msgs/ContactsState", 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the state."""
         self._readings.reset()
 
     def publish(self) -> None:
-        """Tell what is touched, also that it is nothing."""
-        if self.wanted(self._publisher) and (reading := self._readings.take()):
+        """Publish the contacts, also if there are none."""
+        if self.is_needed(self._publisher) and (reading := self._readings.take()):
             link = self.world.parent(self.context.owner)
             states = [contact_state(self.world, link, each, self._turned, self._placed) for each in reading.contacts]
             self.bridge.publish(self._publisher, {"header": self.header(self._frame.lstrip("/")), "states": states})
@@ -57,7 +57,7 @@ def contact_state(
     turned: Callable[[Sequence[float]], Sequence[float]] = list,
     placed: Callable[[Sequence[float]], Sequence[float]] = list,
 ) -> Message:
-    """A gazebo_msgs/ContactState of a link, in world axes unless vectors and places are to be turned into others."""
+    """Return a gazebo_msgs/ContactState of a link, in world axes or those of ``turned`` and ``placed``."""
     forces = [turned(point.force.tolist()) for point in contact.points]
     total = [sum(along) for along in zip(*forces, strict=True)] if forces else [0.0, 0.0, 0.0]
     own = f"{_scoped(world, link)}::{contact.collision}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_camera: a camera's pictures and optics."""
+"""gazebo_ros_camera: images and camera info."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from bubblesim._core import camera_optics, read_camera
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.scripting.api.ros.image_codec import COMPRESSIONS, compress
@@ -15,8 +15,8 @@ from bubblesim.scripting.api.ros.image_codec import COMPRESSIONS, compress
 _QUEUE_SIZE = 2
 
 
-class Camera(Device):
-    """Parameters, topics and defaults are those of gazebo_ros_pkgs; a compressed topic lies below the picture's."""
+class Camera(Plugin):
+    """Parameters, topics and defaults are those of gazebo_ros_pkgs; the compressed topic is IMAGE/compressed."""
 
     image_topic = "image_raw"
     info_topic = "camera_info"
@@ -34,59 +34,59 @@ class Camera(Device):
         p.check()
         self._image = self.advertise(image, "sensor_msgs/Image", _QUEUE_SIZE)
         self._compressed: int | None = None
-        if find_spec("cv2") is not None:  # Debian's python3-opencv, which compresses
+        if find_spec("cv2") is not None:  # Debian's python3-opencv, used for compression
             self._compressed = self.advertise(f"{image}/compressed", "sensor_msgs/CompressedImage", _QUEUE_SIZE)
         self.infos = [self.advertise(info, "sensor_msgs/CameraInfo", _QUEUE_SIZE)]
         self._pictures = [self._image] if self._compressed is None else [self._image, self._compressed]
 
     def below_camera(self, name: str) -> str:
-        """A topic in the namespace that the camera's name makes."""
+        """Return a topic in the namespace of the camera's name."""
         camera = self.parameters.text("cameraName", "").strip("/")
         return name if name.startswith("/") or not camera else f"{camera}/{name}"
 
     def advertise_more(self, topic: str, message_type: str) -> int:
-        """A further topic of the same camera, listeners to which have it measure."""
+        """Advertise another topic of the camera; its subscribers trigger rendering."""
         publisher = self.advertise(self.below_camera(topic), message_type, _QUEUE_SIZE)
         self._pictures.append(publisher)
         return publisher
 
     def advertise_more_infos(self, topic: str) -> None:
-        """A further topic that tells of the optics."""
+        """Advertise another sensor_msgs/CameraInfo topic."""
         self.infos.append(self.advertise(self.below_camera(topic), "sensor_msgs/CameraInfo", _QUEUE_SIZE))
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the state."""
         self._images.reset()
 
     def publish(self) -> None:
-        """Publish a new picture, and with it the optics; the optics alone do not have the camera measure."""
-        pictures, infos = (any(map(self.wanted, topics)) for topics in (self._pictures, self.infos))
+        """Publish a new image and its camera info; subscribers of the info alone do not trigger rendering."""
+        pictures, infos = (any(map(self.is_needed, topics)) for topics in (self._pictures, self.infos))
         if not (pictures or infos) or not self._images.due():
             return
         header = self.header(self.frame_id)
         if pictures:
-            self.tell(read_camera(self.simulation, self.context.owner), header)
+            self.publish_image(read_camera(self.simulation, self.context.owner), header)
         if infos:
             self._publish_infos(header)
 
     def _publish_infos(self, header: Message) -> None:
         info = {"header": header, **self.info.message(*camera_optics(self.simulation, self.context.owner))}
-        for publisher in filter(self.wanted, self.infos):
+        for publisher in filter(self.is_needed, self.infos):
             self.bridge.publish(publisher, info)
 
-    def tell(self, image: Any, header: Message) -> None:
-        """Publish of the picture what somebody listens to."""
+    def publish_image(self, image: Any, header: Message) -> None:
+        """Publish the topics of the image that have subscribers."""
         if image.rgb is not None:
-            if self.wanted(self._image):
+            if self.is_needed(self._image):
                 self.bridge.publish(self._image, {"header": header, **image_message(image.rgb, "rgb8")})
-            if self._compressed is not None and self.wanted(self._compressed):
+            if self._compressed is not None and self.is_needed(self._compressed):
                 data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
                 message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
                 self.bridge.publish(self._compressed, message)
 
 
 def image_message(pixels: Any, encoding: str) -> Message:
-    """A sensor_msgs/Image without its header, of an array of rows, which is copied once, into the message."""
+    """Return a sensor_msgs/Image without its header, of an array of rows, which is copied once, into the message."""
     height, width = pixels.shape[:2]
     return {
         "height": height,

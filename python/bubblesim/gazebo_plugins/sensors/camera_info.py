@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What cameras tell about their optics: sensor_msgs/CameraInfo."""
+"""Camera intrinsics: sensor_msgs/CameraInfo."""
 
 from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import Message
 from bubblesim.gazebo_plugins.parameters import Parameters
+from bubblesim.gazebo_plugins.plugin import Message
 from bubblesim.ros_messages import pinhole
 
 
 class CameraInfo:
-    """Of a pinhole camera; the parameters are those of gazebo_ros_pkgs."""
+    """Intrinsics of a pinhole camera; the parameters are those of gazebo_ros_pkgs."""
 
     def __init__(self, parameters: Parameters) -> None:
-        """Read them; a centre and a focal length of 0 are those of the picture."""
+        """Read the parameters; a centre or focal length of 0 is computed from the image size."""
         p = parameters
         self._centre = p.number("Cx", 0.0), p.number("Cy", 0.0)
         self._focal_length = p.number("focalLength", 0.0)
@@ -24,7 +24,7 @@ class CameraInfo:
         p.ignore("CxPrime", "borderCrop", "distortion_k1", "autoDistortion")
 
     def message(self, width: int, height: int, horizontal_fov: float) -> Message:
-        """It, without its header, for pictures of this size."""
+        """Return the message without its header, for this image size."""
         f = self._focal_length or width / (2 * math.tan(horizontal_fov / 2))
         cx, cy = self._centre[0] or (width + 1) / 2, self._centre[1] or (height + 1) / 2
         return {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_openni_kinect and gazebo_ros_depth_camera: depths and clouds of points beside the picture."""
+"""gazebo_ros_openni_kinect and gazebo_ros_depth_camera: depth images and point clouds."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.gazebo_plugins.device import Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera import Camera, image_message
 
 Array = np.ndarray[Any, Any]
 
 _FLOAT32 = 7  # sensor_msgs/PointField
-_POINT = 32  # bytes of a point, of which x, y and z take 12, and the colour 4 from the 16th on, as in PCL
+_POINT = 32  # bytes per point: x, y and z in the first 12, the colour in 4 from the 16th on, as in PCL
 _FIELDS = [
     {"name": name, "offset": offset, "datatype": _FLOAT32, "count": 1}
     for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))
@@ -21,11 +21,11 @@ _FIELDS = [
 
 
 class DepthCamera(Camera):
-    """Depths out of the cut-offs are not a number; points are in the optical frame: z forward, x to the right."""
+    """Depths outside the cut-offs are NaN; points are in the optical frame: z forward, x to the right."""
 
     image_topic = "ir/image_raw"
     info_topic = "ir/camera_info"
-    farthest = np.inf  # m, unless the plugin says so
+    farthest = np.inf  # m, default of the plugin's parameter
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -38,35 +38,35 @@ class DepthCamera(Camera):
         self._points = self.advertise_more(p.text("pointCloudTopicName", "points"), "sensor_msgs/PointCloud2")
         self._cloud = DepthCloud(optical=True)
 
-    def tell(self, image: Any, header: Message) -> None:
-        """Publish what somebody listens to."""
-        super().tell(image, header)
-        if not (self.wanted(self._depth) or self.wanted(self._points)):
+    def publish_image(self, image: Any, header: Message) -> None:
+        """Publish the topics that have subscribers."""
+        super().publish_image(image, header)
+        if not (self.is_needed(self._depth) or self.is_needed(self._points)):
             return
         near, far = self._cutoffs
         depth = np.where((image.depth > near) & (image.depth < far), image.depth, np.float32(np.nan))
-        if self.wanted(self._depth):
+        if self.is_needed(self._depth):
             self.bridge.publish(self._depth, {"header": header, **image_message(depth, "32FC1")})
-        if self.wanted(self._points):
+        if self.is_needed(self._points):
             self.bridge.publish(self._points, {"header": header, **self._cloud.message(image, depth)})
 
 
 class OpenniKinect(DepthCamera):
-    """As a Kinect sees: not beyond 5 m."""
+    """A Kinect: maximum depth 5 m."""
 
     farthest = 5.0
 
 
 class DepthCloud:
-    """Makes clouds of points from the depths of one camera."""
+    """Computes point clouds from the depths of one camera."""
 
     def __init__(self, *, optical: bool) -> None:
-        """``optical``: in axes with z forward and x to the right; else with x forward and y to the left."""
+        """``optical``: axes with z forward and x to the right; else with x forward and y to the left."""
         self._optical = optical
-        self._rays: tuple[Array, Array] | None = None  # to the right and down at a depth of 1 m, of columns and rows
+        self._rays: tuple[Array, Array] | None = None  # x of columns and y of rows at a depth of 1 m
 
     def message(self, image: Any, depth: Array) -> Message:
-        """A sensor_msgs/PointCloud2 without its header, of depths in metres that may be not a number."""
+        """Return a sensor_msgs/PointCloud2 without its header, of depths in metres, which may be NaN."""
         height, width = depth.shape
         if self._rays is None:
             half = np.tan(image.horizontal_fov / 2) * 2 / width

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_ft_sensor: what a joint transmits."""
+"""gazebo_ros_ft_sensor: force and torque in a joint."""
 
 from __future__ import annotations
 
 from bubblesim._core import read_sensor
-from bubblesim.gazebo_plugins.device import Device, PluginContext
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.ros_messages import vector_message
 
 
-class FtSensor(Device):
+class FtSensor(Plugin):
     """Parameters and defaults are those of gazebo_ros_pkgs; the joint must have a sensor of type force_torque."""
 
     def __init__(self, context: PluginContext) -> None:
@@ -21,7 +21,7 @@ class FtSensor(Device):
         joint = self.joint("jointName", "")
         sensors = [part for part in self.world.children(joint) if self.world.kind(part) == "sensor"]
         if not sensors:
-            raise p.fail("jointName", "names a joint without a <sensor type='force_torque'>: only those are measured")
+            raise p.fail("jointName", "names a joint without a <sensor type='force_torque'>: add one to the joint")
         self._sensor = sensors[0]
         self._frame = self.world.name(self.world.joint_links(joint)[1])
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
@@ -30,13 +30,13 @@ class FtSensor(Device):
         self._publisher = self.advertise(p.text("topicName", "wrench"), "geometry_msgs/WrenchStamped", 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset rate and noise."""
         self._rate.reset()
         self._noise.reset()
 
     def publish(self) -> None:
-        """Tell force and torque."""
-        if self.wanted(self._publisher) and self._rate.due(self.simulation.time):
+        """Publish force and torque."""
+        if self.is_needed(self._publisher) and self._rate.due(self.simulation.time):
             _, reading = read_sensor(self.simulation, self._sensor)
             force, torque = self._noise.on(reading.force.tolist()), self._noise.on(reading.torque.tolist())
             wrench = {"force": vector_message(force), "torque": vector_message(torque)}

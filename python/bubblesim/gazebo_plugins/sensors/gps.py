@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""hector_gazebo_plugins' gazebo_ros_gps: where a link is on the Earth."""
+"""hector_gazebo_plugins' gazebo_ros_gps: position of a link on the Earth."""
 
 from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import PluginContext
+from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.ros_messages import vector_message
@@ -36,18 +36,18 @@ class Gps(HectorSensor):
         self._velocity = self.advertise(p.text("velocityTopicName", "fix_velocity"), "geometry_msgs/Vector3Stamped", 10)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset rate and noise."""
         super().reset()
         self._velocity_noise.reset()
 
     def publish(self) -> None:
-        """Tell place and velocity."""
+        """Publish position and velocity."""
         if not self.is_due(self._fix, self._velocity):
             return
         header = self.header(self._frame)
         x, y, z = self._noise.on(self.world.pose(self._link)[:3])
         north, west = self._turned(x, y)
-        # Radii of curvature at the reference: along a meridian, and of its parallel.
+        # Radii at the reference: of curvature along the meridian, and of the parallel.
         squeezed = 1 - _ECCENTRICITY_SQUARED * math.sin(math.radians(self._latitude)) ** 2
         across = _EQUATORIAL_RADIUS / math.sqrt(squeezed)
         meridian = across * (1 - _ECCENTRICITY_SQUARED) / squeezed
@@ -61,7 +61,7 @@ class Gps(HectorSensor):
                 "longitude": self._longitude - math.degrees(west / parallel),
                 "altitude": self._altitude + z,
                 "position_covariance": self._noise.covariance(3),
-                "position_covariance_type": 2,  # its diagonal is known
+                "position_covariance_type": 2,  # COVARIANCE_TYPE_DIAGONAL_KNOWN
             },
         )
         vx, vy, vz = self._velocity_noise.on(self.world.velocity(self._link)[0])
@@ -69,6 +69,6 @@ class Gps(HectorSensor):
         self.bridge.publish(self._velocity, {"header": header, "vector": velocity})
 
     def _turned(self, x: float, y: float) -> tuple[float, float]:
-        """North and west of what lies along x and y."""
+        """Return the north and west components of a vector along x and y."""
         cos, sin = math.cos(self._heading), math.sin(self._heading)
         return cos * x + sin * y, -sin * x + cos * y

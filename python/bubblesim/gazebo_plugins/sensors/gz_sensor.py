@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors as gz-sim publishes them and ros_gz_bridge brings them to ROS: names are gz-sim's, types are ROS's."""
+"""Sensors published as by gz-sim and ros_gz_bridge: names are gz-sim's, types are ROS's."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.gazebo_plugins.device import Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.camera import image_message
 from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCloud
 from bubblesim.gazebo_plugins.sensors.laser import laser_scan
-from bubblesim.gazebo_plugins.sensors.sensor_topic import MakeMessage, SensorTopic, beside
+from bubblesim.gazebo_plugins.sensors.sensor_topic import MakeMessage, SensorTopic, sibling_topic
 
-# By SDFormat's type of the sensor: the system that serves it, and the end of the topic that it has without a <topic>.
+# By SDFormat's sensor type: the system that publishes it, and the last part of its default topic.
 _SERVED = {
     "lidar": ("gz-sensors-system", "scan"),
     "gpu_lidar": ("gz-sensors-system", "scan"),
@@ -31,24 +31,24 @@ _SERVED = {
     "contact": ("gz-contact-system", "contact"),
     "force_torque": ("gz-forcetorque-system", "forcetorque"),
 }
-# Their pictures are of other kinds than those that cameras take here.
+# Sensors whose images have another format than those of cameras here.
 _LEFT_OUT = ("segmentation_camera",)
 
 
 def publishes_as_gz(world: Any, sensor: int, systems: Collection[str]) -> bool:
-    """Whether a sensor without a plugin has a <topic>, or one of gz-sim's systems serves it."""
+    """Return whether a sensor without a plugin has a <topic>, or a loaded gz-sim system publishes it."""
     kind, topic, _, _ = world.gz_topic(sensor)
-    if topic.startswith("~") or kind in _LEFT_OUT:  # a ~ is a name of Gazebo's own transport
+    if topic.startswith("~") or kind in _LEFT_OUT:  # ~ is only valid in Gazebo's own transport
         return False
     return bool(topic) or (kind in _SERVED and _SERVED[kind][0] in systems)
 
 
 class GzSensor(SensorTopic):
-    """On its <topic>, or on /world/WORLD/model/MODEL/link/LINK/sensor/SENSOR/..., in the frame MODEL/LINK/SENSOR.
+    """Topic: <topic>, or /world/WORLD/model/MODEL/link/LINK/sensor/SENSOR/...; frame: MODEL/LINK/SENSOR.
 
-    A lidar gives the LaserScan of its middle ring, and all points on TOPIC/points; a depth camera its depths in metres
+    A lidar publishes the LaserScan of its middle ring, and all points on TOPIC/points; a depth camera depths in metres
     and TOPIC/points; an rgbd_camera image, depth_image, points and camera_info below its topic. Points are in the
-    sensor's own axes, x forward. The others are those of SensorTopic.
+    sensor's axes, x forward. Other sensors publish as SensorTopic does.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -60,7 +60,7 @@ class GzSensor(SensorTopic):
         super().__init__(context)
 
     def place_of_topic(self) -> tuple[str, str]:
-        """The sensor's topic and frame."""
+        """Return the sensor's topic and frame."""
         chain = [self.context.owner]
         while (parent := self.world.parent(chain[0])) >= 0:
             chain.insert(0, parent)
@@ -71,7 +71,7 @@ class GzSensor(SensorTopic):
         return _valid(self._given_topic or default), self._given_frame or "/".join(names)
 
     def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
-        """What is published of a kind of reading: topic, type and what makes the message."""
+        """Yield the outputs of a kind of reading: topic, type and the function that creates the message."""
         match self._kind:
             case "lidar" | "gpu_lidar":
                 middle = len(reading.elevations) // 2
@@ -85,7 +85,7 @@ class GzSensor(SensorTopic):
             case "depth_camera":
                 yield topic, "sensor_msgs/Image", _depths
                 yield f"{topic}/points", "sensor_msgs/PointCloud2", self._points
-                yield self.info_output(self._info_topic or beside(topic, "camera_info"))
+                yield self.info_output(self._info_topic or sibling_topic(topic, "camera_info"))
             case "rgbd_camera":
                 yield f"{topic}/image", "sensor_msgs/Image", lambda image: image_message(image.rgb, "rgb8")
                 yield f"{topic}/depth_image", "sensor_msgs/Image", _depths
@@ -93,7 +93,7 @@ class GzSensor(SensorTopic):
                 yield self.info_output(self._info_topic or f"{topic}/camera_info")
             case "camera":
                 yield topic, *self.form(reading)
-                yield self.info_output(self._info_topic or beside(topic, "camera_info"))
+                yield self.info_output(self._info_topic or sibling_topic(topic, "camera_info"))
             case _:
                 yield from super().outputs(topic, reading)
 
@@ -107,5 +107,5 @@ def _depths(image: Any) -> Message:
 
 
 def _valid(topic: str) -> str:
-    """A name that ROS takes, from the root: what Gazebo's transport allows beside becomes an underscore."""
+    """Return a valid, absolute ROS name: other characters allowed in Gazebo's transport become underscores."""
     return "/" + re.sub(r"[^A-Za-z0-9_/]", "_", re.sub(r"/+", "/", topic).strip("/"))

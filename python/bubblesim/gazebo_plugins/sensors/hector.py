@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the sensors of hector_gazebo_plugins that look at a link have in common."""
+"""Common parts of the hector_gazebo_plugins that measure a link."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, PluginContext
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 
 
-class HectorSensor(Device):
-    """Parameters and defaults are hector's; offsets and drifts are left out."""
+class HectorSensor(Plugin):
+    """Parameters and defaults are hector's; offsets and drifts are ignored."""
 
-    default_rate = 0.0  # Hz; 0: in each step
+    default_rate = 0.0  # Hz; 0: every step
 
     def __init__(self, context: PluginContext) -> None:
-        """Read the parameters that all have."""
+        """Read the common parameters."""
         super().__init__(context)
         p = self.parameters
         self.enter_namespace()
@@ -25,10 +25,10 @@ class HectorSensor(Device):
         self._rate = Rate(p.number("updateRate", self.default_rate, least=0.0), self.simulation.time_step)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset rate and noise."""
         self._rate.reset()
         self._noise.reset()
 
     def is_due(self, *publishers: int) -> bool:
-        """Whether it is time to tell, and somebody hears one of the topics."""
-        return any(map(self.wanted, publishers)) and self._rate.due(self.simulation.time)
+        """Return whether publishing is due and a topic has subscribers."""
+        return any(map(self.is_needed, publishers)) and self._rate.due(self.simulation.time)

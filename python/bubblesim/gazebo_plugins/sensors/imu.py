@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_imu_sensor, of an IMU sensor, and gazebo_ros_imu and hector's, of a link."""
+"""gazebo_ros_imu_sensor, of an IMU sensor; gazebo_ros_imu and hector's, of a link."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from bubblesim._core import read_imu
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
@@ -15,8 +15,8 @@ from bubblesim.geometry.rotations import product, quaternion_of_rpy
 from bubblesim.ros_messages import vector_message
 
 
-class ImuSensor(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs; the sensor's own noise comes first."""
+class ImuSensor(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs; this noise is added to that of the sensor."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -24,7 +24,7 @@ class ImuSensor(Device):
         p = self.parameters
         self.enter_namespace(of_model=True)
         if p.given("frameName") is None:
-            raise p.fail("frameName", "is missing")
+            raise p.fail("frameName", "is missing: it names the frame of the messages")
         self._frame = p.text("frameName", "")
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
@@ -34,13 +34,13 @@ class ImuSensor(Device):
         self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset readings and noise."""
         self._readings.reset()
         self._noise.reset()
 
     def publish(self) -> None:
-        """Tell a new reading."""
-        if not (self.wanted(self._publisher) and (reading := self._readings.take())):
+        """Publish a new reading."""
+        if not (self.is_needed(self._publisher) and (reading := self._readings.take())):
             return
         orientation = product(self._turn, reading.orientation.tolist())
         message = imu_message(
@@ -49,8 +49,8 @@ class ImuSensor(Device):
         self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
 
 
-class LinkImu(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs, what is measured is that of REP 145: g upwards at rest."""
+class LinkImu(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs; measurements follow REP 145: g upwards at rest."""
 
     frame_parameter = "frameName"
     default_topic = "/default_imu"
@@ -66,26 +66,26 @@ class LinkImu(Device):
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "imu")
         noise = Noise(self, *p.deviations("gaussianNoise"))
-        self.noises = noise, noise  # of the angular velocity and of the acceleration
+        self.noises = noise, noise  # of angular velocity and acceleration
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
         service = self.topic(p.text("serviceName", self.default_service))
         p.check()
         self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", 1)
-        self.advertise_service(service, "std_srvs/Empty", lambda _: None)  # calibrates, in other drivers
+        self.advertise_service(service, "std_srvs/Empty", lambda _: None)  # calibration, in other drivers
 
     def default_body(self) -> str:
-        """The link without <bodyName>; none, for that is wanted."""
+        """Return the default of <bodyName>; none, because it is required."""
         return ""
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset rate and noise."""
         self._rate.reset()
         for noise in self.noises:
             noise.reset()
 
     def publish(self) -> None:
-        """Tell how the link moves."""
-        if not (self.wanted(self._publisher) and self._rate.due(self.simulation.time)):
+        """Publish the motion of the link."""
+        if not (self.is_needed(self._publisher) and self._rate.due(self.simulation.time)):
             return
         pose = self.world.pose(self._link)
         pose[3:] = product(self._turn, pose[3:])
@@ -96,7 +96,7 @@ class LinkImu(Device):
 
 
 class HectorImu(LinkImu):
-    """hector_gazebo_plugins' gazebo_ros_imu; offsets and drifts are left out, as is the noise of the heading."""
+    """hector_gazebo_plugins' gazebo_ros_imu; offsets, drifts and the noise of the heading are ignored."""
 
     frame_parameter = "frameId"
     default_topic = "imu"
@@ -112,11 +112,11 @@ class HectorImu(LinkImu):
         self.parameters.check()
 
     def default_body(self) -> str:
-        """The model's first link."""
+        """Return the model's first link."""
         return str(self.world.name(self.first_link()))
 
     def _noise(self, parameter: str) -> Noise:
-        """By a deviation, or by one for each axis."""
+        """Return the noise of one deviation, or of one per axis."""
         return Noise(self, *self.parameters.deviations(parameter))
 
 
@@ -127,7 +127,7 @@ def imu_message(
     noise: Noise,
     noise_of_linear: Noise | None = None,
 ) -> Message:
-    """A sensor_msgs/Imu without its header; the acceleration's noise is that of all unless it has its own."""
+    """Return a sensor_msgs/Imu without its header; ``noise_of_linear`` defaults to ``noise``."""
     noise_of_linear = noise_of_linear or noise
     covariance = noise.covariance(3)
     return {

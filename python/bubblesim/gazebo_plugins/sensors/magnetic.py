@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""hector_gazebo_plugins' gazebo_ros_magnetic: the magnetic field of the Earth as a link feels it."""
+"""hector_gazebo_plugins' gazebo_ros_magnetic: the Earth's magnetic field measured at a link."""
 
 from __future__ import annotations
 
 import math
 
-from bubblesim.gazebo_plugins.device import PluginContext
+from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.geometry.frames import into
 from bubblesim.ros_messages import vector_message
 
 
 class Magnetic(HectorSensor):
-    """Parameters and defaults are hector's: the field is told by its magnitude, inclination and declination (degrees).
+    """Parameters and defaults are hector's: magnitude, inclination and declination (degrees) of the field.
 
     With <useMagneticFieldMsgs> the message is a sensor_msgs/MagneticField, else a geometry_msgs/Vector3Stamped.
     """
@@ -32,9 +32,9 @@ class Magnetic(HectorSensor):
         self._publisher = self.advertise(p.text("topicName", "magnetic"), message_type, 1)
 
     def publish(self) -> None:
-        """Tell the field in the link's frame."""
+        """Publish the field in the link's frame."""
         if not self.is_due(self._publisher):
             return
-        felt = vector_message(self._noise.on(into(self.world.pose(self._link), self._field)))
-        told = {"magnetic_field": felt} if self._as_field else {"vector": felt}
-        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **told})
+        measured = vector_message(self._noise.on(into(self.world.pose(self._link), self._field)))
+        content = {"magnetic_field": measured} if self._as_field else {"vector": measured}
+        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **content})

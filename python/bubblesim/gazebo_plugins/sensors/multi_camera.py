@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_multicamera: the cameras of one sensor, such as the left and right one of a stereo head."""
+"""gazebo_ros_multicamera: the cameras of one sensor, such as left and right of a stereo head."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import PluginContext
+from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.camera import Camera
 
 _SIDES = ("left", "right")
@@ -12,8 +12,8 @@ _SIDES = ("left", "right")
 class MultiCamera(Camera):
     """One for each <camera>, which is a sensor SENSOR_CAMERA here.
 
-    As in Gazebo its topics lie below cameraName/left or cameraName/right, by what the name of the <camera> holds, and
-    <hackBaseline> is that of the right one.
+    As in Gazebo, its topics are below cameraName/left or cameraName/right, depending on the name of the <camera>, and
+    <hackBaseline> applies to the right one.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -23,7 +23,7 @@ class MultiCamera(Camera):
             self.info.baseline = 0.0
 
     def below_camera(self, name: str) -> str:
-        """A topic of the camera's side."""
+        """Return a topic of the camera's side."""
         side = self._side()
         return super().below_camera(name if name.startswith("/") or not side else f"{side}/{name}")
 

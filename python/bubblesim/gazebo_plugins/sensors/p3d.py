@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_p3d: where a link really is."""
+"""gazebo_ros_p3d: the true pose and velocity of a link."""
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.device import Device, PluginContext
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.geometry.frames import state_in
@@ -13,7 +13,7 @@ from bubblesim.ros_messages import pose_message, vector_message
 _WORLD = ("/world", "world", "/map", "map", "")
 
 
-class P3D(Device):
+class P3D(Plugin):
     """Parameters and defaults are those of gazebo_ros_pkgs."""
 
     def __init__(self, context: PluginContext) -> None:
@@ -32,13 +32,13 @@ class P3D(Device):
         self._publisher = self.advertise(p.text("topicName", "odom"), "nav_msgs/Odometry", 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset rate and noise."""
         self._rate.reset()
         self._noise.reset()
 
     def publish(self) -> None:
-        """Tell pose and velocity; the velocity along the axes of the frame."""
-        if not (self.wanted(self._publisher) and self._rate.due(self.simulation.time)):
+        """Publish pose and velocity; the velocity is along the axes of the frame."""
+        if not (self.is_needed(self._publisher) and self._rate.due(self.simulation.time)):
             return
         pose, linear, angular = state_in(self.world, self._link, self._reference)
         position = [at + offset for at, offset in zip(pose[:3], self._offset, strict=True)]

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_range and hector's sonar: the nearest thing that a lidar's rays meet, as range sensors tell it."""
+"""gazebo_ros_range and hector's sonar: the shortest range of a lidar's rays."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 _RADIATIONS = {"ultrasound": 0, "infrared": 1}  # sensor_msgs/Range
 
 
-class Range(Device):
-    """Parameters and defaults are those of gazebo_ros_pkgs; nothing in range is told as the greatest range."""
+class Range(Plugin):
+    """Parameters and defaults are those of gazebo_ros_pkgs; without a return, the range is the maximum range."""
 
     frame_parameter = "frameName"
     default_frame = "world"
     default_topic = "/range"
-    default_fov: float | None = 0.05  # rad; None for the angle that the rays span
+    default_fov: float | None = 0.05  # rad; None for the angle between the outer rays
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -35,13 +35,13 @@ class Range(Device):
         self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Range", 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset readings and noise."""
         self._scans.reset()
         self._noise.reset()
 
     def publish(self) -> None:
-        """Tell a new range."""
-        if self.wanted(self._publisher) and (scan := self._scans.take()):
+        """Publish a new range."""
+        if self.is_needed(self._publisher) and (scan := self._scans.take()):
             fov = scan.angle_max - scan.angle_min if self._fov is None else self._fov
             message = {"radiation_type": self._radiation, "field_of_view": fov, **self._range(scan)}
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})

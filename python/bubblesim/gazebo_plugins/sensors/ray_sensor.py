@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_ray_sensor of ROS 2: a lidar as a scan or as a cloud of points."""
+"""gazebo_ros_ray_sensor of ROS 2: a lidar as a scan or as a point cloud."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.laser import laser_scan
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
@@ -19,8 +19,8 @@ _OUTPUTS: dict[str, Callable[[Any], Message]] = {
 _OUT = "~/out:="
 
 
-class RaySensor(Device):
-    """Its topic is PLUGIN/out, or what <ros><remapping>~/out:=TOPIC</remapping></ros> says; the frame is the link's."""
+class RaySensor(Plugin):
+    """Topic: PLUGIN/out, or TOPIC of <ros><remapping>~/out:=TOPIC</remapping></ros>; frame: that of the link."""
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters."""
@@ -40,10 +40,10 @@ class RaySensor(Device):
         self._publisher = self.advertise(topic, message_type, 1)
 
     def reset(self) -> None:
-        """Start over."""
+        """Reset the state."""
         self._scans.reset()
 
     def publish(self) -> None:
-        """Tell a new scan."""
-        if self.wanted(self._publisher) and (scan := self._scans.take()):
+        """Publish a new scan."""
+        if self.is_needed(self._publisher) and (scan := self._scans.take()):
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), **self._form(scan)})

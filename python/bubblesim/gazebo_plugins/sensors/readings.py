@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a device's sensor measured anew."""
+"""New measurements of a plugin's sensor."""
 
 from __future__ import annotations
 
@@ -7,39 +7,39 @@ from collections.abc import Callable
 from typing import Any
 
 from bubblesim._core import reading_time
-from bubblesim.gazebo_plugins.device import Device
+from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.gazebo_plugins.rate import Rate
 
 
 class NewReadings:
-    """Each measurement once. A sensor that is not asked does not measure."""
+    """Returns each measurement once. The sensor measures only on request."""
 
     def __init__(
-        self, device: Device, read: Callable[[Any, int], Any], hertz: float = 0.0, sensor: int | None = None
+        self, plugin: Plugin, read: Callable[[Any, int], Any], hertz: float = 0.0, sensor: int | None = None
     ) -> None:
-        """``read`` is a function of ``bubblesim._core`` such as ``read_lidar``; at most ``hertz``, 0 for all.
+        """``read``: a function of ``bubblesim._core`` such as ``read_lidar``; ``hertz``: the maximum rate, 0 for all.
 
-        Without ``sensor``, a handle, the sensor is that which has the plugin.
+        ``sensor`` is a handle; default: the sensor that has the plugin.
         """
-        self._device = device
-        self._sensor = device.context.owner if sensor is None else sensor
+        self._plugin = plugin
+        self._sensor = plugin.context.owner if sensor is None else sensor
         self._read = read
-        self._rate = Rate(hertz, device.simulation.time_step)
+        self._rate = Rate(hertz, plugin.simulation.time_step)
         self._time: float | None = None
 
     def take(self) -> Any | None:
-        """The reading of this step, None when the sensor was not due; to be asked in each step with a listener."""
-        return self._read(self._device.simulation, self._sensor) if self.due() else None
+        """Return the reading of this step, None if the sensor is not due; call it in each step with subscribers."""
+        return self._read(self._plugin.simulation, self._sensor) if self.due() else None
 
     def due(self) -> bool:
-        """Whether there is a new one to be taken in this step, without having the sensor measure."""
-        time = reading_time(self._device.simulation, self._sensor)
+        """Return whether there is a new reading in this step, without triggering the measurement."""
+        time = reading_time(self._plugin.simulation, self._sensor)
         if time == self._time:
             return False
         self._time = time
-        return self._rate.due(self._device.simulation.time)
+        return self._rate.due(self._plugin.simulation.time)
 
     def reset(self) -> None:
-        """Time may start again."""
+        """Reset after simulated time restarted."""
         self._time = None
         self._rate.reset()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensors that are published without a plugin, by their <bubblesim:topic>."""
+"""Sensors published without a plugin, by their <bubblesim:topic>."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import CameraImage, camera_optics, read_sensor, reading_time
-from bubblesim.gazebo_plugins.device import Device, Message, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.bumper import contact_state
 from bubblesim.gazebo_plugins.sensors.camera import image_message
@@ -20,12 +20,12 @@ from bubblesim.gazebo_plugins.sensors.laser import laser_scan
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.ros_messages import vector_message
 
-MakeMessage = Callable[[Any], Message]  # of a reading; without its header
+MakeMessage = Callable[[Any], Message]  # of a reading, without the header
 
 
 @dataclass(frozen=True)
-class OwnTopic:
-    """Stands where a plugin stands for other devices: there is none."""
+class NoPlugin:
+    """Replaces the plugin description of a sensor without a plugin."""
 
     file: str  # the sensor's path
     name: str = "bubblesim:topic"
@@ -34,13 +34,13 @@ class OwnTopic:
     parameters: list[Any] = field(default_factory=list)
 
 
-class SensorTopic(Device):
-    """The type follows from the kind of sensor, and the frame is the sensor's link unless <bubblesim:frame> names one.
+class SensorTopic(Plugin):
+    """The message type depends on the sensor type; the frame is the sensor's link unless <bubblesim:frame> is given.
 
-    A sonar gives a Range, infinite for nothing in range (REP 117); a lidar of one ring a LaserScan, of several a
-    PointCloud2; a camera an Image, in metres from a depth camera, with a camera_info beside it; an IMU an Imu; a GPS
-    receiver a NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a
-    MagneticField; a contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
+    A sonar publishes a Range, infinite without an echo (REP 117); a lidar of one ring a LaserScan, of several a
+    PointCloud2; a camera an Image (a depth camera in metres) and a camera_info; an IMU an Imu; a GPS receiver a
+    NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a MagneticField; a
+    contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -56,44 +56,44 @@ class SensorTopic(Device):
         ]
 
     def place_of_topic(self) -> tuple[str, str]:
-        """The sensor's topic and frame."""
+        """Return the sensor's topic and frame."""
         topic, frame, _ = self.world.sensor_topic(self.context.owner)
         return topic, frame or self.world.name(self.world.parent(self.context.owner))
 
     def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
-        """What is published of a kind of reading: topic, type and what makes the message."""
+        """Yield the outputs of a kind of reading: topic, type and the function that creates the message."""
         yield topic, *self.form(reading)
         if isinstance(reading, CameraImage):
-            yield self.info_output(beside(topic, "camera_info"))
+            yield self.info_output(sibling_topic(topic, "camera_info"))
 
     def info_output(self, topic: str) -> tuple[str, str, MakeMessage]:
-        """The optics of a camera."""
+        """Return the camera info output."""
         return topic, "sensor_msgs/CameraInfo", self._optics
 
     def reset(self) -> None:
-        """Time may start again."""
+        """Reset after simulated time restarted."""
         self._time = None
 
     def publish(self) -> None:
-        """Publish a new measurement; a camera's optics alone do not have it measure."""
-        wanted = [output for output in self._outputs if self.wanted(output[0])]
-        if not wanted:
+        """Publish a new measurement; subscribers of the camera info alone do not trigger one."""
+        needed = [output for output in self._outputs if self.is_needed(output[0])]
+        if not needed:
             return
         time = reading_time(self.simulation, self.context.owner)
         if time == self._time:
             return
         self._time = time
         header = self.header(self._frame)
-        optics_alone = all(message == self._optics for _, message in wanted)
+        optics_alone = all(message == self._optics for _, message in needed)
         reading = None if optics_alone else read_sensor(self.simulation, self.context.owner)[1]
-        for publisher, message in wanted:
+        for publisher, message in needed:
             self.bridge.publish(publisher, {"header": header, **message(reading)})
 
     def _optics(self, _: Any) -> Message:
         return self._info.message(*camera_optics(self.simulation, self.context.owner))
 
     def form(self, reading: Any) -> tuple[str, MakeMessage]:
-        """The type of the message, and what makes it."""
+        """Return the message type and the function that creates the message."""
         match type(reading).__name__:
             case "ProximityReading":
                 return "sensor_msgs/Range", self._range
@@ -122,7 +122,7 @@ class SensorTopic(Device):
             case "ForceTorqueReading":
                 return "geometry_msgs/WrenchStamped", _wrench
             case kind:
-                raise ValueError(f"there is no message for a {kind}: take it out, or read it in a script")
+                raise ValueError(f"a {kind} cannot be published: remove the topic, or read the sensor in a script")
 
     def _contacts(self, reading: Any) -> Message:
         link = self.world.parent(self.context.owner)
@@ -140,7 +140,7 @@ class SensorTopic(Device):
 
 
 def picture(image: Any) -> Message:
-    """A sensor_msgs/Image of colours, or of depths in metres when there are none."""
+    """Return a sensor_msgs/Image of colours, or of depths in metres for depth cameras."""
     return image_message(image.depth, "32FC1") if image.rgb is None else image_message(image.rgb, "rgb8")
 
 
@@ -158,7 +158,7 @@ def _wrench(reading: Any) -> Message:
     return {"wrench": {name: vector_message(vector.tolist()) for name, vector in parts.items()}}
 
 
-def beside(topic: str, name: str) -> str:
-    """Another topic in the namespace of one."""
+def sibling_topic(topic: str, name: str) -> str:
+    """Return another topic in the namespace of a topic."""
     space, slash, _ = topic.rpartition("/")
     return f"{space}{slash}{name}"

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts can call: functions with checked arguments."""
+"""The functions for scripts, with checked arguments."""

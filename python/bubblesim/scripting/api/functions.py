@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions that scripts may call: found in the classes of the modules, checked by their annotations.
+"""The functions for scripts: methods of the module classes, with arguments checked by their annotations.
 
-A module (`sim`, `simROS`) is a class; each public method is a function of it, its annotations tell what arguments it
-takes and its docstring what it does. Lua, the reference pages and `help` all read them from here.
+A module (`sim`, `simROS`) is a class; each public method is a function of it. Annotations define the arguments, the
+docstring is the documentation. Lua, the reference pages and `help` use them.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ Module = TypeVar("Module", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-MODULES: dict[str, type] = {}  # by the names that scripts know them by
+MODULES: dict[str, type] = {}  # by their names in scripts
 
 
 @dataclass(frozen=True)
 class ScriptFunction:
-    """A function of a module, as it is documented."""
+    """A function of a module with its documentation."""
 
     name: str
     signature: inspect.Signature  # without self
     doc: str
-    group: type  # the class that holds the functions about one thing
+    group: type  # the class that defines the function; its group in the reference
 
 
 class ArgumentError(TypeError):
-    """A call that does not fit the function; the text names function, argument, what it takes and what was given."""
+    """Invalid arguments; the text names function, argument, expected and found values."""
 
 
 def script_module(name: str) -> Callable[[Module], Module]:
-    """Make a class the module ``name`` of scripts: its public methods check what they are called with."""
+    """Register a class as the module ``name`` of scripts: its public methods check their arguments."""
 
     def register(module: Module) -> Module:
         for function_name, function in _public_methods(module):
@@ -54,7 +54,7 @@ def script_module(name: str) -> Callable[[Module], Module]:
 
 
 def value_first(function: Function) -> Function:
-    """Let a function (handle, value, reference) also take (handle, reference, value), as older scripts call it."""
+    """Let a function (handle, value, reference) also accept (handle, reference, value), as in older scripts."""
 
     def reorder(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
         if len(arguments) == 3 and isinstance(arguments[1], SupportsIndex) and not isinstance(arguments[1], Sized):
@@ -66,19 +66,19 @@ def value_first(function: Function) -> Function:
 
 
 def any_time(function: Function) -> Function:
-    """Let a script's thread call a function also when it has no turn to work on the simulation."""
+    """Let a script's thread call a function also outside of its turns."""
     function.any_time = True  # type: ignore[attr-defined]
     return function
 
 
 def checked_on_failure(function: Function) -> Function:
-    """Look at the arguments only when the call raises a TypeError: for functions in which each microsecond counts."""
+    """Check the arguments only if the call raises a TypeError: for functions with critical run time."""
     function.checked_on_failure = True  # type: ignore[attr-defined]
     return function
 
 
 def functions(module: type) -> list[ScriptFunction]:
-    """All functions of a module, by name."""
+    """Return all functions of a module, by name."""
     found = []
     for name, function in _public_methods(module):
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
@@ -87,13 +87,13 @@ def functions(module: type) -> list[ScriptFunction]:
 
 
 def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
-    """What the parameters of a function take, by name; None for anything."""
+    """Return the kinds of a function's parameters by name; None for any value."""
     hints = typing.get_type_hints(getattr(module, function), include_extras=True)
     return {name: _kind(hint) for name, hint in hints.items() if name != "return"}
 
 
 def _no_such(name: str, module: type) -> Callable[[object, str], Any]:
-    """What reports names that a module does not have."""
+    """Return a __getattr__ that reports unknown names of a module."""
 
     def refuse(self: object, wanted: str) -> Any:
         raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
@@ -112,7 +112,7 @@ def _signature(function: Callable[..., Any]) -> inspect.Signature:
 
 
 def _kind(hint: Any) -> Kind | None:
-    """What a parameter takes; None for anything."""
+    """Return the kind of a parameter; None for any value."""
     for extra in getattr(hint, "__metadata__", ()):
         if isinstance(extra, Kind):
             return extra
@@ -123,14 +123,14 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     signature = _signature(function)
     hints = typing.get_type_hints(function, include_extras=True)
     kinds = [_kind(hints.get(parameter)) for parameter in signature.parameters]
-    converters = [kind.convert if kind else _as_it_is for kind in kinds]
+    converters = [kind.convert if kind else _unchanged for kind in kinds]
     reorder = getattr(function, "reorder", None)
     at_any_time = hasattr(function, "any_time")
     most = len(converters)
     least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
 
     @functools.wraps(function)
-    def call_first(*arguments: Any, **named: Any) -> Any:  # self among them: taking them apart takes time
+    def call_first(*arguments: Any, **named: Any) -> Any:  # including self, which is faster
         if named:
             arguments = (arguments[0], *_bound(full_name, signature, arguments[1:], named))
         try:
@@ -175,7 +175,7 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
 
 
 def _plain_types(kinds: list[Kind | None], least: int) -> set[tuple[type, ...]]:
-    """The types of arguments, at least so many, that a function takes as they are: most calls are of these."""
+    """Return the argument types, of at least ``least`` arguments, that need no conversion: the common case."""
     types: list[type] = []
     for kind in kinds:
         if kind is None or kind.plain is None:
@@ -194,20 +194,20 @@ def _fit(kinds: list[Kind | None], arguments: tuple[Any, ...]) -> bool:
     return True
 
 
-def _as_it_is(value: Any) -> Any:
+def _unchanged(value: Any) -> Any:
     return value
 
 
 def _bound(
     full_name: str, signature: inspect.Signature, arguments: tuple[Any, ...], named: dict[str, Any]
 ) -> tuple[Any, ...]:
-    """The arguments by position."""
+    """Return the arguments by position."""
     try:
         bound = signature.bind(*arguments, **named)
     except TypeError as error:
         names = ", ".join(str(p).partition(":")[0].partition("=")[0].strip() for p in signature.parameters.values())
         raise ArgumentError(f"{full_name}({names}): {error}") from None
-    if named:  # those left out in between
+    if named:  # arguments omitted in between
         bound.apply_defaults()
     return bound.args
 
@@ -219,7 +219,7 @@ def _located(
     arguments: tuple[Any, ...],
     error: HandleError,
 ) -> HandleError:
-    """The error with the function that the script called, and the argument that was no handle."""
+    """Return the error with the called function and the invalid argument."""
     for number, (name, kind, value) in enumerate(zip(signature.parameters, kinds, arguments), start=1):  # noqa: B905
         if kind is HANDLE and value == error.handle:
             return HandleError(error.handle, f"{full_name}: argument {number}, {name}: ")
@@ -237,4 +237,4 @@ def _argument_error(
         except (TypeError, ValueError, OverflowError) as error:
             found = str(error) if isinstance(error, MismatchError) else f"found {shown(value)}"
             return ArgumentError(f"{full_name}: argument {number}, {name}: expected {kind.words}, {found}")
-    raise AssertionError("no argument is wrong")
+    raise AssertionError("all arguments are valid")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an argument of a script function may be: the kinds that stand in the functions' annotations."""
+"""Argument types of script functions: the kinds used in the functions' annotations."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from typing import Annotated, Any
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of argument: how to say it, and how a value is taken for it."""
+    """A kind of argument: its description and conversion."""
 
     words: str
-    convert: Callable[[Any], Any]  # raises TypeError or ValueError for what it does not take
-    plain: type | None = None  # what convert() returns as it is; None when there is no such type
+    convert: Callable[[Any], Any]  # raises TypeError or ValueError for invalid values
+    plain: type | None = None  # type that convert() returns unchanged; None if there is none
 
 
 class MismatchError(ValueError):
-    """Says itself what was found, where the value as a whole would not show it."""
+    """States the found value itself, when the whole value would not show the problem."""
 
 
 class HandleError(ValueError):
-    """A number that is no handle."""
+    """A number that is not a handle of an object."""
 
     def __init__(self, handle: int, where: str = "") -> None:
-        """:param where: what the text begins with."""
-        none = "; it is what sim.getObject returns with noError when it finds nothing" if handle == -1 else ""
-        super().__init__(f"{where}{handle} is no handle of an object{none}")
+        """:param where: beginning of the text."""
+        none = "; sim.getObject with noError returns it for a missing object" if handle == -1 else ""
+        super().__init__(f"{where}{handle} is not a handle of an object{none}")
         self.handle = handle
 
 
 def _number(value: Any) -> float:
-    if isinstance(value, str):  # float('1') would take it
+    if isinstance(value, str):  # float('1') would accept it
         raise TypeError
     return float(value)
 
@@ -68,7 +68,7 @@ def _options(value: Any) -> Mapping[str, Any]:
 
 
 def numbers(count: int) -> Kind:
-    """Exactly ``count`` numbers, in a list, a tuple, an array."""
+    """Return the kind of exactly ``count`` numbers, in a list, tuple or array."""
 
     def convert(values: Any) -> list[float]:
         taken = _numbers(values)
@@ -123,7 +123,7 @@ PLAIN: dict[Any, Kind] = {float: NUMBER, int: INTEGER, str: TEXT, bool: FLAG}
 
 
 def shown(value: Any) -> str:
-    """A value as an error names it: its type and the beginning of what it holds."""
+    """Return a value for error messages: its type and the beginning of its repr."""
     if value is None:
         return "nothing (None)"
     text = repr(value)

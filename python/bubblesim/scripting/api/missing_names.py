@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which function was meant by a name that a module of scripts does not have."""
+"""Suggestions for unknown names of a script module."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from bubblesim.messages.names import did_you_mean
 
-# The same function under the names of simROS and of simROS2.
+# The same function in simROS and simROS2.
 _COUNTERPARTS = (
     ("advertise", "createPublisher"),
     ("subscribe", "createSubscription"),
@@ -24,7 +24,7 @@ _COUNTERPARTS = (
     ("imageTransportSubscribe", "imageTransportCreateSubscription"),
     ("imageTransportShutdownSubscriber", "imageTransportShutdownSubscription"),
 )
-_TELLING = 6  # letters that say what a name begins with
+_MIN_PREFIX = 6  # minimum length for a suggestion by prefix
 _IN_MODULE = {
     "simROS": {theirs: ours for ours, theirs in _COUNTERPARTS},
     "simROS2": dict(_COUNTERPARTS),
@@ -32,23 +32,23 @@ _IN_MODULE = {
 
 
 def explain(module: str, wanted: str, modules: Mapping[str, type]) -> str:
-    """The text of an error: ``module`` has no ``wanted``, and what it has.
+    """Return the error message for an unknown name, with suggestions.
 
     :param modules: the classes of all modules by name.
     """
     counterpart = _IN_MODULE.get(module, {}).get(wanted)
     if counterpart is not None:
         other = "simROS2" if module == "simROS" else "simROS"
-        return f"{module} has no {wanted}, which belongs to {other}; its counterpart is {module}.{counterpart}"
+        return f"{module} has no {wanted}, which is a function of {other}; use {module}.{counterpart}"
     elsewhere = [f"{name}.{wanted}" for name, other in modules.items() if wanted in _names(other)]
     near = [f"{module}.{name}" for name in _near(wanted, _names(modules[module]))]
-    hint = did_you_mean(elsewhere or near) or "; `bubblesim api` lists all functions that there are"
+    hint = did_you_mean(elsewhere or near) or "; `bubblesim api` lists all functions"
     return f"{module} has no {wanted}{hint}"
 
 
 def _near(wanted: str, known: list[str]) -> list[str]:
-    """At most two names: first those that go on where this one was cut off."""
-    longer = sorted((name for name in known if name.startswith(wanted)), key=len) if len(wanted) >= _TELLING else []
+    """Return at most two names: first those that start with ``wanted``."""
+    longer = sorted((name for name in known if name.startswith(wanted)), key=len) if len(wanted) >= _MIN_PREFIX else []
     return list(dict.fromkeys([*longer, *difflib.get_close_matches(wanted, known, n=2)]))[:2]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the reference page of a module of child scripts: ``python -m bubblesim.scripting.api.reference sim``."""
+"""Writes the reference page of a script module: ``python -m bubblesim.scripting.api.reference sim``."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _INTRODUCTION = """\
 
 <!-- Generated from the functions themselves by `python -m bubblesim.scripting.api.reference {name}`. -->
 
-What child scripts find in `{name}`. A call that does not fit raises a TypeError that names the function, the argument,
-what it takes and what was given; SI units and radians throughout.
+Functions for child scripts in `{name}`. A call with invalid arguments raises a TypeError that names the function, the
+argument, the expected and the found value. Units are SI units and radians.
 """
 
 
 def page(name: str) -> str:
-    """The page as Markdown, its functions grouped by what they are about."""
+    """Return the page as Markdown, its functions in groups."""
     module = MODULES[name]
     found = functions(module)
     parts = [_INTRODUCTION.format(name=name)]
@@ -34,7 +34,7 @@ def page(name: str) -> str:
 
 def _title(group: type, module: type) -> str:
     if group is module:
-        return "Names of its own"
+        return "Functions of this module only"
     return group.__name__.removesuffix("Functions").removeprefix("Ros")
 
 
@@ -43,7 +43,7 @@ def _entry(module: str, function: ScriptFunction) -> str:
 
 
 def call(name: str, function: ScriptFunction) -> str:
-    """How a function is called, defaults included."""
+    """Return the signature of a function with its defaults."""
     arguments = ", ".join(
         name if parameter.default is inspect.Parameter.empty else f"{name}={_shown(parameter.default)}"
         for name, parameter in function.signature.parameters.items()
@@ -52,7 +52,7 @@ def call(name: str, function: ScriptFunction) -> str:
 
 
 def text(function: ScriptFunction) -> str:
-    """What a function does, in one line."""
+    """Return the documentation of a function, in one line."""
     return " ".join(function.doc.split()).replace("``", "`")
 
 
@@ -61,7 +61,7 @@ def _shown(default: object) -> str:
 
 
 def main() -> int:
-    """Print the page of the module that is named."""
+    """Print the page of the given module."""
     if len(sys.argv) != 2 or sys.argv[1] not in MODULES:
         print(f"usage: python -m bubblesim.scripting.api.reference {'|'.join(MODULES)}", file=sys.stderr)
         return 2

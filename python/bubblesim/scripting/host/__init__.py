@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The life of child scripts: loaded, called, broken off, ended."""
+"""Life cycle of child scripts: load, call, interrupt, end."""

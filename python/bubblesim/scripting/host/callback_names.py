@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The callbacks that a child script may define, by the names it gives them."""
+"""The names of the callbacks of child scripts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ HOOKS = (
 )
 
 _PREFIX = "sysCall_"
-# CoppeliaSim's callbacks of other kinds of scripts, and of events that do not exist here: what does the same.
+# CoppeliaSim's callbacks for other kinds of scripts and for unsupported events, with the callback to use instead.
 _IN_PLACE_OF = {
     "sysCall_afterSimulation": "sysCall_cleanup",
     "sysCall_beforeSimulation": "sysCall_init",
@@ -35,14 +35,14 @@ _IN_PLACE_OF = {
 
 
 def looks_like_callback(name: str) -> bool:
-    """Whether a global function has the name of a callback."""
+    """Return whether a global function has the name of a callback."""
     return name.startswith(_PREFIX)
 
 
 def never_called(name: str) -> str:
-    """The text of a warning about a function that looks like a callback and is none."""
+    """Return the warning about a function that is named like a callback but is not one."""
     if name in _IN_PLACE_OF:
-        return f"{name} is never called; {_IN_PLACE_OF[name]} can do what it does"
+        return f"{name} is never called; use {_IN_PLACE_OF[name]} instead"
     bare = [hook.removeprefix(_PREFIX) for hook in HOOKS]
     near = difflib.get_close_matches(name.removeprefix(_PREFIX), bare, n=1)
     hint = did_you_mean([_PREFIX + each for each in near]) or f"; the callbacks are {', '.join(HOOKS)}"

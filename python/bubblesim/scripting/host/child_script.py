@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One child script: its globals, its callbacks and what happens when it fails."""
+"""One child script: its globals, callbacks and error handling."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ from bubblesim.scripting.threads.script_thread import AnyThread
 
 
 class ChildScript:
-    """A script attached to an object. A script that fails is reported once and does not run again."""
+    """A script attached to an object. After an error, the script is reported once and disabled."""
 
     def __init__(self, host: Host, object_path: str, object_handle: int, file: Path) -> None:
-        """Load ``file`` without running any of its callbacks."""
+        """Load ``file`` without calling any callback."""
         self.host = host
         self.object_path = object_path
         self.object_handle = object_handle
         self.file = file
         self.alive = True
         self.failed = False
-        self.failure = ""  # the error with which it failed, in one line
+        self.failure = ""  # the first line of its error
         self.follows_pauses = False
         self.running = False  # its code is on the call stack
-        self.doing = "loading"  # what it was called for last
-        self.stuck_at = ""  # where it was when somebody looked why it does not return
+        self.activity = "loading"  # the callback or action that runs
+        self.stuck_at = ""  # FILE:LINE where the watchdog found it
         self.shared = host.shared
-        self.programs: list[Program] = []  # that it started
-        self.at_end: dict[Hashable, Hook] = {}  # undoes what else the script made: publishers
-        self.in_each_step: dict[Hashable, Hook] = {}  # what such things have to do regularly; must not fail
+        self.programs: list[Program] = []  # started by the script
+        self.at_end: dict[Hashable, Hook] = {}  # release the script's other resources, such as publishers
+        self.in_each_step: dict[Hashable, Hook] = {}  # updates of such resources; must not raise
         self._started = False
         self._thread: AnyThread | None = None
         self._sockets = script_sockets.Sockets()
@@ -74,8 +74,8 @@ class ChildScript:
         self._warn_of_unknown_callbacks()
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
             self._fail(
-                f"error: child script of {self.object_path} is disabled: {self.file}: defines no sysCall_init and no "
-                "sysCall_thread; a script needs one of these functions"
+                f"error: child script of {self.object_path} is disabled: {self.file}: it defines neither "
+                "sysCall_init nor sysCall_thread; a script needs one of these functions"
             )
 
     def _warn_of_unknown_callbacks(self) -> None:
@@ -87,11 +87,11 @@ class ChildScript:
                 )
 
     def may_start(self, program: Path) -> bool:
-        """Return whether the script may start a program: one in Lua only those that it is allowed."""
+        """Return whether the script may start a program; restricted for Lua scripts."""
         return not self._code.is_confined or is_allowed(program, self.host.allowed_programs)
 
     def actuate(self) -> None:
-        """Run sysCall_actuation, and sysCall_init before the first time."""
+        """Run sysCall_actuation, and before the first time sysCall_init."""
         if not self._started:
             self._started = True
             self._call("sysCall_init")
@@ -99,14 +99,14 @@ class ChildScript:
         for hook in list(self.in_each_step.values()):
             hook()
         if self._thread and self.alive and not interruption.requested:
-            self.run("sysCall_thread", self._thread.give_turn)
+            self.run("sysCall_thread", self._thread.run_turn)
         self._call("sysCall_actuation")
 
     def _start_thread(self) -> None:
         body = self._hooks["sysCall_thread"]
         if body is not None and self.alive:
             name = f"{self.object_path} sysCall_thread"
-            self._thread = self._code.make_thread(name, body, lambda: script_sockets.note_in(self._sockets))
+            self._thread = self._code.make_thread(name, body, lambda: script_sockets.record_in(self._sockets))
 
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None
@@ -117,7 +117,7 @@ class ChildScript:
         """Run sysCall_sensing."""
         self._call("sysCall_sensing")
 
-    def tell(self, hook: str) -> None:
+    def call_hook(self, hook: str) -> None:
         """Run one of PAUSE_HOOKS or sysCall_reset."""
         if self._started:
             self._call(hook)
@@ -129,21 +129,21 @@ class ChildScript:
             self._call("sysCall_cleanup")
 
     def finish(self) -> None:
-        """After clean_up: take down what the script made."""
+        """Release the script's resources; call it after clean_up."""
         self._end()
         sys.modules.pop(self._module_name, None)
         script_output.prefixes.pop(self._module_name, None)
 
     def was_edited(self) -> bool:
-        """Whether one of the files that it was read from is another one now."""
+        """Return whether one of its source files has changed."""
         return self._stamps.differ()
 
     def where_now(self, thread: int) -> str:
-        """FILE:LINE where its code is that the simulation waits for, or nothing.
+        """Return FILE:LINE of the code that the simulation waits for, or an empty string.
 
-        :param thread: the simulation's.
+        :param thread: the simulation's thread.
         """
-        if self._thread and self._thread.ident and self.doing == "sysCall_thread":
+        if self._thread and self._thread.ident and self.activity == "sysCall_thread":
             thread = self._thread.ident
         return self._code.where_now(thread)
 
@@ -153,21 +153,21 @@ class ChildScript:
             self.run(name, hook)
 
     def run(self, what: str, action: Hook) -> bool:
-        """Run a piece of the script; report and end the script when it fails. Returns whether it succeeded."""
+        """Run a part of the script; on failure, report and end the script. Return whether it succeeded."""
         try:
             host = self.host
-            outer = interruption.allowed, self.running, self.doing, host.running_script
-            sockets = script_sockets.note_in(self._sockets)
+            outer = interruption.allowed, self.running, self.activity, host.running_script
+            sockets = script_sockets.record_in(self._sockets)
             try:
                 interruption.allowed = self.running = True
-                self.doing = what
+                self.activity = what
                 host.running_script = self
                 host.calls += 1
                 action()
             finally:
                 process_calls.end_if_forked()
-                interruption.allowed, self.running, self.doing, host.running_script = outer
-                script_sockets.note_in(sockets)
+                interruption.allowed, self.running, self.activity, host.running_script = outer
+                script_sockets.record_in(sockets)
         except SystemExit:
             self._end()
         except BaseException as error:
@@ -177,13 +177,13 @@ class ChildScript:
         return False
 
     def _report(self, error: BaseException, what: str) -> None:
-        """Tell why it did not return from ``what``, and end it unless all ends."""
+        """Report why ``what`` failed, and end the script unless the simulator ends."""
         for_stop, interruption.for_stop = interruption.for_stop, False
-        broken_off = (for_stop or interruption.requested) and self._code.broken_off(error)
-        place = (self.stuck_at if broken_off and for_stop else "") or self._code.place(error)
+        was_interrupted = (for_stop or interruption.requested) and self._code.was_interrupted(error)
+        place = (self.stuck_at if was_interrupted and for_stop else "") or self._code.place(error)
         where = f"{what} ({place})" if place else what
         self.failure = self._code.reason(error)
-        if not broken_off:
+        if not was_interrupted:
             self._fail(
                 f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
                 + self._code.report(error)
@@ -191,16 +191,16 @@ class ChildScript:
         elif interruption.requested:
             write_line(
                 sys.stderr,
-                f"warning: child script of {self.object_path} was broken off in {where}: the simulator was told to end",
+                f"warning: child script of {self.object_path} was interrupted in {where}: the simulator is ending",
             )
         else:
             self._fail(
-                f"error: child script of {self.object_path} was broken off in {where} and is disabled: it did not "
-                "return, and a stop or a reset waited for it"
+                f"error: child script of {self.object_path} was interrupted in {where} and is disabled: it did not "
+                "return while a stop or a reset was pending"
             )
 
     def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
-        """Make a callback that ends the script when it fails. ``function`` may be the name of a script global."""
+        """Return a callback that ends the script on failure. ``function`` may be the name of a global of the script."""
         target, what = self._target(function)
 
         def guarded(*arguments: Any) -> None:
@@ -212,7 +212,7 @@ class ChildScript:
     def answering_callback(
         self, function: Callable[..., Any] | str, check: Callable[[object], None]
     ) -> Callable[..., Any]:
-        """Make a callback whose result matters; when it fails or ``check`` refuses it, the caller is told, too."""
+        """Return a callback with a result; it raises ServiceError if it fails or ``check`` rejects the result."""
         target, what = self._target(function)
 
         def guarded(*arguments: Any) -> Any:
@@ -231,13 +231,13 @@ class ChildScript:
         return guarded
 
     def _target(self, function: Callable[..., Any] | str) -> tuple[Callable[..., Any], str]:
-        """The function that is meant, and what to call it in reports."""
+        """Return the function, and its description for messages."""
         target = self._code.function(function) if isinstance(function, str) else function
         if callable(target):
             return target, f"the callback {getattr(target, '__name__', function)}"
         if isinstance(function, str):
-            raise ValueError(f"the script has no function '{function}' to call back")
-        raise TypeError(f"a callback must be a function or the name of one, found {type(function).__name__}")
+            raise ValueError(f"the callback '{function}' is not a function of the script")
+        raise TypeError(f"a callback must be a function or the name of a function, found {type(function).__name__}")
 
     def _fail(self, text: str) -> None:
         write_line(sys.stderr, text)
@@ -252,8 +252,8 @@ class ChildScript:
         end_programs(self.programs)
         self.programs = []
         while self.at_end:
-            _, undo = self.at_end.popitem()  # the last one first
+            _, undo = self.at_end.popitem()  # in reverse order
             try:
                 undo()
-            except Exception as error:  # must not keep the others from being taken down
+            except Exception as error:  # an error must not prevent releasing the others
                 write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Notices that files were edited."""
+"""Detection of edited files."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ _Stamp = tuple[int, int, int]
 
 
 class FileStamps:
-    """What tells files from edited ones."""
+    """Inode, size and time stamp of files."""
 
     def __init__(self, files: Iterable[Path]) -> None:
-        """Look at them as they are now."""
+        """Store the current state of the files."""
         self._before = {file: _stamp(file) for file in files}
 
     def differ(self) -> bool:
-        """Whether a file is another one than it was. One that is not there is about to come: editors do so."""
+        """Return whether a file has changed. Missing files are ignored: editors replace files."""
         return any((now := _stamp(file)) is not None and now != before for file, before in self._before.items())
 
 

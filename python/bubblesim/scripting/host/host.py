@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the child scripts of a scene and calls them in the phases of a step."""
+"""Keeps the child scripts of a scene and calls them in each step."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from bubblesim.scripting.host.started_programs import end_programs
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.threads import script_sockets, script_thread
 
-_BETWEEN_LOOKS = 0.25  # s
+_CHECK_INTERVAL = 0.25  # s
 
 
 class ScriptHost:
-    """Made by the simulator's node, which calls ``actuate`` and ``sense`` in every step and ``finish`` at the end."""
+    """Created by the simulator's node, which calls ``actuate`` and ``sense`` in each step and ``finish`` at the end."""
 
     def __init__(
         self,
@@ -40,16 +40,16 @@ class ScriptHost:
         allowed_programs: Sequence[str] = (),
         watch: bool = False,
     ) -> None:
-        """Note the scripts; ``start`` loads them.
+        """Store the scripts; ``start`` loads them.
 
         :param simulation: a ``bubblesim.Simulation``.
         :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is a ``NoRos`` in scripts.
         :param scripts: pairs of object path and file.
-        :param search_paths: where ``include`` looks after the script's own folder.
-        :param lua_unsafe: let scripts in Lua reach files and processes.
-        :param allowed_programs: programs, and folders of programs, that scripts in Lua may start beside those of ROS
-            packages.
-        :param watch: load a script again as soon as its file changes.
+        :param search_paths: folders for ``include``, searched after the script's folder.
+        :param lua_unsafe: give Lua scripts access to files and processes.
+        :param allowed_programs: programs, and folders of programs, that Lua scripts may start in addition to those of
+            ROS packages.
+        :param watch: reload a script when its file changes.
         """
         self.simulation = simulation
         self.bridge = bridge
@@ -57,16 +57,16 @@ class ScriptHost:
         self.lua_unsafe = lua_unsafe
         self.allowed_programs = [str(each) for each in allowed_programs]
         self.failures = 0
-        self.disabled = 0  # of the scripts that are loaded now, how many have failed
-        self.calls = 0  # of scripts, so far
+        self.disabled = 0  # number of loaded scripts that have failed
+        self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
         self.shared = SharedData(has_ros=bridge is not None)
         self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
         self.after_input: Callable[[], None] | None = None
-        self._paused = False  # as scripts know it
-        self._next_look = 0.0 if watch else math.inf  # at the files, by time.monotonic()
+        self._paused = False  # the state last reported to scripts
+        self._next_check = 0.0 if watch else math.inf  # time of the next check of the files, by time.monotonic()
         script_sockets.install()
         script_thread.install()
         script_output.install()
@@ -74,7 +74,7 @@ class ScriptHost:
         watchdog.start(self)
 
     def start(self) -> None:
-        """Load the scripts, from their files as they are now."""
+        """Load the scripts from their files."""
         self._keep([ChildScript(self, path, handle, file) for path, handle, file in self._placed])
 
     def _keep(self, scripts: list[ChildScript]) -> None:
@@ -82,18 +82,18 @@ class ScriptHost:
         self.count_disabled()
 
     def count_disabled(self) -> None:
-        """Bring ``disabled``, which the node reads in each step, up to date."""
+        """Update ``disabled``, which the node reads in each step."""
         self.disabled = sum(script.failed for script in self.scripts)
 
     def stop(self) -> None:
-        """End the scripts and forget them, with all that they left: signals, and files and sockets not closed."""
+        """End and remove the scripts, with all remaining data: signals, open files and sockets."""
         self.finish()
         self._keep([])
         self.shared.clear()
-        gc.collect()  # the globals and functions of a script refer to each other
+        gc.collect()  # a script's globals and functions refer to each other
 
     def add_script(self, path: str, file: Path) -> None:
-        """Place the script of a model that has come into the world, and load it unless the simulation is stopped."""
+        """Register the script of an added model, and load it unless the simulation is stopped."""
         handle = self.simulation.object(path).handle
         self._placed.append((path, handle, Path(file)))
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
@@ -103,7 +103,7 @@ class ScriptHost:
         self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
 
     def end_scripts_of(self, model: int) -> None:
-        """Call sysCall_cleanup of the scripts of a model that is about to leave the world, and forget them."""
+        """Call sysCall_cleanup of the scripts of a model that is about to be removed, and remove them."""
         ending = self._scripts_of(model)
         _finish(ending)
         self._keep([script for script in self.scripts if script not in ending])
@@ -111,9 +111,9 @@ class ScriptHost:
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
 
     def remove_model(self, model: int) -> None:
-        """Remove a model from the world with its scripts, but not from within one of these: RuntimeError."""
+        """Remove a model and its scripts from the world; raise RuntimeError if called from one of these scripts."""
         if any(script.running for script in self._scripts_of(model)):
-            raise RuntimeError("a child script cannot remove the model that it belongs to")
+            raise RuntimeError("a child script cannot remove its own model")
         self.simulation.remove_model(model)
 
     def _scripts_of(self, model: int) -> list[ChildScript]:
@@ -121,7 +121,7 @@ class ScriptHost:
         return [script for script in self.scripts if model_of(script.object_handle) == model]
 
     def make_modules(self, script: Caller) -> dict[str, Any]:
-        """The modules that a script finds among its globals."""
+        """Return the modules in a script's globals."""
         sim = SimApi(self.simulation, script)
         if self.bridge is None:
             return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
@@ -132,35 +132,35 @@ class ScriptHost:
         }
 
     def process_input(self) -> None:
-        """When messages have been delivered, also while paused: tell scripts of pauses that want to know."""
+        """Process input; called also while paused. Call the pause callbacks of scripts when the state has changed."""
         if self.after_input is not None:
             self.after_input()
         listening = [script for script in self.scripts if script.follows_pauses]
         if listening:
             paused = bool(self.simulation.state == _core.RunState.PAUSED)
             if paused:
-                told = "sysCall_suspended" if self._paused else "sysCall_suspend"
+                hook = "sysCall_suspended" if self._paused else "sysCall_suspend"
             else:
-                told = "sysCall_resume" if self._paused else ""
+                hook = "sysCall_resume" if self._paused else ""
             self._paused = paused
-            for script in listening if told else ():
-                script.tell(told)
+            for script in listening if hook else ():
+                script.call_hook(hook)
 
     def actuate(self) -> None:
         """Call sysCall_actuation of all scripts."""
-        if self._next_look < math.inf:
+        if self._next_check < math.inf:
             self._reload_edited()
         for script in self.scripts:
             script.actuate()
 
     def _reload_edited(self) -> None:
         now = time.monotonic()
-        if now < self._next_look:
+        if now < self._next_check:
             return
-        self._next_look = now + _BETWEEN_LOOKS
+        self._next_check = now + _CHECK_INTERVAL
         for number, script in enumerate(self.scripts):
             if script.was_edited():
-                write_line(sys.stderr, f"info: the child script of {script.object_path} was edited: it starts again")
+                write_line(sys.stderr, f"info: the child script of {script.object_path} has changed: restarting it")
                 _finish([script])
                 self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
                 self.count_disabled()
@@ -173,40 +173,40 @@ class ScriptHost:
     def reset(self) -> None:
         """Call sysCall_reset of all scripts, after the world was reset."""
         for script in self.scripts:
-            script.tell("sysCall_reset")
+            script.call_hook("sysCall_reset")
 
     def restart(self) -> None:
-        """End all scripts, put the world back to its start at time 0, and load the scripts afresh unless it is stopped.
+        """End all scripts, reset the world to time 0, and reload the scripts unless the simulation is stopped.
 
-        Between steps or while messages are delivered, but not from within a script: RuntimeError.
+        Call it between steps or during input processing; raises RuntimeError if called from a script.
         """
         if interruption.allowed:  # a script is running
-            raise RuntimeError("a child script cannot start the simulation anew that it is called from")
+            raise RuntimeError("a child script cannot restart the simulation that runs it")
         self.stop()
         self.simulation.reset()
         if self.simulation.state != _core.RunState.STOPPED:
             self.start()
 
     def stop_waits(self) -> bool:
-        """Whether a stop or a reset waits for the script that runs; for any thread."""
+        """Return whether a stop or a reset waits for the running script; thread-safe."""
         if self.bridge is not None and self.bridge.urgent_waits():
             return True
-        script = self.running_script  # to clean up belongs to a stop, and may take its time
-        return script is not None and script.doing != "sysCall_cleanup" and bool(self.simulation.stop_is_due)
+        script = self.running_script  # sysCall_cleanup is part of a stop, and is not interrupted
+        return script is not None and script.activity != "sysCall_cleanup" and bool(self.simulation.stop_is_due)
 
     def finish(self) -> None:
-        """Call sysCall_cleanup of all scripts and end what they started."""
+        """Call sysCall_cleanup of all scripts and release their resources."""
         _finish(self.scripts)
 
 
 def _finish(scripts: list[ChildScript]) -> None:
     for script in scripts:
         script.clean_up()
-    end_programs([program for script in scripts for program in script.programs])  # at once: each may take its time
+    end_programs([program for script in scripts for program in script.programs])  # together, because each may take long
     for script in scripts:
         script.finish()
 
 
 def _turn(path: str, handle: int) -> tuple[int, int]:
-    """Order in which scripts are called: descendants before ancestors, siblings in the scene's order."""
+    """Return the sort key of the calling order: descendants before ancestors, siblings in the scene's order."""
     return (-path.count("/"), handle)

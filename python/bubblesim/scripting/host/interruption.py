@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Breaks off a script that keeps the simulator from ending, or from a stop."""
+"""Interrupts a script that blocks the end of the simulator, or a stop."""
 
 from __future__ import annotations
 
@@ -8,39 +8,39 @@ from collections.abc import Callable
 from types import FrameType
 
 allowed = False
-"""Whether the code of a script runs, which is where KeyboardInterrupt may come up."""
+"""Whether script code runs, so that KeyboardInterrupt may be raised."""
 
 requested = False
-"""Whether a script was broken off: then no more is to be begun but what must be done at the end."""
+"""Whether a script was interrupted because the simulator ends: only clean-up code is called then."""
 
 
 for_stop = False
-"""Whether a script was just broken off for a stop that waits for it."""
+"""Whether a script was just interrupted for a pending stop."""
 
-# It does nothing in programs that do not handle it, and the simulator's own do not use it.
+# Ignored by programs without a handler, and not used elsewhere in the simulator.
 _WAKE_UP = signal.SIGURG
-_still_wanted: Callable[[], bool] = bool  # no
+_still_needed: Callable[[], bool] = bool  # returns False
 
 
 def install() -> None:
-    """Have interruptions raise KeyboardInterrupt in the script that runs."""
+    """Install signal handlers that raise KeyboardInterrupt in the running script."""
     signal.signal(signal.SIGINT, _interrupt)
     signal.signal(_WAKE_UP, _break_off_for_stop)
 
 
-def break_off(thread: int, still_wanted: Callable[[], bool]) -> None:
-    """Raise KeyboardInterrupt in the simulation's thread, if it is still wanted there; from another thread.
+def break_off(thread: int, still_needed: Callable[[], bool]) -> None:
+    """Raise KeyboardInterrupt in the simulation's thread, if ``still_needed()`` is true there; for other threads.
 
-    :param thread: the simulation's; a signal for it also ends a sleep.
+    :param thread: the simulation's thread; the signal also ends a sleep.
     """
-    global _still_wanted
-    _still_wanted = still_wanted
+    global _still_needed
+    _still_needed = still_needed
     signal.pthread_kill(thread, _WAKE_UP)
 
 
 def _break_off_for_stop(number: int, frame: FrameType | None) -> None:
-    global for_stop, _still_wanted
-    wanted, _still_wanted = _still_wanted, bool
+    global for_stop, _still_needed
+    wanted, _still_needed = _still_needed, bool
     if allowed and wanted():
         for_stop = True
         raise KeyboardInterrupt

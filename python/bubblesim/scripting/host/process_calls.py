@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls of `os` that scripts must not make: they would end, replace or double the simulator that runs the script."""
+"""Functions of `os` that scripts must not call: they would end, replace or duplicate the simulator."""
 
 from __future__ import annotations
 
 import os
 from typing import Any, NoReturn
 
-_DOUBLES = "would make a second simulator; start a program by sim.launchExecutable or subprocess"
-_ENDS = "would end the simulator without sysCall_cleanup and without leaving ROS; use sim.quitSimulator()"
-_REPLACES = "would put another program in the simulator's place; start it by sim.launchExecutable or subprocess"
-_REFUSED = {
+_DOUBLES = "would duplicate the simulator; start programs with sim.launchExecutable or subprocess"
+_ENDS = "would end the simulator without sysCall_cleanup and without unregistering from ROS; use sim.quitSimulator()"
+_REPLACES = "would replace the simulator; start programs with sim.launchExecutable or subprocess"
+_FORBIDDEN = {
     "fork": _DOUBLES,
     "forkpty": _DOUBLES,
     "_exit": _ENDS,
     "abort": _ENDS,
-    "execv": _REPLACES,  # which all others of its kind call, or the next
+    "execv": _REPLACES,  # called by the other exec functions, as is execve
     "execve": _REPLACES,
 }
 
@@ -22,24 +22,24 @@ _exit = os._exit
 _process = os.getpid()
 
 
-class RefusedCallError(RuntimeError):
-    """A script called one of them."""
+class ForbiddenCallError(RuntimeError):
+    """A script called one of these functions."""
 
 
 def install() -> None:
-    """From now on these functions raise RefusedCallError."""
-    for name, why in _REFUSED.items():
-        setattr(os, name, _refusing(name, why))
+    """Replace these functions by ones that raise ForbiddenCallError."""
+    for name, why in _FORBIDDEN.items():
+        setattr(os, name, _forbidding(name, why))
 
 
-def _refusing(name: str, why: str) -> Any:
+def _forbidding(name: str, why: str) -> Any:
     def refuse(*arguments: object) -> NoReturn:
-        raise RefusedCallError(f"os.{name} {why}")
+        raise ForbiddenCallError(f"os.{name} {why}")
 
     return refuse
 
 
 def end_if_forked() -> None:
-    """End a copy of the simulator that a script has made all the same, as by ctypes; to be called after its code."""
+    """End a copy of the simulator forked by a script, for example with ctypes; call it after script code."""
     if os.getpid() != _process:
         _exit(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a child script and the watchdog need of the host that keeps the scripts, and the watchdog of a script."""
+"""Interfaces between the script host, child scripts and the watchdog."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ class RunningScript(Protocol):
     """A script whose code is on the call stack."""
 
     object_path: str
-    doing: str
-    """The callback that it was called for."""
+    activity: str
+    """The callback that runs."""
     stuck_at: str
-    """FILE:LINE where the watchdog found it last."""
+    """FILE:LINE where the watchdog found it."""
 
     def where_now(self, thread: int) -> str:
-        """Return FILE:LINE where it is now, or nothing."""
+        """Return FILE:LINE of the running code, or an empty string."""
 
 
 class Host(Protocol):
-    """The keeper of all scripts of a simulation."""
+    """The host of all scripts of a simulation."""
 
     simulation: Any
     search_paths: list[Path]
@@ -31,16 +31,16 @@ class Host(Protocol):
     allowed_programs: list[str]
     shared: SharedData
     calls: int
-    """Calls of scripts so far."""
+    """Number of calls of scripts."""
     failures: int
     running_script: Any
     """The RunningScript, or None."""
 
     def make_modules(self, script: Caller) -> dict[str, Any]:
-        """Return the modules that a script finds among its globals."""
+        """Return the modules in a script's globals."""
 
     def count_disabled(self) -> None:
-        """Count the disabled scripts again."""
+        """Update the number of disabled scripts."""
 
     def stop_waits(self) -> bool:
-        """Return whether a stop or a reset waits for the script that runs; for any thread."""
+        """Return whether a stop or a reset waits for the running script; thread-safe."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The end of programs that scripts started."""
+"""Ending programs started by scripts."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from collections.abc import Sequence
 
 Program = subprocess.Popen[bytes]
 
-_SECONDS_TO_END = 0.8  # for all of them: the node has little more to end in
+_SECONDS_TO_END = 0.8  # for all programs: the node has little more time to end
 
 
 def end_programs(programs: Sequence[Program]) -> None:
-    """End process groups, each of which may outlive the program that leads it: all politely, then the rest by force."""
+    """End process groups, which may outlive their leaders: SIGTERM for all, then SIGKILL for the rest."""
     for program in programs:
         _signal(program, signal.SIGTERM)
     deadline = time.monotonic() + _SECONDS_TO_END
-    while any(_lives(program) for program in programs) and time.monotonic() < deadline:
+    while any(_is_running(program) for program in programs) and time.monotonic() < deadline:
         time.sleep(0.01)
     for program in programs:
         _signal(program, signal.SIGKILL)
@@ -28,12 +28,12 @@ def end_programs(programs: Sequence[Program]) -> None:
 
 
 def _signal(program: Program, number: signal.Signals) -> None:
-    with contextlib.suppress(ProcessLookupError):  # the group is gone
+    with contextlib.suppress(ProcessLookupError):  # the group does not exist any more
         os.killpg(program.pid, number)
 
 
-def _lives(program: Program) -> bool:
-    program.poll()  # one that has ended counts until somebody asks how
+def _is_running(program: Program) -> bool:
+    program.poll()  # reap it, otherwise it counts as running
     try:
         os.killpg(program.pid, 0)
     except ProcessLookupError:

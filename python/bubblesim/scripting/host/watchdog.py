@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Notices a callback that does not return, while the simulation waits for it, and breaks it off for a stop."""
+"""Detects a callback that does not return, warns, and interrupts it for a pending stop."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from bubblesim.output import write_line
 from bubblesim.scripting.host import interruption
 from bubblesim.scripting.host.protocols import Host, RunningScript
 
-_BETWEEN_LOOKS = 0.5  # s
-_LOOKS = 3  # at which the same call is found, before it is told
+_CHECK_INTERVAL = 0.5  # s
+_CHECKS = 3  # number of checks with the same call before the warning
 
 
 def start(host: Host) -> None:
-    """Look from now on, from a thread that ends with the host."""
+    """Start the watchdog's thread, which ends with the host."""
     arguments = weakref.ref(host), threading.get_ident()
     threading.Thread(target=_watch, args=arguments, name="watchdog of scripts", daemon=True).start()
 
 
 def _watch(find_host: weakref.ref[Host], simulation_thread: int) -> None:
     wait = threading.Event().wait
-    last_call, looks = -1, 0
+    last_call, checks = -1, 0
     while True:
-        wait(_BETWEEN_LOOKS)
+        wait(_CHECK_INTERVAL)
         host = find_host()
         if host is None:
             return
         script = host.running_script
         call = host.calls
-        looks = looks + 1 if script is not None and call == last_call else 0
+        checks = checks + 1 if script is not None and call == last_call else 0
         last_call = call
-        if script is not None and looks >= _LOOKS:
+        if script is not None and checks >= _CHECKS:
             script.stuck_at = script.where_now(simulation_thread)
-            if looks == _LOOKS:
+            if checks == _CHECKS:
                 _warn(script)
             if host.stop_waits():
                 _break_off(host, call, simulation_thread)
@@ -50,6 +50,6 @@ def _warn(script: RunningScript) -> None:
     place = f", now at {script.stuck_at}" if script.stuck_at else ""
     write_line(
         sys.stderr,
-        f"warning: child script of {script.object_path} has not returned from {script.doing} for "
-        f"{_LOOKS * _BETWEEN_LOOKS:g} s{place}: the simulation waits for it",
+        f"warning: child script of {script.object_path} has not returned from {script.activity} for "
+        f"{_CHECKS * _CHECK_INTERVAL:g} s{place}: the simulation is waiting",
     )

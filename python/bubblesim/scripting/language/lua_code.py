@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The code of a child script in Lua, in a Lua state of its own."""
+"""The code of a child script in Lua, with its own Lua state."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from bubblesim.scripting.threads.lua_thread import LuaThread
 
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
 _SHOWN_VALUES = Path(__file__).with_name("shown_values.lua")
-_SECONDS_TO_TELL = 0.3
-_MOST_MEMORY = 1 << 30  # bytes; a script that needs more ends with "not enough memory"
-_LONGEST_NAME = 50  # of a chunk: Lua cuts those of more than 59 characters
+_PLACE_TIMEOUT = 0.3
+_MAX_MEMORY = 1 << 30  # bytes; above, a script fails with "not enough memory"
+_MAX_NAME_LENGTH = 50  # of a chunk: Lua truncates names above 59 characters
 _PLAIN_NAME = re.compile(r"[\w.+-]+", re.ASCII)
 
 
@@ -43,29 +43,29 @@ class LuaCode:
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
-        :param modules: what the script finds under the names ``sim``, ``simROS``, ``simROS2``.
-        :param prefix: of the lines that it prints.
-        :param unsafe: leave the script the libraries that reach outside: ``os``, ``io``, ``debug``, ``package``.
-        :raises ScriptSourceError: when it cannot be read or is no Lua.
+        :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
+        :param prefix: prefix of printed lines.
+        :param unsafe: keep the libraries ``os``, ``io``, ``debug``, ``package``.
+        :raises ScriptSourceError: if it cannot be read or compiled.
         """
         self._folders = [file.parent, *search_paths]
         self._thread: LuaThread | None = None
-        self._files: dict[str, Path] = {}  # by the names that Lua knows them by
+        self._files: dict[str, Path] = {}  # by chunk name
         self._prefix = prefix
-        self._place_wanted = False
+        self._place_requested = False
         self._place = ""
-        self._place_told = threading.Event()
+        self._place_reported = threading.Event()
         self._runtime = lua54.LuaRuntime(
             encoding=None,  # strings are bytes
             unpack_returned_tuples=True,
             register_eval=False,
             register_builtins=False,
             attribute_filter=_no_attributes,
-            max_memory=_MOST_MEMORY,
+            max_memory=_MAX_MEMORY,
         )
         self.is_confined = not unsafe
         self._values = LuaValues(self._runtime, self._place_of)
-        self._sandbox = self._furnish(modules, unsafe=unsafe)
+        self._sandbox = self._create_sandbox(modules, unsafe=unsafe)
         self._values.run_in_sandbox = self._sandbox[b"run"]
         self._body, problem = _pair(self._sandbox[b"compile"](_as_lua(text), self._chunk_name(file)))
         if self._body is None:
@@ -73,7 +73,7 @@ class LuaCode:
 
     @property
     def files(self) -> set[Path]:
-        """What the script was read from so far."""
+        """Return the source files read so far."""
         return set(self._files.values())
 
     def run(self) -> None:
@@ -81,59 +81,59 @@ class LuaCode:
         self._values.run(self._body)
 
     def function(self, name: str) -> Callable[..., Any] | None:
-        """Find a global function of the script."""
+        """Return a global function of the script."""
         value = self._sandbox[b"global"](name.encode())
         return LuaFunction(self._values, value, name) if lua54.lua_type(value) == "function" else None
 
     def functions_by_name(self) -> dict[str, str]:
-        """The global functions of the script, and FILE:LINE of each."""
+        """Return the global functions of the script with FILE:LINE of each."""
         return {
             name.decode(errors="backslashreplace"): self._with_whole_paths(place.decode(errors="backslashreplace"))
             for name, place in self._sandbox[b"functions"]().items()
         }
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> LuaThread:
-        """Make a coroutine that runs ``body``, a function of the script."""
+        """Create a coroutine that runs ``body``, a function of the script."""
         assert isinstance(body, LuaFunction)
         resume = self._sandbox[b"make_thread"](body.in_lua)
         self._thread = LuaThread(lambda: bool(self._values.run(resume)[0]))
         return self._thread
 
-    def broken_off(self, error: BaseException) -> bool:
-        """Whether the script failed for it was interrupted."""
-        return isinstance(error, KeyboardInterrupt) or (isinstance(error, LuaScriptError) and error.broken_off)
+    def was_interrupted(self, error: BaseException) -> bool:
+        """Return whether the script failed because it was interrupted."""
+        return isinstance(error, KeyboardInterrupt) or (isinstance(error, LuaScriptError) and error.interrupted)
 
     def where_now(self, thread: int) -> str:
-        """FILE:LINE where the script is that runs in another thread, or nothing."""
-        self._place_told.clear()
-        self._place_wanted = True
-        return self._place if self._place_told.wait(_SECONDS_TO_TELL) else ""
+        """Return FILE:LINE of the script that runs in another thread, or an empty string."""
+        self._place_reported.clear()
+        self._place_requested = True
+        return self._place if self._place_reported.wait(_PLACE_TIMEOUT) else ""
 
-    def _tell_place(self, chunk: bytes, line: int) -> None:
-        self._place_wanted = False
+    def _report_place(self, chunk: bytes, line: int) -> None:
+        self._place_requested = False
         self._place = self._place_of(chunk, line)
-        self._place_told.set()
+        self._place_reported.set()
 
     def _place_of(self, chunk: bytes, line: int) -> str:
         return self._with_whole_paths(f"{chunk.decode(errors='replace')}:{line}")
 
     def place(self, error: BaseException) -> str:
-        """FILE:LINE where the script failed, or nothing."""
+        """Return FILE:LINE where the script failed, or an empty string."""
         match = re.match(r"(.*?):(\d+): ", self._with_whole_paths(_message(error)))
         return f"{match[1]}:{match[2]}" if match else ""
 
     def report(self, error: BaseException) -> str:
-        """What went wrong, and the calls that led there, the last one first."""
+        """Return the error message and the calls, the last one first."""
         text, begins, calls = self._with_whole_paths(_message(error)).partition("\nstack traceback:\n")
         others = ("[C]:", "[sandbox]", "(...tail calls...)", "stack traceback:")
         of_script = [line for line in calls.splitlines() if not any(other in line for other in others)]
         return "\n".join([text + (begins.rstrip() if of_script else ""), *of_script])
 
     def reason(self, error: BaseException) -> str:
-        """What went wrong, in one line."""
+        """Return the error message, in one line."""
         return self.report(error).partition("\n")[0]
 
-    def _furnish(self, modules: dict[str, Any], *, unsafe: bool) -> Any:
+    def _create_sandbox(self, modules: dict[str, Any], *, unsafe: bool) -> Any:
         to_lua, callable_from_lua = self._values.to_lua, self._values.callable_from_lua
         host = self._runtime.table()
         host[b"modules"] = self._runtime.table_from(
@@ -147,7 +147,7 @@ class LuaCode:
         host[b"shown"] = self._runtime.execute(_SHOWN_VALUES.read_bytes(), name=b"=[sandbox]")
         host[b"is_interruption"] = lambda problem: isinstance(problem, KeyboardInterrupt)
         host[b"pulse"] = self._pulse
-        host[b"tell_place"] = self._tell_place
+        host[b"report_place"] = self._report_place
         host[b"unsafe"] = to_lua(unsafe)
         return self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
 
@@ -158,10 +158,10 @@ class LuaCode:
         return self._thread is not None and self._thread.turn_is_over()
 
     def _pulse(self) -> bool:
-        """Let signals in: Python looks for them when it enters a function. Returns whether to tell the place."""
+        """Enter Python, which then handles signals. Return whether the current place is requested."""
         if self._thread is not None:
-            self._thread.check_that_it_may_go_on()
-        return self._place_wanted
+            self._thread.check_exit()
+        return self._place_requested
 
     def _module(self, module: Any) -> Any:
         constants = {
@@ -182,14 +182,14 @@ class LuaCode:
         return table
 
     def _find_source(self, name: str) -> tuple[bytes, bytes]:
-        """Text and chunk name of a Lua file that the script requires."""
+        """Return text and chunk name of a Lua file required by the script."""
         file = find_file(f"{name.replace('.', '/')}.lua", self._folders)
         return _as_lua(read_text(file)), self._chunk_name(file)
 
     def _chunk_name(self, file: Path) -> bytes:
-        """A short name of its own for a file, for Lua cuts long ones; see _with_whole_paths."""
+        """Return a short unique name for a file, because Lua truncates long ones; see _with_whole_paths."""
         name = file.name
-        if len(name) > _LONGEST_NAME or not _PLAIN_NAME.fullmatch(name) or self._files.get(name, file) != file:
+        if len(name) > _MAX_NAME_LENGTH or not _PLAIN_NAME.fullmatch(name) or self._files.get(name, file) != file:
             name = next(each for n in itertools.count(1) if (each := f"file{n}.lua") not in self._files)
         self._files[name] = file
         return b"@" + name.encode()
@@ -204,7 +204,7 @@ def _as_lua(text: str) -> bytes:
 
 
 def _pair(results: Any) -> tuple[Any, Any]:
-    """A function of Lua returned one or two values."""
+    """Return the one or two results of a Lua function as a pair."""
     return results if isinstance(results, tuple) else (results, None)
 
 
@@ -215,9 +215,9 @@ def _decoded(text: str | bytes) -> str:
 def _message(error: BaseException) -> str:
     text = str(error)
     if isinstance(error, lua54.LuaMemoryError) or text.startswith("not enough memory"):
-        return f"not enough memory: a script in Lua may take {_MOST_MEMORY >> 20} MB"
+        return f"not enough memory: a Lua script is limited to {_MAX_MEMORY >> 20} MB"
     return text or type(error).__name__
 
 
 def _no_attributes(_object: Any, name: Any, _setting: bool) -> Any:
-    raise AttributeError(f"Lua does not reach into objects of Python: {name!r}")
+    raise AttributeError(f"Lua scripts cannot access attributes of Python objects: {name!r}")

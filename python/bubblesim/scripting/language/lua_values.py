@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Values between Lua and Python: tables and lists or dicts, strings of bytes and texts, functions."""
+"""Conversion between Lua and Python values: tables and lists or dicts, byte strings and texts, functions."""
 
 from __future__ import annotations
 
@@ -9,30 +9,30 @@ from typing import Any
 import numpy as np
 from lupa import lua54
 
-_DEEPEST = 100  # tables in tables; more is a table that holds itself
+_MAX_DEPTH = 100  # nested tables; more means that a table contains itself
 _INT64 = range(-(2**63), 2**63)
 
 
 class LuaScriptError(Exception):
-    """A script in Lua failed; the text is its report, with the calls that led there."""
+    """An error of a Lua script; the text is its report, with the calls."""
 
-    def __init__(self, report: bytes, *, broken_off: bool) -> None:
-        """Take what the sandbox returned."""
+    def __init__(self, report: bytes, *, interrupted: bool) -> None:
+        """Store the report of the sandbox."""
         super().__init__(report.decode(errors="backslashreplace"))
-        self.broken_off = broken_off
+        self.interrupted = interrupted
 
 
 class LuaFunction:
-    """A function of a Lua script that Python can call with values of Python."""
+    """A function of a Lua script that can be called from Python."""
 
     def __init__(self, values: LuaValues, function: Any, name: str) -> None:
-        """Wrap ``function``; ``name`` is what reports call it."""
+        """Wrap ``function``; ``name`` is used in messages."""
         self.__name__ = name
         self.in_lua = function
         self._values = values
 
     def __call__(self, *arguments: object) -> Any:
-        """Several results come as a tuple; raises LuaScriptError."""
+        """Call the function; return several results as a tuple; raise LuaScriptError on failure."""
         results = self._values.run(self.in_lua, *map(self._values.to_lua, arguments))
         if len(results) == 1:
             return self._values.to_python(results[0])
@@ -43,9 +43,9 @@ class LuaValues:
     """Converts the values of one Lua state."""
 
     def __init__(self, runtime: lua54.LuaRuntime, place_of: Callable[[bytes, int], str]) -> None:
-        """To be made before anything is taken away from the state's globals.
+        """Create it before any globals of the Lua state are removed.
 
-        :param place_of: FILE:LINE of a chunk, by the name that Lua has for it, and a line.
+        :param place_of: returns FILE:LINE for a chunk name and a line.
         """
         self.run_in_sandbox: Callable[..., Any] | None = None  # the sandbox's function `run`
         self._new_table = runtime.table_from
@@ -53,20 +53,20 @@ class LuaValues:
         self._place_of = place_of
 
     def run(self, function: Any, *arguments: Any) -> tuple[Any, ...]:
-        """Call a function of Lua with values of Lua, and return its results as they are; raises LuaScriptError."""
+        """Call a Lua function with Lua values and return its results unconverted; raise LuaScriptError on failure."""
         assert self.run_in_sandbox is not None
         results = self.run_in_sandbox(function, *arguments)
         if results is True:
             return ()
         if results[0]:
             return tuple(results[1:])
-        raise LuaScriptError(results[2], broken_off=results[1])
+        raise LuaScriptError(results[2], interrupted=results[1])
 
     def to_python(self, value: Any, depth: int = 0) -> Any:
-        """Turn a value of Lua into one of Python.
+        """Convert a Lua value to Python.
 
-        A table with the keys 1 to n becomes a list, any other, the empty one included, a dict. A string becomes a str
-        when it is ASCII, which means the same in every encoding, and bytes otherwise.
+        A table with the keys 1 to n becomes a list, any other, including the empty table, a dict. A string becomes a
+        str if it is ASCII, which is the same in every encoding, and bytes otherwise.
         """
         if isinstance(value, bytes):
             return _text_or_bytes(value)
@@ -77,13 +77,13 @@ class LuaValues:
             return self._table_to_python(value, depth)
         if kind == "function":
             return LuaFunction(self, value, self._name(value))
-        raise TypeError(f"a {kind} of Lua means nothing here")
+        raise TypeError(f"Lua values of type {kind} are not supported")
 
     def to_lua(self, value: Any) -> Any:
-        """Turn a value of Python into one of Lua.
+        """Convert a Python value to Lua.
 
-        Lists, tuples and arrays become tables that count from 1. Integers above 2^63 - 1 turn over to negative ones, as
-        unsigned numbers do in Lua.
+        Lists, tuples and arrays become tables with indices from 1. Integers above 2^63 - 1 wrap around to negative
+        ones, as unsigned numbers do in Lua.
         """
         if value is None or isinstance(value, bool | float | bytes):
             return value
@@ -101,21 +101,21 @@ class LuaValues:
             return bytes(value)
         if isinstance(value, LuaFunction):
             return value.in_lua
-        raise TypeError(f"Lua has nothing like {type(value).__name__}")
+        raise TypeError(f"values of type {type(value).__name__} cannot be converted to Lua")
 
     def callable_from_lua(
         self, function: Callable[..., Any], turn_is_over: Callable[[], bool] = lambda: False
     ) -> Callable[..., tuple[Any, ...]]:
-        """Let Lua call a function of Python.
+        """Wrap a Python function for Lua.
 
-        It returns true, whether the thread that called has to give its turn back, and the results; or false and what
-        went wrong; or false when the script is to be broken off.
+        The wrapper returns true, whether the calling thread has to yield its turn, and the results; or false and the
+        error message; or false if the script is interrupted.
         """
 
         def call(*arguments: Any) -> tuple[Any, ...]:
             try:
                 given = [self.to_python(argument) for argument in arguments]
-                while given and given[-1] is None:  # a nil at the end is an argument left out
+                while given and given[-1] is None:  # a trailing nil is an omitted argument
                     given.pop()
                 results = function(*given)
                 if not isinstance(results, tuple):
@@ -129,8 +129,8 @@ class LuaValues:
         return call
 
     def _table_to_python(self, table: Any, depth: int) -> list[Any] | dict[Any, Any]:
-        if depth == _DEEPEST:
-            raise ValueError("a table holds itself, or tables more than a hundred deep")
+        if depth == _MAX_DEPTH:
+            raise ValueError("a table contains itself, or more than 100 nested tables")
         entries = {key: self.to_python(value, depth + 1) for key, value in table.items()}
         count = len(table)
         if count and count == len(entries) and all(number in entries for number in range(1, count + 1)):

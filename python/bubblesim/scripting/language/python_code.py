@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The code of a child script in Python, in a module of its own."""
+"""The code of a child script in Python, in its own module."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class PythonCode:
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
-        The first line may be ``#python``; the lines below it may be ``include NAME`` (no quotes, no extension), which
-        is looked for in the script's folder and then in ``search_paths``.
+        The first line may be ``#python``; the following lines may be ``include NAME`` (no quotes, no extension), which
+        is searched in the script's folder and then in ``search_paths``.
 
-        :param modules: what the script finds under the names ``sim``, ``simROS``, ``simROS2``.
-        :param name: of the module that the script becomes.
-        :param prefix: of the lines that it prints.
+        :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
+        :param name: name of the script's module.
+        :param prefix: prefix of printed lines.
         :raises ScriptSourceError: for a missing file or a syntax error.
         """
         self._files: set[Path] = set()
@@ -44,7 +44,7 @@ class PythonCode:
         self._modules = modules
         self._name = name
         script_output.prefixes[name] = prefix
-        # A real module, for dataclasses and pickle look up the module of what a script defines.
+        # A real module, because dataclasses and pickle look up the module of a class.
         module = ModuleType(name)
         sys.modules[name] = module
         self._globals: dict[str, Any] = module.__dict__
@@ -52,12 +52,12 @@ class PythonCode:
 
     @property
     def files(self) -> set[Path]:
-        """What the script was read from."""
+        """Return the source files of the script."""
         return self._files
 
     @property
     def is_confined(self) -> bool:
-        """Whether its language keeps it from files and processes."""
+        """Return whether the language prevents access to files and processes."""
         return False
 
     def run(self) -> None:
@@ -66,15 +66,15 @@ class PythonCode:
             exec(part, self._globals)
 
     def function(self, name: str) -> Callable[..., Any] | None:
-        """Find a global of the script."""
+        """Return a global of the script."""
         return self._globals.get(name)
 
     def functions_by_name(self) -> dict[str, str]:
-        """The global functions of the script, and FILE:LINE of each, or nothing where that is not known."""
+        """Return the global functions of the script with FILE:LINE of each, or an empty string if unknown."""
         return {name: _place_of(value) for name, value in self._globals.items() if callable(value)}
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> ScriptThread:
-        """Make a thread of the operating system that runs ``body``, a function of the script, after ``prepare``."""
+        """Create an operating system thread that calls ``prepare`` and then ``body``, a function of the script."""
 
         def run() -> None:
             prepare()
@@ -82,41 +82,41 @@ class PythonCode:
 
         return ScriptThread(name, run)
 
-    def broken_off(self, error: BaseException) -> bool:
-        """Whether the script failed for it was interrupted."""
+    def was_interrupted(self, error: BaseException) -> bool:
+        """Return whether the script failed because it was interrupted."""
         return isinstance(error, KeyboardInterrupt)
 
     def where_now(self, thread: int) -> str:
-        """FILE:LINE where the script is that runs in another thread, or nothing."""
+        """Return FILE:LINE of the script that runs in another thread, or an empty string."""
         frame = sys._current_frames().get(thread)
         while frame is not None and frame.f_globals.get("__name__") != self._name:
             frame = frame.f_back
         return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame is not None else ""
 
     def place(self, error: BaseException) -> str:
-        """FILE:LINE where the script failed, or nothing."""
+        """Return FILE:LINE where the script failed, or an empty string."""
         frames = _without_our_frames(traceback.TracebackException.from_exception(error)).stack
         return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else ""
 
     def report(self, error: BaseException) -> str:
-        """What went wrong, and the calls that led there."""
+        """Return the error message and the calls."""
         return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format()).rstrip()
 
     def reason(self, error: BaseException) -> str:
-        """What went wrong, in one line."""
+        """Return the error message, in one line."""
         return traceback.format_exception_only(error)[-1].strip()
 
     def _require(self, name: str) -> Any:
-        """Return the module `sim`, `simROS` or `simROS2`; a version such as in 'sim-1' does not matter."""
+        """Return the module `sim`, `simROS` or `simROS2`; a version as in 'sim-1' is ignored."""
         bare = name.partition("-")[0]
         if bare not in self._modules:
-            raise ImportError(f"there is no module '{name}' to require; there are {', '.join(self._modules)}")
+            raise ImportError(f"module '{name}' not found; require supports {', '.join(self._modules)}")
         return self._modules[bare]
 
     def _compile(self, file: Path, text: str, folders: list[Path], including: tuple[Path, ...]) -> list[CodeType]:
         file = file.resolve()
         if file in including:
-            raise ScriptSourceError(f"{file}: includes itself through {including[-1]}")
+            raise ScriptSourceError(f"{file}: the file includes itself through {including[-1]}")
         self._files.add(file)
         lines = text.splitlines(keepends=True)
         parts: list[CodeType] = []
@@ -128,9 +128,9 @@ class PythonCode:
                 except ScriptSourceError as error:
                     raise ScriptSourceError(f"{file}:{number + 1}: {error}") from None
                 parts += self._compile(included, read_text(included), folders, (*including, file))
-                lines[number] = "\n"  # keeps the numbers of the lines below
+                lines[number] = "\n"  # keeps the following line numbers
             elif words and not line.startswith("#"):
-                break  # the header ends where the code starts
+                break  # end of the header
         parts.append(_compiled("".join(lines), file))
         return parts
 
@@ -153,7 +153,7 @@ def _compiled(text: str, file: Path) -> CodeType:
 
 
 def _without_our_frames(report: traceback.TracebackException) -> traceback.TracebackException:
-    """Leave the frames of the script itself, not those of ours that it called or was called by; in causes, too."""
+    """Remove the frames of this package, keeping those of the script; also in causes."""
     kept = [frame for frame in report.stack if not frame.filename.startswith(_OUR_FOLDER)]
     report.stack = traceback.StackSummary.from_list(kept)
     for earlier in (report.__cause__, report.__context__):

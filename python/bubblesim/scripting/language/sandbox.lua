@@ -1,24 +1,24 @@
 -- SPDX-License-Identifier: BSD-3-Clause
--- Makes the globals of a child script in Lua: the modules of the simulator, and those parts of Lua's own libraries that
--- cannot reach outside. They stand in a table of the script's own: what the script does to its globals, metatables
--- included, does not concern the functions of C that look up Lua's own. Called by lua_code.py with
---   host.modules      by name, their constants and functions. Each function returns true, whether the thread that calls
---                     it is to give its turn back, and its results; or false and a text; or false when the script is to
---                     be broken off. So do write, find_source, explain and whole.
---   host.absent       by the names of modules that are not there, the reason
+-- Creates the globals of a child script in Lua: the modules of the simulator, and the parts of Lua's libraries without
+-- access to files and processes. They are in a separate table: changes of the script to its globals, including
+-- metatables, do not affect C functions that use Lua's own. Called by lua_code.py with
+--   host.modules      by name, their constants and functions. Each function returns true, whether the calling thread
+--                     has to yield its turn, and its results; or false and an error message; or false if the script is
+--                     interrupted. The same holds for write, find_source, explain and whole.
+--   host.absent       by the names of modules that are not available, the reason
 --   host.write        writes a line of output
---   host.find_source  text and name of a file that the script requires
---   host.explain      module and name: what a module has in place of a name that it does not have
---   host.whole        a text with the whole paths of the script's files
---   host.shown        what shown_values.lua returns
---   host.is_interruption  whether an error is Python's KeyboardInterrupt, which can come up between two functions, too
---   host.pulse        fails when the script is to be broken off; returns whether somebody wants to know where it is
---   host.tell_place   takes chunk and line of where it is
---   host.unsafe       whether the script may reach outside: files, processes, the insides of Lua
+--   host.find_source  returns text and name of a file that the script requires
+--   host.explain      returns the error message for an unknown name of a module
+--   host.whole        returns a text with the whole paths of the script's files
+--   host.shown        the function returned by shown_values.lua
+--   host.is_interruption  whether an error is Python's KeyboardInterrupt, which can be raised at any time
+--   host.pulse        fails if the script is interrupted; returns whether its current place is requested
+--   host.report_place  receives chunk and line of the current place
+--   host.unsafe       whether the script has access to files, processes and the internals of Lua
 -- Returns the functions that lua_code.py calls.
 local host = ...
 
-local INSTRUCTIONS_BETWEEN_PULSES = 100000  -- some 0.5 ms
+local INSTRUCTIONS_BETWEEN_PULSES = 100000  -- about 0.5 ms
 
 local error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetatable, type, xpcall =
   error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetatable, type, xpcall
@@ -33,7 +33,7 @@ local thread  -- the coroutine of sysCall_thread
 
 -- Errors -------------------------------------------------------------------------------------------------------------
 
--- The innermost line of the script that is being run, which may have called what stands here; nil when there is none.
+-- Returns the innermost running line of the script, which may have called functions of this file; nil without one.
 local function script_line()
   local level = 2
   local at = getinfo(level, "Sl")
@@ -51,22 +51,24 @@ end
 
 local function fail(problem) error(located(problem), 0) end
 
--- Once a script is to be broken off, no pcall of its own keeps it alive: each that returns raises this again, until
--- the call from outside has come to its end.
-local broken_off
-local function break_off()
-  broken_off = broken_off or located("broken off")
-  error(broken_off, 0)
+-- After an interruption, the script's own pcalls cannot continue it: each one raises this error again, until the call
+-- from Python has ended.
+local interrupted
+local function interrupt()
+  interrupted = interrupted or located("interrupted")
+  error(interrupted, 0)
 end
 
--- For an error that is about to be handled.
+-- Records an interruption; called for each error before it is handled.
 local function note_interruption(problem)
-  if type(problem) == "userdata" and host.is_interruption(problem) then broken_off = broken_off or located("broken off") end
+  if type(problem) == "userdata" and host.is_interruption(problem) then
+    interrupted = interrupted or located("interrupted")
+  end
 end
 
 local function results_or_error(succeeded, turn_is_over_or_problem, ...)
   if not succeeded then
-    if turn_is_over_or_problem == nil then break_off() end
+    if turn_is_over_or_problem == nil then interrupt() end
     fail(turn_is_over_or_problem)
   end
   if turn_is_over_or_problem and running() == thread then yield() end
@@ -79,9 +81,9 @@ end
 
 local write, explain, whole = checked(host.write), checked(host.explain), checked(host.whole)
 
-local missing = {}  -- modules, by names that a script looked for in them in vain
+local missing = {}  -- modules, by unknown names that a script has used
 
--- Lua's own texts name what was nil. For the modules of the simulator there is more to say.
+-- Lua's error messages name the nil value. For modules of the simulator, replace them by more helpful ones.
 local function explained(text)
   local where, called = match(text, "^(.-:%d+: )attempt to call a nil value %(%a+ '([%w_]+)'%)")
   if called and missing[called] then return where .. explain(missing[called], called) end
@@ -90,37 +92,37 @@ local function explained(text)
   return text
 end
 
--- Whatever a script raises, as a text.
+-- Returns a script's error, of any type, as a text.
 local function text_of(problem)
   if type(problem) == "string" then return explained(problem) end
   return "an error that is not a text: " .. host.shown(problem, false)
 end
 
-local thread_report  -- of the thread's error, with the calls that led there
+local thread_report  -- of the thread's error, with the calls
 local function report(problem)
   note_interruption(problem)
-  if broken_off then return broken_off end
+  if interrupted then return interrupted end
   if thread_report and rawequal(problem, thread_report) then return problem end
   return traceback(text_of(problem), 2)
 end
 
--- What catches errors for the script.
+-- Handles the results of the script's pcall, xpcall and similar functions.
 local function caught(succeeded, problem, ...)
   if not succeeded then note_interruption(problem) end
-  if broken_off then break_off() end
+  if interrupted then interrupt() end
   if not succeeded and type(problem) == "string" then problem = whole(explained(problem)) end
   return succeeded, problem, ...
 end
 
 -- Pulse --------------------------------------------------------------------------------------------------------------
 
--- A script that loops for ever must be able to be ended: its code is interrupted now and then, in coroutines too.
+-- Called regularly while script code runs, also in coroutines, so that endless loops can be interrupted.
 local function pulse()
-  local may_go_on, place_wanted = pcall(host.pulse)
-  if broken_off or not may_go_on then break_off() end
-  if place_wanted then
+  local can_continue, place_requested = pcall(host.pulse)
+  if interrupted or not can_continue then interrupt() end
+  if place_requested then
     local at = script_line()
-    if at then host.tell_place(at.short_src, at.currentline) end
+    if at then host.report_place(at.short_src, at.currentline) end
   end
 end
 local function with_pulse(body)
@@ -139,7 +141,7 @@ if not host.unsafe then
   for name, value in next, _G do globals[name] = value end
   globals._G = globals
   globals.dofile, globals.io, globals.loadfile, globals.os, globals.package = nil, nil, nil, nil, nil
-  getmetatable("").__metatable = false  -- all strings share it
+  getmetatable("").__metatable = false  -- shared by all strings
 end
 globals.python = nil
 globals.self = {}
@@ -147,9 +149,9 @@ globals.self = {}
 function globals.pcall(...) return caught(pcall(...)) end
 
 function globals.xpcall(body, handler, ...)
-  -- While the script is being broken off, the handler would be called where nothing can interrupt it.
+  -- During an interruption, do not call the handler, which could not be interrupted.
   return caught(xpcall(body, function(problem)
-    if broken_off then return broken_off end
+    if interrupted then return interrupted end
     return handler(type(problem) == "string" and explained(problem) or problem)
   end, ...))
 end
@@ -170,20 +172,20 @@ if not host.unsafe then
     end,
   }
 
-  -- A finalizer runs where nothing can interrupt it.
+  -- Finalizers could not be interrupted.
   function globals.setmetatable(value, metatable)
     if type(metatable) == "table" and rawget(metatable, "__gc") ~= nil then
-      fail("setmetatable: there are no finalizers (__gc) in child scripts; sysCall_cleanup is called at the end")
+      fail("setmetatable: finalizers (__gc) are not allowed in child scripts; use sysCall_cleanup")
     end
     return setmetatable(value, metatable)
   end
 
-  -- Only texts, for binary chunks can do anything. A function that supplies the text may have been broken off.
+  -- Only texts, because binary chunks are unsafe. A function that supplies the text may have been interrupted.
   function globals.load(chunk, name, _, ...)
     local environment = globals
     if select("#", ...) > 0 then environment = ... end
     local loaded, problem = load(chunk, name, "t", environment)
-    if broken_off then break_off() end
+    if interrupted then interrupt() end
     return loaded, problem
   end
 end
@@ -200,22 +202,22 @@ for name, module in next, host.modules do
   globals[name] = members
 end
 
--- Only the coroutine of sysCall_thread can give its turn back, not one that a script has made.
+-- Only the coroutine of sysCall_thread can yield its turn, not coroutines created by the script.
 local sim = modules.sim
 local function require_thread(name)
   if running() ~= thread then
-    fail("sim." .. name .. " is for sysCall_thread: callbacks, and coroutines of a script's own, must not wait for the simulation")
+    fail("sim." .. name .. " is only allowed in sysCall_thread: other callbacks, and coroutines, must not wait")
   end
 end
 for _, name in next, {"step", "switchThread"} do
-  local give_turn_back = sim[name]
+  local yield_turn = sim[name]
   sim[name] = function(...)
     require_thread(name)
-    return give_turn_back(...)
+    return yield_turn(...)
   end
 end
 
--- A coroutine cannot give its turn back within a function of Python: it waits here, step by step.
+-- A coroutine cannot yield inside a Python function, so this waits in Lua, step by step.
 function sim.wait(seconds, of_simulation)
   require_thread("wait")
   if type(seconds) ~= "number" then fail("sim.wait: argument 1, seconds: expected a number") end
@@ -250,22 +252,22 @@ end
 
 -- For Python ---------------------------------------------------------------------------------------------------------
 
-local depth = 0  -- of calls from Python, which Lua may have called in turn
+local depth = 0  -- of nested calls from Python
 
 local function ended(succeeded, ...)
-  local was_broken_off = broken_off
+  local was_interrupted = interrupted
   depth = depth - 1
-  if depth == 0 then broken_off = nil end
-  if was_broken_off then return false, true, was_broken_off end
+  if depth == 0 then interrupted = nil end
+  if was_interrupted then return false, true, was_interrupted end
   if not succeeded then return false, false, (...) end
   return true, ...
 end
 
 return {
-  -- The function of a text, or nil and what is wrong with it.
+  -- Returns the function compiled from a text, or nil and the error message.
   compile = function(text, name) return load(text, name, "t", globals) end,
 
-  -- Calls a function of the script: true and its results, or false, whether it was broken off, and the report.
+  -- Calls a function of the script; returns true and its results, or false, whether it was interrupted, and a report.
   run = function(body, ...)
     depth = depth + 1
     return ended(xpcall(body, report, ...))
@@ -273,7 +275,7 @@ return {
 
   global = function(name) return rawget(globals, name) end,
 
-  -- By name the functions of the script that are global, as short_src:line.
+  -- Returns the global functions of the script by name, as short_src:line.
   functions = function()
     local found = {}
     for name, value in next, globals do
@@ -285,13 +287,13 @@ return {
     return found
   end,
 
-  -- Makes a function that lets the thread of this body go on, and returns whether it has ended.
+  -- Returns a function that resumes the thread with this body, and returns whether it has ended.
   make_thread = function(body)
     thread = create(with_pulse(body))
     return function()
       local succeeded, problem = resume(thread)
       if not succeeded then note_interruption(problem) end
-      if broken_off then break_off() end
+      if interrupted then interrupt() end
       if not succeeded then
         thread_report = traceback(thread, text_of(problem))
         error(thread_report, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A child script's code, whichever language it is written in."""
+"""Interface of a child script's code in any language."""
 
 from __future__ import annotations
 
@@ -13,42 +13,42 @@ from bubblesim.scripting.threads.script_thread import AnyThread
 
 
 class ScriptCode(Protocol):
-    """Code with globals of its own."""
+    """Code with its own globals."""
 
     @property
     def files(self) -> set[Path]:
-        """What it was read from so far."""
+        """Return the source files read so far."""
 
     @property
     def is_confined(self) -> bool:
-        """Whether its language keeps it from files and processes."""
+        """Return whether the language prevents access to files and processes."""
 
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
 
     def function(self, name: str) -> Callable[..., Any] | None:
-        """Find what the script has under a global name."""
+        """Return a global of the script."""
 
     def functions_by_name(self) -> dict[str, str]:
-        """The global functions of the script, and FILE:LINE of each, or nothing where that is not known."""
+        """Return the global functions of the script with FILE:LINE of each, or an empty string if unknown."""
 
     def make_thread(self, name: str, body: Callable[..., Any], prepare: Callable[[], object]) -> AnyThread:
-        """Make the thread that runs ``body``, a function of the script, after ``prepare``, which is none."""
+        """Create the thread that calls ``prepare`` and then ``body``, a function of the script."""
 
-    def broken_off(self, error: BaseException) -> bool:
-        """Whether the script failed for it was interrupted."""
+    def was_interrupted(self, error: BaseException) -> bool:
+        """Return whether the script failed because it was interrupted."""
 
     def where_now(self, thread: int) -> str:
-        """FILE:LINE where the script is that runs in another thread, or nothing."""
+        """Return FILE:LINE of the script that runs in another thread, or an empty string."""
 
     def place(self, error: BaseException) -> str:
-        """FILE:LINE where the script failed, or nothing."""
+        """Return FILE:LINE where the script failed, or an empty string."""
 
     def report(self, error: BaseException) -> str:
-        """What went wrong, and the calls that led there."""
+        """Return the error message and the calls."""
 
     def reason(self, error: BaseException) -> str:
-        """What went wrong, in one line."""
+        """Return the error message, in one line."""
 
 
 def load_code(
@@ -62,10 +62,10 @@ def load_code(
 ) -> ScriptCode:
     """Compile a script without running it.
 
-    :param name: of the Python module that the script becomes.
-    :param prefix: of the lines that it prints.
+    :param name: name of the script's Python module.
+    :param prefix: prefix of printed lines.
     :param lua_unsafe: see LuaCode.
-    :raises ScriptSourceError: naming file and line.
+    :raises ScriptSourceError: with file and line.
     """
     text = read_text(file)
     if not is_lua(file, text):
@@ -74,7 +74,7 @@ def load_code(
         from bubblesim.scripting.language.lua_code import LuaCode
     except ImportError as error:
         raise ScriptSourceError(
-            f"{file}:1: is a Lua script, and these need the Python package lupa ({error}): run scripts/setup, or "
-            "activate a virtual environment in which `pip install lupa==2.8` was done"
+            f"{file}:1: Lua scripts need the Python package lupa ({error}): run scripts/setup, or "
+            "activate a virtual environment with lupa (`pip install lupa==2.8`)"
         ) from error
     return LuaCode(file, text, search_paths, modules, prefix, unsafe=lua_unsafe)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts print: each line begins with the script's object and the simulation time."""
+"""Output of scripts: each line starts with the script's object and the simulation time."""
 
 from __future__ import annotations
 
@@ -14,63 +14,63 @@ from typing import Any, TextIO
 from bubblesim.output import encodable, write_line
 
 prefixes: dict[str, Callable[[], str]] = {}
-"""What the lines of a script begin with, by the name of the module that it is in Python."""
+"""Prefixes of scripts' lines, by module name."""
 
 lost = False
-"""Whether something that a script printed to stdout could not be written."""
+"""Whether output of a script to stdout could not be written."""
 
 
 class ScriptStream:
-    """Stands before stdout or stderr: lines of scripts get their prefix, all else goes through as it is.
+    """Wraps stdout or stderr: adds the prefix to lines of scripts, and passes other output unchanged.
 
-    What a script writes shows at once; when another begins while a line is unfinished, that line ends there.
+    Output of a script is written at once; if other output follows an incomplete line, a line break is added.
     """
 
     def __init__(self, stream: TextIO) -> None:
-        """Write to ``stream``, which is known as ``plain`` from now on."""
+        """Write to ``stream``, available as ``plain``."""
         self.plain = stream
         self._lock = threading.RLock()
-        self._unfinished = ""  # the prefix of the line that has not ended yet
+        self._unfinished = ""  # prefix of the incomplete line
 
     def __getattr__(self, name: str) -> Any:
-        """All but writing."""
+        """Forward all attributes except writing."""
         return getattr(self.plain, name)
 
     def write(self, text: str) -> int:
-        """Write what the script that calls wants to say, or somebody else."""
+        """Write text, with the prefix of the calling script if there is one."""
         prefix = _prefix(sys._getframe(1))
         return self.plain.write(text) if prefix is None else self.write_of(prefix, text)
 
     def flush(self) -> None:
-        """Nothing waits: what could be written is, and what could not was reported."""
+        """Flush; write errors have been reported already."""
         with contextlib.suppress(OSError, ValueError):
             self.plain.flush()
 
     def writelines(self, lines: list[str]) -> None:
-        """Write one after the other."""
+        """Write all lines."""
         self.write("".join(lines))
 
     def write_of(self, prefix: str, text: str) -> int:
-        """Write what somebody wants to say whose lines begin with ``prefix``."""
+        """Write text with a prefix for each line."""
         with self._lock, self._reported_losses():
-            begun = self._unfinished
-            if begun and begun.partition(" ")[0] != prefix.partition(" ")[0]:
+            unfinished = self._unfinished
+            if unfinished and unfinished.partition(" ")[0] != prefix.partition(" ")[0]:
                 self.plain.write("\n")
-                begun = ""
+                unfinished = ""
             lines = encodable(self.plain, text).splitlines(keepends=True)
-            self.plain.write("".join(("" if begun and not n else prefix) + line for n, line in enumerate(lines)))
+            self.plain.write("".join(("" if unfinished and not n else prefix) + line for n, line in enumerate(lines)))
             if lines:
                 self._unfinished = "" if lines[-1].endswith("\n") else prefix
         return len(text)
 
     @contextlib.contextmanager
     def _reported_losses(self) -> Iterator[None]:
-        """A script goes on when nobody reads what it prints; the run does not succeed then."""
+        """Continue the script when its output cannot be written, but let the run fail."""
         global lost
         try:
             yield
         except (OSError, ValueError) as error:
-            # A closed terminal and a reader that has seen enough lose nothing that anybody wants.
+            # A closed terminal, or a reader that ended, is not an error.
             if self.plain is sys.__stdout__ and getattr(error, "errno", None) not in (errno.EIO, errno.EPIPE):
                 if not lost:
                     write_line(sys.stderr, f"error: cannot write what scripts print to stdout: {error}")
@@ -78,7 +78,7 @@ class ScriptStream:
 
 
 def print_line(prefix: str, line: str) -> None:
-    """Print a line of a script that is not in Python."""
+    """Print a line of a script that is not written in Python."""
     if isinstance(sys.stdout, ScriptStream):
         sys.stdout.write_of(prefix, f"{line}\n")
     else:
@@ -86,7 +86,7 @@ def print_line(prefix: str, line: str) -> None:
 
 
 def install() -> None:
-    """From now on scripts print with their prefix."""
+    """Add the prefix to output of scripts from now on."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is not None and not isinstance(stream, ScriptStream):
@@ -94,7 +94,7 @@ def install() -> None:
 
 
 def _prefix(frame: FrameType | None) -> str | None:
-    """That of the script whose code is on the stack, be it that of a thread that it started."""
+    """Return the prefix of the script whose code is on the stack, also in threads that it started."""
     while frame is not None:
         prefix = prefixes.get(frame.f_globals.get("__name__", ""))
         if prefix is not None:

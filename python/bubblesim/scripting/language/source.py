@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the files of child scripts."""
+"""Reads the source files of child scripts."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from pathlib import Path
 
 
 class ScriptSourceError(Exception):
-    """A script that cannot be loaded; the text names file and line."""
+    """A script that cannot be loaded; the text states file and line."""
 
 
 def read_text(file: Path) -> str:
     """Read a script's file.
 
-    :raises ScriptSourceError: when that cannot be done.
+    :raises ScriptSourceError: if that fails.
     """
     try:
         return file.read_text(encoding="utf-8-sig")
@@ -22,18 +22,18 @@ def read_text(file: Path) -> str:
 
 
 def find_file(name: str, folders: list[Path]) -> Path:
-    """Find a file that a script asks for.
+    """Find a file that a script includes or requires.
 
-    :raises ScriptSourceError: when no folder has it.
+    :raises ScriptSourceError: if no folder contains it.
     """
     for folder in folders:
         if (folder / name).is_file():
             return folder / name
     searched = ", ".join(str(folder) for folder in folders)
-    raise ScriptSourceError(f"no file {name} in {searched}; add its folder with --script-path")
+    raise ScriptSourceError(f"file not found: {name} in {searched}; add its folder with --script-path")
 
 
 def is_lua(file: Path, text: str) -> bool:
-    """Whether a script is written in Lua: its first line says so, `#lua` or `#python`, or its name, `.lua`."""
+    """Return whether a script is written in Lua: by its first line, `#lua` or `#python`, or its extension, `.lua`."""
     first = text.partition("\n")[0].strip()
     return first == "#lua" or (file.suffix == ".lua" and first != "#python")

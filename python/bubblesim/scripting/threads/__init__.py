@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Threads of child scripts, which work in turns."""
+"""Threads of child scripts, which run in turns."""

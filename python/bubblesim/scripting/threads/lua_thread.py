@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sysCall_thread of a script in Lua: a coroutine, which gives its turn back inside the functions that it calls."""
+"""The sysCall_thread of a Lua script: a coroutine, which yields its turn inside of the functions that it calls."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _SECONDS_TO_END = 0.8
 
 
 class LuaThread:
-    """As ScriptThread, but all of it runs in the simulation's thread, so that it must not wait for anything."""
+    """Like ScriptThread, but runs completely in the simulation's thread, so it must not wait."""
 
     def __init__(self, resume: Callable[[], bool]) -> None:
-        """Make a thread that begins in its first turn.
+        """Create a thread that starts in its first turn.
 
-        :param resume: lets the coroutine go on; true when it has ended.
+        :param resume: resumes the coroutine; returns true when it has ended.
         """
-        self.stepping = 0  # how often it asked to keep its turns until it gives them back
+        self.stepping = 0  # depth of nested setStepping calls
         self.exit_requested = False
         self.ident = None
         self._resume = resume
@@ -29,8 +29,8 @@ class LuaThread:
         self._turn_ends = 0.0  # by time.monotonic()
         self._must_end = float("inf")
 
-    def give_turn(self) -> None:
-        """Let the thread work until it steps, ends, or calls a function when its slice is over; raise its error."""
+    def run_turn(self) -> None:
+        """Run the thread until it steps, ends, or calls a function after its time slice; raise its error."""
         if self._done:
             return
         self._turn_ends = time.monotonic() + SLICE
@@ -45,41 +45,41 @@ class LuaThread:
             del by_ident[me]
 
     def turn_is_over(self) -> bool:
-        """Whether the coroutine, which has just called a function, is to give its turn back."""
+        """Return whether the coroutine, which has just called a function, has to yield its turn."""
         if self._done or by_ident.get(threading.get_ident()) is not self:
             return False
         return self._turn_ends <= 0.0 or (not self.stepping and time.monotonic() >= self._turn_ends)
 
     @contextlib.contextmanager
     def turn(self) -> Iterator[None]:
-        """It only runs in its turns."""
+        """Do nothing: the coroutine only runs in its turns."""
         yield
 
     def step(self) -> None:
-        """Called by the thread: its turn is over when the call is."""
+        """End the turn after the current call; called by the thread."""
         self._turn_ends = 0.0
 
     def sleep(self, seconds: float) -> None:
-        """What Python does for the thread may sleep; the simulation's own thread is what sleeps then."""
+        """Sleep; Python functions called by the thread block the simulation's thread."""
         plain_sleep(seconds)
 
-    def check_that_it_may_go_on(self) -> None:
-        """Called while Lua runs.
+    def check_exit(self) -> None:
+        """Check whether the thread has to end; called while Lua runs.
 
-        :raises TimeoutError: when it was asked to end and has not in time.
+        :raises TimeoutError: if it did not end in time after a request.
         """
         if time.monotonic() > self._must_end:
             raise TimeoutError
 
     def end(self, wake: Callable[[], None]) -> bool:
-        """Let the thread see that it is asked to end, in a last turn; whether that turn came to an end by itself."""
+        """Request the thread to end and run it for a last turn; return whether it ended in time."""
         self.exit_requested = True
         self._must_end = time.monotonic() + _SECONDS_TO_END
         running = by_ident.get(threading.get_ident()) is self
         if running or self._done:
             return True
         try:
-            self.give_turn()
+            self.run_turn()
         except Exception:
             return time.monotonic() <= self._must_end
         finally:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sockets of scripts: known, so that a stop ends what waits for them; and a start can bind the same ports again."""
+"""The sockets of scripts: shut down on a stop, and bound with SO_REUSEADDR so that a restart can use the same ports."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ _installed = False
 
 
 def install() -> None:
-    """From now on note the sockets that Python makes."""
+    """Record the sockets created in Python from now on."""
     global _installed
     if not _installed:
-        sys.addaudithook(_hear)  # cannot be taken back
+        sys.addaudithook(_on_audit_event)  # audit hooks cannot be removed
     _installed = True
 
 
-def note_in(sockets: Sockets | None) -> Sockets | None:
-    """Note the sockets that this thread makes from now on, accepted ones included; returns where it did so before."""
+def record_in(sockets: Sockets | None) -> Sockets | None:
+    """Record this thread's new sockets, including accepted ones, in a set from now on; return the previous set."""
     before: Sockets | None = getattr(_local, "sockets", None)
     _local.sockets = sockets
     return before
 
 
 def shut_down(sockets: Sockets) -> None:
-    """Let all that wait for one of them go on at once; accept and recv fail or find the end."""
+    """Wake all threads that wait for these sockets; accept and recv fail or return the end of the stream."""
     for each in list(sockets):
         with contextlib.suppress(OSError):  # not connected, or closed
             each.shutdown(socket.SHUT_RDWR)
 
 
-def _hear(event: str, arguments: tuple[object, ...]) -> None:
+def _on_audit_event(event: str, arguments: tuple[object, ...]) -> None:
     if event not in ("socket.__new__", "socket.bind"):
         return
     subject = arguments[0]
@@ -47,5 +47,5 @@ def _hear(event: str, arguments: tuple[object, ...]) -> None:
     if event == "socket.__new__":
         sockets.add(subject)
     elif subject.type == socket.SOCK_STREAM and subject.family in (socket.AF_INET, socket.AF_INET6):
-        # Connections of before that the system has not forgotten yet shall not keep the port.
+        # Old connections in the state TIME_WAIT must not block the port.
         subject.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

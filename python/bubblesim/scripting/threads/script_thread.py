@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thread of a script's sysCall_thread, and when it may work on the simulation.
+"""The thread of a script's sysCall_thread, and its turns.
 
-A script's thread is a thread of the operating system, so that one that waits for a socket keeps nobody else waiting. It
-may compute at any time, but it works on the simulation only in its turns, while the simulation's thread waits for it.
+A script's thread is a thread of the operating system, so waiting for a socket does not block other scripts. It can
+compute at any time, but accesses the simulation only in its turns, while the simulation's thread waits for it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Protocol, SupportsIndex
 
-SLICE = 0.002  # s of computing, in a turn in automatic mode
-_SAMPLE = 0.001  # s between looks at what the thread does
-# A thread that has not run for so long sleeps. One that waits for Python's lock looks for it every 5 ms.
+SLICE = 0.002  # s of computing time per turn in automatic mode
+_SAMPLE = 0.001  # s between checks of the thread
+# s after which a thread that has not run counts as asleep; while waiting for the GIL, a thread runs every 5 ms.
 _ASLEEP_AFTER = 0.007
-_SECONDS_TO_LEAVE = 0.2  # for a thread that looks whether it should end
+_SECONDS_TO_EXIT = 0.2  # s for a thread that checks the exit request
 _SECONDS_TO_END = 0.8
 
 
@@ -32,32 +32,32 @@ class AnyThread(Protocol):
 
     @property
     def ident(self) -> int | None:
-        """Of the thread of the operating system that it has for itself."""
+        """Return the id of its operating system thread; None if it has none."""
 
-    def give_turn(self) -> None:
-        """Let the thread work in its turn; raise the error that it ended with."""
+    def run_turn(self) -> None:
+        """Run the thread for one turn; raise the error that ended it."""
 
     def turn(self) -> contextlib.AbstractContextManager[None]:
-        """Called by the thread around what it does to the simulation."""
+        """Return a context in which the thread accesses the simulation; called by the thread."""
 
     def step(self) -> None:
-        """Called by the thread: gives its turn back."""
+        """End the turn; called by the thread."""
 
     def sleep(self, seconds: float) -> None:
-        """Called by the thread: sleeps, unless it is to end."""
+        """Sleep, unless the thread has to end; called by the thread."""
 
     def end(self, wake: Callable[[], None]) -> bool:
-        """Ask the thread to end, and make it after a moment; whether it did."""
+        """Request the thread to end, then force it; return whether it ended."""
 
 
 by_ident: dict[int, AnyThread] = {}
-"""The threads of scripts that run."""
+"""The running threads of scripts."""
 
 plain_sleep = time.sleep
 
 
 def install() -> None:
-    """From now on time.sleep in a script's thread ends when the thread must."""
+    """From now on, end time.sleep in a script's thread when the thread has to end."""
     time.sleep = _sleep
 
 
@@ -70,24 +70,24 @@ def _sleep(seconds: float | SupportsIndex) -> None:
 
 
 def current() -> AnyThread | None:
-    """The script's thread that calls; None for the simulation's own thread."""
+    """Return the calling script's thread; None for the simulation's thread."""
     return by_ident.get(threading.get_ident())
 
 
 class ScriptThread:
-    """Runs a function in turns. All methods but those that say so are for the simulation's thread."""
+    """Runs a function in turns. Methods are for the simulation's thread unless stated otherwise."""
 
     def __init__(self, name: str, body: Callable[[], object]) -> None:
-        """Make a thread that begins in its first turn."""
-        self.stepping = 0  # how often it asked to keep its turns until it gives them back
+        """Create a thread that starts in its first turn."""
+        self.stepping = 0  # depth of nested setStepping calls
         self.exit_requested = False
         self._thread = threading.Thread(target=self._run, args=(body,), name=name)
-        self._changed = threading.Condition()  # of what follows
+        self._changed = threading.Condition()  # guards the following members
         self._turn = False
-        self._calling = False  # works on the simulation
+        self._calling = False  # accesses the simulation
         self._steps_to_end = 0
         self._done = False
-        self._clock: int | None = None  # of the thread's computing
+        self._clock: int | None = None  # CPU clock of the thread
         self._error: BaseException | None = None
         self._slept_at: int | None = None  # _runs() when it was last found asleep
 
@@ -108,21 +108,21 @@ class ScriptThread:
 
     @property
     def ident(self) -> int | None:
-        """See AnyThread; none before its first turn."""
+        """Return the id of its operating system thread; None before its first turn."""
         return self._thread.ident
 
-    def give_turn(self) -> None:
-        """Let the thread work until it steps, ends, sleeps or its slice is over; raise the error that it ended with."""
+    def run_turn(self) -> None:
+        """Run the thread until it steps, ends, sleeps or its time slice is over; raise the error that ended it."""
         if self._thread.ident is None:
             self._thread.start()
         elif self._slept_at is not None and self._slept_at == self._runs():
-            return  # it has been asleep since
+            return  # still asleep
         with self._changed:
             self._slept_at = None
             self._turn = True
             self._changed.notify_all()
             try:
-                self._wait_while_it_has_its_turn()
+                self._wait_for_turn_end()
             finally:
                 self._turn = False
             while self._calling:
@@ -131,7 +131,7 @@ class ScriptThread:
         if error is not None:
             raise error
 
-    def _wait_while_it_has_its_turn(self) -> None:
+    def _wait_for_turn_end(self) -> None:
         begin = self._computed()
         runs = None
         seen_at = 0.0
@@ -150,7 +150,7 @@ class ScriptThread:
                 return
 
     def _computed(self) -> float:
-        """Seconds for which a processor has worked on the thread: one that waits for a processor loses nothing."""
+        """Return the CPU time of the thread, s; waiting for a processor does not count."""
         if self._clock is None:
             return 0.0
         try:
@@ -159,7 +159,7 @@ class ScriptThread:
             return math.inf
 
     def _runs(self) -> int | None:
-        """How often the thread has run, when it sleeps now."""
+        """Return the number of context switches if the thread is asleep, else None."""
         try:
             status = Path(f"/proc/self/task/{self._thread.native_id}/status").read_text(encoding="utf-8")
         except OSError:  # it has ended
@@ -171,7 +171,7 @@ class ScriptThread:
 
     @contextlib.contextmanager
     def turn(self) -> Iterator[None]:
-        """Called by the thread around what it does to the simulation: waits for its turn, and keeps it."""
+        """Wait for a turn and keep it during the block, which accesses the simulation; called by the thread."""
         if self._calling:
             yield
             return
@@ -185,11 +185,11 @@ class ScriptThread:
                     self._changed.notify_all()
 
     def step(self) -> None:
-        """Called by the thread: gives its turn back and waits for the next one."""
+        """End the turn and wait for the next one; called by the thread."""
         if self._calling:
-            raise RuntimeError("a callback that a function of sim or simROS calls cannot wait for the next step")
+            raise RuntimeError("a callback called by a function of sim or simROS cannot wait for the next step")
         with self._changed:
-            if self.exit_requested:  # once, so that it sees the request
+            if self.exit_requested:  # once, so that the thread can check the request
                 self._steps_to_end += 1
                 if self._steps_to_end > 1:
                     raise SystemExit
@@ -206,15 +206,15 @@ class ScriptThread:
             self._calling = calling
 
     def sleep(self, seconds: float) -> None:
-        """Called by the thread: sleeps, unless it is to end."""
+        """Sleep, unless the thread has to end; called by the thread."""
         with self._changed:
             if self._changed.wait_for(lambda: self.exit_requested, seconds):
                 raise SystemExit
 
     def end(self, wake: Callable[[], None]) -> bool:
-        """Ask the thread to end, and make it after a moment; whether it did.
+        """Request the thread to end, then force it; return whether it ended.
 
-        :param wake: ends what the thread may wait for.
+        :param wake: wakes the thread if it waits.
         """
         begin = time.monotonic()
         with self._changed:
@@ -223,7 +223,7 @@ class ScriptThread:
         if self._thread.ident is None or self._thread is threading.current_thread():
             return True
         asleep = self._slept_at is not None and self._slept_at == self._runs()
-        self._thread.join(0 if asleep else _SECONDS_TO_LEAVE)
+        self._thread.join(0 if asleep else _SECONDS_TO_EXIT)
         while self._thread.is_alive() and time.monotonic() - begin < _SECONDS_TO_END:
             ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self._thread.ident), ctypes.py_object(SystemExit))
             wake()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Threads that scripts started."""
+"""Threads started by scripts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SECONDS_TO_END = 1.0
 
 
 def ended() -> bool:
-    """Wait a moment for the threads that Python would wait for; name those that do not end."""
+    """Wait briefly for non-daemon threads; warn about those that do not end. Return whether all ended."""
     deadline = time.monotonic() + _SECONDS_TO_END
     others = [t for t in threading.enumerate() if not t.daemon and t is not threading.current_thread()]
     for thread in others:

@@ -5,8 +5,8 @@
 
 namespace bubblesim {
 
-/// The folder that this library was loaded from: what belongs to it is found from there, in development and install
-/// spaces alike. Empty when the loader does not know.
+/// The folder of this library's file, from which its data is located in development and install spaces alike. Empty
+/// when the loader does not know it.
 std::filesystem::path library_folder();
 
 }  // namespace bubblesim

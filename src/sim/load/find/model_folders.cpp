@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What follows `scheme` in a URI that starts with it.
+/// The rest of a URI after `scheme`, if it starts with `scheme`.
 std::optional<fs::path> after(const std::string& scheme, const std::string& uri) {
   if (uri.rfind(scheme, 0) != 0) return std::nullopt;
-  // Some write model:///NAME; file:///path is absolute.
+  // Some files have model:///NAME; file:///path is absolute.
   const std::size_t start = scheme == "model://" ? uri.find_first_not_of('/', scheme.size()) : scheme.size();
   return uri.substr(std::min(start, uri.size()));
 }
@@ -34,7 +34,7 @@ fs::path without_first(const fs::path& path) {
 
 fs::path find_in(const std::vector<fs::path>& folders, const fs::path& wanted) {
   for (const fs::path& folder : folders) {
-    if (fs::path found = folder / wanted; !wanted.empty() && fs::exists(found)) return found;  // absolute ones, too
+    if (fs::path found = folder / wanted; !wanted.empty() && fs::exists(found)) return found;  // also absolute paths
   }
   return {};
 }
@@ -45,8 +45,8 @@ fs::path find_in_package(const fs::path& name_and_rest, const fs::path& near) {
   return package.empty() ? fs::path() : find_in({package}, without_first(name_and_rest));
 }
 
-/// NAME or NAME/PATH of https://HOST/1.0/OWNER/models/NAME[/VERSION[/files/PATH]], as gz-sim's worlds name models of a
-/// server. Nothing for other URIs.
+/// NAME or NAME/PATH of https://HOST/1.0/OWNER/models/NAME[/VERSION[/files/PATH]], the URIs of models on a server in
+/// gz-sim's worlds. Empty for other URIs.
 std::optional<fs::path> of_server(const std::string& uri) {
   if (!after("https://", uri) && !after("http://", uri)) return std::nullopt;
   static const std::regex pattern("https?://.*/models/([^/]+)(/[^/]+/files/(.+)|/[^/]*)?/?");
@@ -56,7 +56,7 @@ std::optional<fs::path> of_server(const std::string& uri) {
   return match.str(3).empty() ? fs::path(name) : fs::path(name) / match.str(3);
 }
 
-/// `Ground Plane` as most folders have it: ground_plane.
+/// `Ground Plane` as the usual folder name: ground_plane.
 fs::path as_folder(const fs::path& path) {
   std::string name = path.begin()->string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char character) {
@@ -66,7 +66,7 @@ fs::path as_folder(const fs::path& path) {
   return rest.empty() ? fs::path(name) : name / rest;
 }
 
-/// $(find NAME) as roslaunch and xacro have it: the package's folder. What is not found stays.
+/// Replaces $(find NAME), known from roslaunch and xacro, by the package's folder. Unknown packages are not replaced.
 std::string with_packages(std::string uri, const fs::path& near) {
   const std::string start = "$(find ";
   const std::size_t open = uri.find(start);
@@ -101,7 +101,7 @@ fs::path find_model(const std::string& given, const fs::path& scene_folder) {
   if (const auto in_package = after("package://", uri)) return find_in_package(*in_package, scene_folder);
   const auto of_model = after("model://", uri);
   const fs::path found = find_in(model_folders(scene_folder), of_model.value_or(uri));
-  // SDFormat writes package:// of a URDF file as model://.
+  // SDFormat converts package:// in a URDF file to model://.
   return found.empty() && of_model ? find_in_package(*of_model, scene_folder) : found;
 }
 

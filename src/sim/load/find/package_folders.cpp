@@ -21,14 +21,14 @@ constexpr const char* kManifest = "package.xml";
 bool is_package(const fs::path& folder, const std::string& name) {
   tinyxml2::XMLDocument manifest;
   std::error_code unreadable;
-  if (!fs::is_regular_file(folder / kManifest, unreadable)) return false;  // a FIFO would never end
+  if (!fs::is_regular_file(folder / kManifest, unreadable)) return false;  // reading a FIFO would block
   if (manifest.LoadFile((folder / kManifest).c_str()) != tinyxml2::XML_SUCCESS) return false;
   const auto* package = manifest.FirstChildElement("package");
   const auto* element = package != nullptr ? package->FirstChildElement("name") : nullptr;
   return element != nullptr && element->GetText() != nullptr && element->GetText() == name;
 }
 
-/// Packages hold no packages, and CATKIN_IGNORE hides what lies in a folder.
+/// Packages do not contain packages, and CATKIN_IGNORE excludes a folder.
 fs::path find_below(const fs::path& folder, const std::string& name, int depth) {
   std::error_code unreadable;
   if (fs::exists(folder / kManifest, unreadable)) return is_package(folder, name) ? folder : fs::path();
@@ -40,7 +40,7 @@ fs::path find_below(const fs::path& folder, const std::string& name, int depth) 
   return {};
 }
 
-/// `${prefix}/models:${prefix}/more`, with the package's folder in place of ${prefix}.
+/// Adds folders of the form `${prefix}/models:${prefix}/more`, where ${prefix} is the package's folder.
 void add_folders(const fs::path& package, std::string path, std::vector<fs::path>& folders) {
   const std::string prefix = "${prefix}";
   for (std::size_t place = path.find(prefix); place != std::string::npos; place = path.find(prefix, place)) {
@@ -75,7 +75,7 @@ void add_exports_below(const fs::path& folder, int depth, std::vector<fs::path>&
   }
 }
 
-/// Kept for a while, for it looks at all packages and each model of a scene asks for it.
+/// Cached for a while, because it searches all packages and each model of a scene calls it.
 std::vector<fs::path> exported_by_all() {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds kValid{2};
@@ -88,7 +88,7 @@ std::vector<fs::path> exported_by_all() {
   if (roots == known_roots && Clock::now() - known_since < kValid) return known;
   known.clear();
   for (const fs::path& root : roots) {
-    // Below a share/ of installed packages, these lie side by side, among much else.
+    // In share/ of an install space, packages are direct subfolders, among many other folders.
     add_exports_below(root, root.filename() == "share" ? 1 : kMaxDepth, known);
   }
   known_roots = roots;
@@ -110,7 +110,7 @@ fs::path find_package(const std::string& name, const fs::path& near) {
     if (is_package(up, name)) return up;
   }
   const std::vector<fs::path> roots = folders_of("ROS_PACKAGE_PATH");
-  for (const fs::path& root : roots) {  // most packages lie in a folder of their name
+  for (const fs::path& root : roots) {  // most packages are in a folder with their name
     if (is_package(root / name, name)) return root / name;
   }
   for (const fs::path& root : roots) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where scenes are looked for.
+// Searches scenes.
 #include "load/find/scene_folders.hpp"
 
 #include <algorithm>
@@ -22,19 +22,19 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// What a file is that is taken for a scene, and what to give instead; empty when it may be one.
+/// The error for a file of another kind, with what to do; empty when the file may be a scene.
 std::string no_scene(const fs::path& path) {
   const std::string name = path.filename().string();
   for (const char* script : {".py", ".lua"}) {
     if (!ends_with(name, script)) continue;
-    return "is a script, not a scene: name the .sdf file whose model runs it, or give it to a model of a scene by "
+    return "is a script, not a scene: give the .sdf file whose model runs it, or assign it to a model of a scene with "
            "--child-script OBJECT=" +
            path.string();
   }
   for (const char* scene : {".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"}) {
     if (!ends_with(name, scene)) continue;
-    return "is a file of CoppeliaSim, whose formats cannot be read: export its robots from there as URDF, or describe "
-           "the scene in SDFormat; see docs/worlds/README.md";
+    return "is a CoppeliaSim file, which cannot be read: export its robots as URDF, or describe the scene in SDFormat; "
+           "see docs/worlds/README.md";
   }
   return {};
 }
@@ -82,7 +82,7 @@ fs::path find_scene(const std::string& name_or_path) {
   const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro"};
   if (path.has_parent_path() || extensions.count(path.extension()) > 0) {
     if (fs::is_regular_file(path)) return fs::absolute(path);
-    throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "no such file"}});
+    throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "file not found"}});
   }
   std::string searched;
   for (const fs::path& folder : scene_folders()) {
@@ -90,8 +90,8 @@ fs::path find_scene(const std::string& name_or_path) {
     searched += " " + folder.string();
   }
   throw SceneError({{"", 0, "",
-                     "no scene is named '" + name_or_path + "'" + did_you_mean(name_or_path, scene_names()) +
-                         " (searched in" + searched + "; a path to an .sdf file works too)"}});
+                     "scene not found: '" + name_or_path + "'" + did_you_mean(name_or_path, scene_names()) +
+                         " (searched in" + searched + "; the path of an .sdf file is also accepted)"}});
 }
 
 }  // namespace bubblesim

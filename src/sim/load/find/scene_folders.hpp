@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which file a scene's name means.
+// Finds the files of scenes.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,13 @@
 
 namespace bubblesim {
 
-/// The file of a scene by name, looked for in scene_folders(), or by path. Throws SceneError when there is none.
+/// Returns the file of a scene, by name (searched in scene_folders()) or path. Throws SceneError when it is not found.
 std::filesystem::path find_scene(const std::string& name_or_path);
 
-/// A folder of what comes with bubblesim: in an install space it lies in share/, in a development space `source` has
-/// it.
+/// A data folder of bubblesim: in share/ in an install space, `source` in a development space.
 std::filesystem::path shared_folder(const std::string& name, const std::filesystem::path& source);
 
-/// The folders that an environment variable names, between colons; none when it is not set.
+/// The folders in an environment variable, separated by colons; empty when it is not set.
 std::vector<std::filesystem::path> folders_of(const char* variable);
 
 }  // namespace bubblesim

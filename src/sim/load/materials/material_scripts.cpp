@@ -39,7 +39,7 @@ std::optional<Color> to_color(const std::vector<std::string>& words) {
   return Color{parts[0], parts[1], parts[2]};
 }
 
-/// What stands between the braces after `material NAME`, which may go on with `: PARENT`.
+/// The content of the braces after `material NAME`, which may be followed by `: PARENT`.
 std::optional<ScriptedMaterial> find_in_script(const fs::path& file, const std::string& name) {
   std::ifstream script(file);
   ScriptedMaterial material;
@@ -83,7 +83,7 @@ std::shared_ptr<const Texture> find_texture(const std::string& name, const std::
       try {
         return read_texture(file);
       } catch (const MeshError&) {
-        return nullptr;  // its colour remains
+        return nullptr;  // the colour is used
       }
     }
   }
@@ -112,7 +112,7 @@ std::optional<Material> read_script(const std::string& name, const std::vector<f
 }  // namespace
 
 std::optional<Material> script_material(const std::string& name, const std::vector<fs::path>& places) {
-  constexpr int kMaxGenerations = 8;  // a material may name itself as its parent
+  constexpr int kMaxGenerations = 8;  // a material may have itself as its parent
   return read_script(name, places, kMaxGenerations);
 }
 

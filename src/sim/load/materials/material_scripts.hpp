@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OGRE's material scripts, as far as a colour and a picture go: models for Gazebo bring them.
+// Reads colour and texture from OGRE material scripts, which are part of Gazebo models.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace bubblesim {
 
-/// The material of that name in scripts (*.material) that are among `places` or lie in folders there. Its texture is
-/// looked for in these folders and in `textures` beside them. Only the first pass and its first texture count.
+/// Returns the material of that name in scripts (*.material) that are in `places` or in folders there. Its texture is
+/// searched in these folders and in `textures` next to them. Only the first pass and its first texture are used.
 std::optional<Material> script_material(const std::string& name, const std::vector<std::filesystem::path>& places);
 
 }  // namespace bubblesim

@@ -6,7 +6,7 @@
 namespace bubblesim {
 namespace {
 
-// What follows Gazebo/ in the name. For textures, their mean colour about.
+// By the part of the name after Gazebo/. For textures, their approximate mean colour.
 const std::map<std::string, Color>& colors() {
   static const std::map<std::string, Color> known = {
       {"Grey", {0.7F, 0.7F, 0.7F}},
@@ -45,7 +45,7 @@ const std::map<std::string, Color>& colors() {
 
 std::optional<Material> named_material(const std::string& name) {
   const std::string prefix = "Gazebo/";
-  const std::string glow = "Glow";  // a colour that shines by itself
+  const std::string glow = "Glow";  // an emissive colour
   if (name.rfind(prefix, 0) != 0) return std::nullopt;
   std::string color = name.substr(prefix.size());
   const bool glows = color.size() > glow.size() && color.substr(color.size() - glow.size()) == glow;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colours behind names such as Gazebo/Red, which models use without bringing the scripts that define them.
+// The colours of names such as Gazebo/Red, which models use without the scripts that define them.
 #pragma once
 
 #include <optional>

@@ -12,11 +12,11 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Each takes some seconds: what many frames need does not fit into the processor's cache, what a chain needs does.
+// Each limit takes some seconds: many frames do not fit into the processor's cache, a chain does.
 constexpr std::uint64_t kMostFrames = 10'000;
 constexpr std::uint64_t kMostComparisons = 2'000'000'000;
 
-/// What a frame's place is given in: by name, empty for the model.
+/// The frame that a frame's pose is relative to: by name, empty for the model.
 using Bases = std::unordered_map<std::string_view, std::string_view>;
 
 std::string_view or_empty(const char* found) { return found != nullptr ? std::string_view(found) : std::string_view(); }
@@ -29,7 +29,7 @@ void add_sdf(const XMLElement& element, Bases& bases) {
   bases.emplace(or_empty(element.Attribute("name")), base);
 }
 
-/// A joint is placed in its parent, and its child in it.
+/// A joint's pose is relative to its parent, and that of its child to the joint.
 void add_urdf(const XMLElement& element, Bases& bases) {
   if (std::string_view(element.Name()) != "joint") return;
   const std::string_view name = or_empty(element.Attribute("name"));
@@ -39,14 +39,14 @@ void add_urdf(const XMLElement& element, Bases& bases) {
   bases.emplace(or_empty(child != nullptr ? child->Attribute("link") : nullptr), name);
 }
 
-/// The steps from all frames to the model.
+/// The number of steps from all frames to the model.
 std::uint64_t all_steps(const Bases& bases) {
   std::unordered_map<std::string_view, std::uint64_t> steps;
   std::uint64_t sum = 0;
   for (const auto& start : bases) {
     std::vector<std::string_view> way;
     std::string_view at = start.first;
-    while (!at.empty() && steps.count(at) == 0 && way.size() <= bases.size()) {  // a circle ends, too
+    while (!at.empty() && steps.count(at) == 0 && way.size() <= bases.size()) {  // also ends in a cycle
       way.push_back(at);
       const auto found = bases.find(at);
       at = found != bases.end() ? found->second : std::string_view();
@@ -73,8 +73,8 @@ std::string frame_work_problem(const XMLElement& model) {
   }
   if (frames <= kMostFrames && frames * all_steps(bases) <= kMostComparisons) return {};
   return "has " + std::to_string(frames) +
-         " links, joints and frames, too many for the way in which they stand on one another: SDFormat would take "
-         "minutes to place them; divide the model, or place them in the model itself instead of in one another";
+         " links, joints and frames, too many for their chains of relative poses: SDFormat would take minutes to "
+         "resolve them; divide the model, or give the poses relative to the model";
 }
 
 }  // namespace bubblesim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long SDFormat takes to place the links, joints and frames of a model: for each it looks at all of them, once for
-// each step of the way to the world.
+// Limits the time that SDFormat takes to resolve the poses of links, joints and frames of a model: for each it visits
+// all of them, once per step to the world.
 #pragma once
 
 #include <tinyxml2.h>
@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// What is wrong with a <model> or <robot> that would take minutes; empty for all others and for other elements.
+/// The error of a <model> or <robot> that would take minutes; empty for all others and for other elements.
 std::string frame_work_problem(const tinyxml2::XMLElement& model);
 
 }  // namespace bubblesim

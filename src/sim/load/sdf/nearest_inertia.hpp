@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inertias that no physics can use, and what is nearest to them.
+// Corrects inertias that the physics cannot use.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,8 @@ struct Inertia {
   Vector3 products;
 };
 
-/// The inertia nearest to it (Frobenius norm) of those whose principal moments are a thousandth of its greatest or
-/// more, as those of a thin rod: the same axes, with the moments below raised to that. Nothing when no moment is above
-/// zero.
+/// The nearest inertia (Frobenius norm) whose principal moments are at least a thousandth of its greatest one, like
+/// those of a thin rod: the same axes, with lower moments raised to that. Empty when no moment is above zero.
 std::optional<Inertia> nearest_positive_definite(const Inertia& inertia);
 
 }  // namespace bubblesim

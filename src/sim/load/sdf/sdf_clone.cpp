@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDFormat clones the description of an element, with those of all elements that may be in it, for each element that
-// it reads: a link takes a megabyte and ten milliseconds. Nothing changes descriptions once they are read, so clones
-// may share them. The linker takes this function in place of the library's own (docs/adr/0017).
+// SDFormat clones the description of an element, with those of all elements that it may contain, for each element that
+// it reads: a link takes a megabyte and ten milliseconds. Descriptions are not changed after they are read, so clones
+// can share them. The linker replaces the library's function by this one (docs/adr/0017).
 #include <sdf/Element.hh>
 #include <sdf/Param.hh>
 
@@ -11,7 +11,7 @@ inline namespace SDF_VERSION_NAMESPACE {
 ElementPtr Element::Clone() const {
   auto clone = std::make_shared<Element>();
   ElementPrivate& copy = *clone->dataPtr;
-  copy = *dataPtr;  // descriptions, too: as pointers
+  copy = *dataPtr;  // descriptions as pointers
   copy.parent.reset();
   for (ParamPtr& attribute : copy.attributes) {
     attribute = attribute->Clone();

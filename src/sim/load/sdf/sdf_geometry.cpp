@@ -70,11 +70,11 @@ class GeometryReader {
     const fs::path file = find_resource(uri, element_->FilePath(), reading_.folder());
     if (file.empty()) {
       throw MissingFile(
-          "the file '" + uri + "' is not found; model:// names a folder in BUBBLESIM_MODEL_PATH or " +
-          "GAZEBO_MODEL_PATH, package:// a ROS package, other paths start beside the file that names them");
+          "file not found: '" + uri + "'; model:// refers to a folder in BUBBLESIM_MODEL_PATH or " +
+          "GAZEBO_MODEL_PATH, package:// to a ROS package, other paths are relative to the file that contains them");
     }
     try {
-      if (!fs::is_regular_file(file)) throw MeshError("is no regular file");
+      if (!fs::is_regular_file(file)) throw MeshError("is not a regular file");
       return Mesh{load(file)};
     } catch (const MeshError& error) {
       throw MeshError(file.string() + " " + error.what());
@@ -101,7 +101,8 @@ std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, LoadContext
   if (geometry.Element() != nullptr && geometry.Element()->HasElement("image")) return reader.walls();
   if (geometry.Element() != nullptr && geometry.Element()->HasElement("empty")) return std::nullopt;
   throw MeshError(
-      "this geometry is not supported; supported are box, sphere, cylinder, capsule, ellipsoid, plane, mesh, polyline, "
+      "this geometry is not supported; supported geometries: box, sphere, cylinder, capsule, ellipsoid, plane, mesh, "
+      "polyline, "
       "heightmap, image and empty");
 }
 

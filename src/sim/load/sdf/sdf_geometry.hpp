@@ -10,8 +10,8 @@
 
 namespace bubblesim {
 
-/// Files that it names lie as find_resource() tells. Nothing when it is empty. Throws MeshError, which says why, when
-/// it cannot be had.
+/// Reads a geometry; its files are searched as by find_resource(). Empty when the geometry is empty. Throws MeshError,
+/// with the reason, when it cannot be read.
 std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, LoadContext& reading);
 
 }  // namespace bubblesim

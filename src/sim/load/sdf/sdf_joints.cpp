@@ -17,7 +17,7 @@
 namespace bubblesim {
 namespace {
 
-// SDFormat writes a limit that does not exist as +-1e16.
+// SDFormat has +-1e16 for no limit.
 constexpr double kNoLimit = 1e15;
 
 const char* sdf_type(sdf::JointType type) {
@@ -46,7 +46,7 @@ const char* sdf_type(sdf::JointType type) {
   return "invalid";
 }
 
-/// SDFormat 1.11 has <mimic joint="..." axis="...">; older files may write it as <bubblesim:mimic>.
+/// SDFormat 1.11 has <mimic joint="..." axis="...">; older files may use <bubblesim:mimic>.
 std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, LoadContext& reading) {
   for (auto element = axis->GetFirstElement(); element != nullptr; element = element->GetNextElement()) {
     if (element->GetName() != "mimic" && element->GetName() != "bubblesim:mimic") continue;
@@ -61,24 +61,24 @@ std::optional<MimicDescription> read_mimic(const sdf::ElementPtr& axis, LoadCont
   return std::nullopt;
 }
 
-/// Metres a turn, from an element that may be in one of two conventions.
+/// Metres per turn, from an element in one of two conventions.
 double read_screw_lead(const sdf::Joint& joint, const std::string& path, LoadContext& reading) {
   const sdf::ElementPtr element = joint.Element();
-  // SDFormat 1.10: metres a turn, right-handed.
+  // SDFormat 1.10: metres per turn, right-handed.
   if (const auto lead = own_number(element, "screw_thread_pitch", reading.problems())) return *lead;
-  // Before: radians a metre, left-handed.
+  // Before: radians per metre, left-handed.
   if (joint.ThreadPitch() != 0) return -2 * M_PI / joint.ThreadPitch();
-  reading.report(source_of(element, "thread_pitch"), path, "<thread_pitch> is 0, it must be other than zero");
+  reading.report(source_of(element, "thread_pitch"), path, "<thread_pitch> is 0, it must not be 0");
   return 1;
 }
 
-/// A limit of positions, `none` when nothing gets there.
+/// A position limit; `none` when it is out of reach.
 double reachable(double limit, double none, const std::string& name, const sdf::JointAxis& axis,
                  const std::string& path) {
   if (std::abs(limit) >= kNoLimit) return none;
   if (!(std::abs(limit) > kMaxDistance)) return limit;
   LoadContext::warn(source_of(axis.Element()->FindElement("limit"), name), path,
-                    "the " + name + " limit is " + text(limit) + ", beyond 1e6: there is none");
+                    "the " + name + " limit is " + text(limit) + ", beyond 1e6: treated as no limit");
   return none;
 }
 
@@ -92,8 +92,7 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
     description.lower = reachable(axis.Lower(), -none, "lower", axis, path);
     description.upper = reachable(axis.Upper(), none, "upper", axis, path);
   }
-  // A negative effort or velocity means that there is no limit; many files write a velocity of 0, which Gazebo's motors
-  // do not heed.
+  // A negative effort or velocity means no limit; many files have a velocity of 0, which Gazebo's motors ignore.
   description.max_force = axis.Effort() < 0 ? none : limit(axis.Effort(), none);
   description.max_velocity = axis.MaxVelocity() <= 0 ? none : limit(axis.MaxVelocity(), none);
   description.friction = axis.Friction();
@@ -115,7 +114,7 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
   return description;
 }
 
-/// Old models leave out one or both axes of a universal joint: those are at right angles to what is there.
+/// Old models omit one or both axes of a universal joint: these are at right angles to the others.
 void complete_universal(JointDescription& joint) {
   if (joint.axes.empty()) joint.axes.emplace_back().direction = Vector3::UnitX;
   if (joint.axes.size() > 1) return;
@@ -143,7 +142,7 @@ JointDescription read_joint(const sdf::Joint& joint, const std::string& model_pa
     const sdf::Sensor& sensor = *joint.SensorByIndex(i);
     if (!sensor.PoseRelativeTo().empty()) {  // SDFormat does not resolve it here
       reading.report(source_of(sensor.Element(), "pose"), path + "/" + sensor.Name(),
-                     "the <pose> of a joint's sensor is in the joint's frame: take relative_to out");
+                     "the <pose> of a joint's sensor is relative to the joint: remove relative_to");
     }
     if (auto read = read_sensor(sensor, path, sensor.RawPose(), reading))
       description.sensors.push_back(std::move(*read));

@@ -14,7 +14,7 @@ namespace {
 struct LeftOut {
   const char* name;
   const char* reason;
-  bool (*counts)(const sdf::ElementPtr&);  // whether it would have an effect
+  bool (*counts)(const sdf::ElementPtr&);  // whether it has an effect
 };
 
 bool always(const sdf::ElementPtr&) { return true; }
@@ -35,11 +35,11 @@ const std::vector<LeftOut>& left_out_of(const std::string& owner) {
         {"joint", "joints between models are not simulated", always},
         {"wind", "wind is not simulated", blows}}},
       {"model",
-       {{"gripper", "grippers hold by contacts here, not by a joint", always},
+       {{"gripper", "grippers hold objects by contacts, not by a joint", always},
         {"enable_wind", "wind is not simulated", is_true}}},
       {"link",
-       {{"kinematic", "forces and gravity move the link", is_true},
-        {"velocity_decay", "give the joints <damping>", decays},
+       {{"kinematic", "kinematic links are not supported, forces and gravity move the link", is_true},
+        {"velocity_decay", "use <damping> of the joints", decays},
         {"enable_wind", "wind is not simulated", is_true},
         {"projector", "projectors are not simulated", always},
         {"battery", "batteries are not simulated", always},
@@ -59,7 +59,7 @@ void report_left_out(const sdf::ElementPtr& owner, const std::string& path) {
       if (!kind.counts(element)) continue;
       const std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
       LoadContext::warn(source_of(element), name.empty() ? path : path + "/" + name,
-                        "<" + std::string(kind.name) + "> is left out: " + kind.reason);
+                        "<" + std::string(kind.name) + "> is ignored: " + kind.reason);
     }
   }
 }

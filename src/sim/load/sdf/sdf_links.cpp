@@ -28,7 +28,7 @@ namespace bubblesim {
 namespace {
 
 constexpr double kBallRadius = 0.1;  // m
-constexpr double kThin = 1e-3;       // m, of what has no thickness
+constexpr double kThin = 1e-3;       // m, of a shape without thickness
 
 Quaternion turn_from_z(const Vector3& direction) {
   Quaternion turn;
@@ -36,7 +36,8 @@ Quaternion turn_from_z(const Vector3& direction) {
   return turn;
 }
 
-/// SDFormat drops shapes that are named as another one of their link; Gazebo keeps them. Their names here get numbers.
+/// SDFormat drops shapes with the name of another shape of their link; Gazebo keeps them. Numbers are appended to their
+/// names.
 template <class Shape>
 std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, const std::string& link_path) {
   std::vector<Shape> found;
@@ -47,10 +48,10 @@ std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, cons
     const int number = ++known[name];
     if (number == 1) continue;
     Shape shape;
-    shape.Load(element);  // what is wrong with it was told when the file was read
+    shape.Load(element);  // errors were reported when the file was read
     shape.SetName(name + "_" + std::to_string(number));
     LoadContext::warn(source_of(element), link_path + "/" + shape.Name(),
-                      "is named so, as another one has the name '" + name + "'");
+                      "renamed: the name '" + name + "' is used already");
     found.push_back(std::move(shape));
   }
   return found;
@@ -69,7 +70,7 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
     description.geometry = *geometry;
   } catch (const MissingFile& error) {
     LoadContext::warn(source_of(collision.Element(), "geometry"), path,
-                      std::string(error.what()) + "; this collision is left out");
+                      std::string(error.what()) + "; this collision is ignored");
     return std::nullopt;
   } catch (const MeshError& error) {
     reading.report(source_of(collision.Element(), "geometry"), path, error.what());
@@ -79,7 +80,7 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
   return description;
 }
 
-/// What is only seen may be flat.
+/// Visuals may be flat.
 void thicken(Geometry& geometry) {
   const auto thick = [](double& length) {
     if (length == 0) length = kThin;
@@ -94,7 +95,7 @@ void thicken(Geometry& geometry) {
   }
 }
 
-/// A visual whose shape cannot be had is replaced by the link's collision shapes, in its colour.
+/// A visual whose geometry cannot be read is replaced by the link's collision shapes, in its colour.
 void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string& link_path, bool is_static,
                  LinkDescription& link, LoadContext& reading) {
   VisualDescription description;
@@ -121,7 +122,7 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
     return;
   } catch (const MeshError& error) {
     LoadContext::warn(source_of(visual.Element(), "geometry"), path,
-                      std::string(error.what()) + "; the link shows its collision shapes instead");
+                      std::string(error.what()) + "; using the link's collision shapes instead");
   }
   for (const CollisionDescription& collision : link.collisions) {
     description.pose = collision.pose;
@@ -130,12 +131,12 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
   }
 }
 
-/// Many robots leave it at zero, with which nothing can turn, or have one that no body has.
+/// Many robots have a zero inertia, with which a body cannot be rotated, or an impossible one.
 void repair_inertia(LinkDescription& link, const std::string& path) {
   const Inertia given{link.inertia_diagonal, link.inertia_products};
   if (!within(given.diagonal, 1e9) || !within(given.products, 1e9)) return;  // the check reports it
   if (is_positive_definite(given.diagonal, given.products)) return;
-  // Not by ==, which takes what is small for zero.
+  // Not by ==, which has a tolerance.
   const bool is_zero = given.diagonal.Length() == 0 && given.products.Length() == 0;
   const std::optional<Inertia> nearest = nearest_positive_definite(given);
   const std::string is = is_zero ? "the inertia is 0"
@@ -145,13 +146,13 @@ void repair_inertia(LinkDescription& link, const std::string& path) {
     link.inertia_diagonal = nearest->diagonal;
     link.inertia_products = nearest->products;
     LoadContext::warn(link.source, path,
-                      is + ": the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
-                          text(nearest->products) + ", is taken");
+                      is + ": using the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
+                          text(nearest->products));
     return;
   }
   link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
   link.inertia_products = Vector3::Zero;
-  LoadContext::warn(link.source, path, is + ": that of a ball with a radius of 0.1 m is taken instead");
+  LoadContext::warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace bubblesim {
 
-/// `model_path` is the path of the model's object; `is_static` tells whether the model stands fast.
+/// `model_path` is the path of the model's object; `is_static` is that of the model.
 LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading);
 
 }  // namespace bubblesim

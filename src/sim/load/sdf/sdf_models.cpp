@@ -17,8 +17,7 @@ namespace {
 
 constexpr const char* kChildScript = "bubblesim:child_script";
 
-/// The file that a model names, beside the file that the model stands in; whoever includes a model may give it
-/// another.
+/// The child script of a model, relative to the model's file; an <include> may replace it.
 std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std::string& path, LoadContext& reading) {
   const sdf::ElementPtr include = model->GetIncludeElement();
   if (include != nullptr) check_own_elements(include, reading.problems());
@@ -31,15 +30,15 @@ std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std:
       (of_included_file ? std::filesystem::path(model->FilePath()).parent_path() : reading.folder()) / *name;
   const Source source = given_by_include ? reading.xml().place_of(kChildScript, *name) : source_of(model, kChildScript);
   if (name->empty()) {
-    reading.report(source, path, "<" + std::string(kChildScript) + "> names no file");
+    reading.report(source, path, "<" + std::string(kChildScript) + "> is empty: expected a file name");
   } else if (!std::filesystem::is_regular_file(file)) {
     reading.report(source, path, "the child script " + file.string() + " does not exist");
   }
   return file;
 }
 
-/// Reads what stands directly in a model; `inner` names a model inside another from the outermost one on, followed by
-/// "::", and has its pose in that one.
+/// Reads the contents of one model. `inner` is the name of a nested model, from the outermost model on and followed by
+/// "::", and its pose relative to that one.
 class ModelReader {
  public:
   ModelReader(ModelDescription& description, LoadContext& reading) : description_(description), reading_(reading) {}
@@ -73,7 +72,7 @@ class ModelReader {
     description_.nested.push_back(std::move(nested));
     read(model, prefix, placed, path);
     if (description_.links.size() == first) {
-      reading_.report(source_of(model.Element()), path, "has no link, so there is nothing to simulate; add a <link>");
+      reading_.report(source_of(model.Element()), path, "has no link; add a <link>");
       return;
     }
     const std::string& named = model.CanonicalLinkName();
@@ -82,7 +81,7 @@ class ModelReader {
 
   void read_joint_in(const sdf::Joint& read, const std::string& inner, const Pose& pose, const std::string& path) {
     JointDescription joint = read_joint(read, path, reading_);
-    if (joint.parent.empty() || joint.child.empty()) return;  // why was reported
+    if (joint.parent.empty() || joint.child.empty()) return;  // reported already
     const auto prefix = [&inner](std::string& name) {
       if (!name.empty() && name != "world") name = inner + name;
     };
@@ -97,7 +96,7 @@ class ModelReader {
     description_.joints.push_back(std::move(joint));
   }
 
-  /// A static model in one that moves stays where it is.
+  /// A static model nested in a moving one is fixed to the world.
   void hold(const LinkDescription& link) {
     JointDescription joint;
     joint.name = link.name + "_held";
@@ -113,12 +112,12 @@ class ModelReader {
   LoadContext& reading_;
 };
 
-/// Names that hold what separates them in paths could not be told from several.
+/// Replaces '/' in names, because it is the separator of paths.
 std::string name_in_paths(const sdf::Model& model) {
   std::string name = model.Name();
   if (name.find('/') == std::string::npos) return name;
   std::replace(name.begin(), name.end(), '/', '_');
-  LoadContext::warn(source_of(model.Element()), "/" + name, "is named so, as '/' separates names in paths");
+  LoadContext::warn(source_of(model.Element()), "/" + name, "renamed: '/' is the separator of paths");
   return name;
 }
 

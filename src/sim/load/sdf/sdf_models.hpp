@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// `pose` is the model's in the world.
+/// `pose` is the pose of the model in the world.
 ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// Those that stand directly in a world, model or sensor.
+/// The plugins of a world, model or sensor.
 std::vector<PluginDescription> read_plugins(const sdf::ElementPtr& owner);
 
 }  // namespace bubblesim

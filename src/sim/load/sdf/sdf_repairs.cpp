@@ -44,7 +44,7 @@ void warn(const std::string& file, const XMLElement& element, const std::string&
   LoadContext::warn({file, element.GetLineNum()}, object_path(element), message);
 }
 
-/// The frames whose names end as `wanted` does, beginning with those that share most of it with it.
+/// The frames whose names have the longest common suffix with `wanted`.
 std::vector<std::string> ending_as(const std::set<std::string>& frames, const std::string& wanted) {
   for (std::string end = wanted;;) {
     std::vector<std::string> found;
@@ -107,11 +107,11 @@ bool SdfRepairs::repair_script(XMLElement& script, const std::string& file) {
     script.InsertNewChildElement("name")->SetText(name.c_str());
   }
   if (name.empty()) {
-    warn(file, script, "<script> has no <name>: it names no material");
+    warn(file, script, "<script> has no <name>: no material");
   } else if (changes) {
-    warn(file, script, "<script> has text and no <name>: '" + name + "' is taken for the material's name");
+    warn(file, script, "<script> has text and no <name>: '" + name + "' is used as the material's name");
   } else if (child_text(script, "uri").empty()) {
-    warn(file, script, "<script> has no <uri>: '" + name + "' is looked for among Gazebo's materials");
+    warn(file, script, "<script> has no <uri>: '" + name + "' is searched in Gazebo's materials");
   }
   return changes;
 }
@@ -121,19 +121,19 @@ bool SdfRepairs::repair_uri(XMLElement& uri, const std::string& file) {
   const std::string text = text_of(&uri);
   if (text.rfind(scheme + "/", 0) != 0) return false;
   const std::string fixed = scheme + text.substr(std::min(text.find_first_not_of('/', scheme.size()), text.size()));
-  warn(file, uri, "<uri> is '" + text + "': " + fixed + " is taken");
+  warn(file, uri, "<uri> is '" + text + "': using " + fixed);
   uri.SetText(fixed.c_str());
   return true;
 }
 
-/// A world goes without the models that are not found; a model needs those that it is made of.
+/// A world is loaded without the models that are not found; a model needs its parts.
 bool SdfRepairs::leave_out_missing(XMLElement& world, const std::string& file) {
   bool changed = false;
   for (auto* include = world.FirstChildElement("include"); include != nullptr;) {
     auto* next = include->NextSiblingElement("include");
     const std::string uri = child_text(*include, "uri");
     if (!uri.empty() && find_model(uri, reading_.folder()).empty() && sdf::findFile(uri, true, false).empty()) {
-      warn(file, *include, "the model '" + uri + "' is not found and is left out" + reading_.where_models_are());
+      warn(file, *include, "model not found: '" + uri + "', ignored" + reading_.where_models_are());
       world.DeleteChild(include);
       changed = true;
     }
@@ -142,7 +142,7 @@ bool SdfRepairs::leave_out_missing(XMLElement& world, const std::string& file) {
   return changed;
 }
 
-/// SDFormat refuses models that share a name.
+/// SDFormat rejects models with equal names.
 bool SdfRepairs::number_models(XMLElement& parent, const std::string& file) {
   std::vector<std::pair<XMLElement*, std::string>> models;
   std::set<std::string> taken;
@@ -169,12 +169,12 @@ bool SdfRepairs::number_models(XMLElement& parent, const std::string& file) {
       (element != nullptr ? element : model->InsertNewChildElement("name"))->SetText(numbered.c_str());
     }
     LoadContext::warn({file, model->GetLineNum()}, object_path(parent) + "/" + numbered,
-                      "is named so, as another model has the name '" + name + "'");
+                      "renamed: another model has the name '" + name + "'");
   }
   return seen.size() < models.size();
 }
 
-/// Gazebo found the links of inner models by names that SDFormat does not find them by.
+/// Gazebo finds the links of nested models under names that SDFormat rejects.
 bool SdfRepairs::repair_joints(XMLElement& model, const std::string& file) {
   bool changed = false;
   std::optional<std::set<std::string>> frames;
@@ -187,7 +187,7 @@ bool SdfRepairs::repair_joints(XMLElement& model, const std::string& file) {
       if (frames->count(name) > 0 || name == "__model__") continue;
       const std::vector<std::string> meant = ending_as(*frames, name);
       if (meant.size() != 1) continue;  // SDFormat reports it
-      warn(file, *joint, "the " + std::string(end) + " '" + name + "' is taken for " + meant.front());
+      warn(file, *joint, "the " + std::string(end) + " '" + name + "' is not found: using " + meant.front());
       element->SetText(meant.front().c_str());
       changed = true;
     }
@@ -226,7 +226,8 @@ const SdfRepairs::Included* SdfRepairs::included(const XMLElement& include) {
   std::error_code unreadable;
   if (fs::is_directory(file, unreadable)) file = sdf::getModelFilePath(file.string());
   if (!fs::is_regular_file(file, unreadable)) return nullptr;
-  const auto [entry, is_new] = included_.try_emplace(file);  // one that includes itself finds what is known so far
+  const auto [entry, is_new] =
+      included_.try_emplace(file);  // a file that includes itself finds the frames known so far
   if (is_new) read_included(file, entry->second);
   return &entry->second;
 }
@@ -256,9 +257,7 @@ fs::path SdfRepairs::keep(const fs::path& original, const std::string& text) {
     std::string name = (fs::temp_directory_path() / "bubblesim-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
       throw SceneError({{original.string(), 0, "",
-                         "cannot create a folder for its "
-                         "repaired copy in " +
-                             fs::temp_directory_path().string()}});
+                         "cannot create a folder for its repaired copy in " + fs::temp_directory_path().string()}});
     folder_ = name;
   }
   const fs::path folder = folder_ / std::to_string(included_.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that Gazebo takes and SDFormat does not: they are changed before SDFormat reads them.
+// Repairs files that Gazebo accepts and SDFormat does not, before SDFormat reads them.
 #pragma once
 
 #include <tinyxml2.h>
@@ -14,8 +14,8 @@
 
 namespace bubblesim {
 
-/// Says what it changes, or reports what cannot be taken. Included files that it changes are copied to a folder of its
-/// own, which lasts as long as it does.
+/// Warns about changes, and reports unusable files. Included files that it changes are copied to a temporary folder,
+/// which exists during its lifetime.
 class SdfRepairs {
  public:
   explicit SdfRepairs(LoadContext& reading) : reading_(reading) {}
@@ -23,16 +23,16 @@ class SdfRepairs {
   SdfRepairs(const SdfRepairs&) = delete;
   SdfRepairs& operator=(const SdfRepairs&) = delete;
 
-  /// The text of the scene that SDFormat is to read; nothing when it can read the file as it is.
+  /// The text of the scene for SDFormat; empty when SDFormat can read the file itself.
   std::optional<std::string> repaired_scene();
 
  private:
-  /// A model that files include.
+  /// A model that a file includes.
   struct Included {
-    std::filesystem::path file;    // as it is to be read
-    bool is_changed = false;       // against the one that was found
+    std::filesystem::path file;    // the file to read
+    bool is_changed = false;       // it differs from the original file
     std::string name;              // of the model
-    std::set<std::string> frames;  // its links, joints, frames and models, those in others as inner::link
+    std::set<std::string> frames;  // its links, joints, frames and models; those in nested models as inner::link
   };
 
   bool repair(tinyxml2::XMLElement& sdf, const std::string& file);
@@ -44,14 +44,14 @@ class SdfRepairs {
   bool repair_joints(tinyxml2::XMLElement& model, const std::string& file);
   std::string name_of(const tinyxml2::XMLElement& include);
   std::set<std::string> frames_in(const tinyxml2::XMLElement& model);
-  /// Null when there is no such file, or none that can be read.
+  /// Null when the file does not exist or cannot be read.
   const Included* included(const tinyxml2::XMLElement& include);
   void read_included(const std::filesystem::path& file, Included& included);
   std::filesystem::path keep(const std::filesystem::path& original, const std::string& text);
 
   LoadContext& reading_;
   std::map<std::filesystem::path, Included> included_;
-  std::filesystem::path folder_;  // empty while nothing is kept
+  std::filesystem::path folder_;  // empty until a copy is made
 };
 
 }  // namespace bubblesim

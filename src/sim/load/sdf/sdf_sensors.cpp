@@ -57,22 +57,22 @@ NoiseDescription read_noise(const sdf::Noise& noise) {
   return description;
 }
 
-/// SDFormat counts samples and multiplies them by a resolution.
+/// SDFormat has a number of samples and a resolution that multiplies it.
 ScanAngles read_angles(unsigned int samples, double resolution, double min, double max) {
   const double rays = std::round(samples * resolution);
   return {static_cast<int>(std::min(rays, 1e9)), min, max};
 }
 
-/// As Gazebo has it: rings in any order, and one alone, or none, looks straight ahead.
+/// Like Gazebo: rings in any order; a single ring, or none, is horizontal.
 void straighten(ScanAngles& vertical, const Source& source, const std::string& path) {
   const std::string angles = text(vertical.min) + " to " + text(vertical.max) + " rad";
   if (vertical.samples < 1 || (vertical.samples == 1 && vertical.min != vertical.max)) {
     LoadContext::warn(
         source, path,
-        std::to_string(vertical.samples) + " vertical samples from " + angles + ": a single ring at 0 rad is taken");
+        std::to_string(vertical.samples) + " vertical samples from " + angles + ": using a single ring at 0 rad");
     vertical = {1, 0, 0};
   } else if (vertical.min > vertical.max) {
-    LoadContext::warn(source, path, "the vertical angles are " + angles + ": they are taken from low to high");
+    LoadContext::warn(source, path, "the vertical angles are " + angles + ": using them from low to high");
     std::swap(vertical.min, vertical.max);
   }
 }
@@ -87,7 +87,7 @@ LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path) {
   straighten(description.vertical, source_of(lidar.Element()), path);
   description.min_range = lidar.RangeMin();
   description.max_range = lidar.RangeMax();
-  // Some models have one that would leave no range at all.
+  // Some models have a resolution that would leave no range.
   description.resolution = lidar.RangeResolution() < lidar.RangeMax() ? lidar.RangeResolution() : 0;
   description.noise = read_noise(lidar.LidarNoise());
   description.signal = own_text(lidar.Element(), "bubblesim:signal").value_or("");
@@ -135,28 +135,28 @@ ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor) {
   return description;
 }
 
-/// SDFormat has no class for it.
+/// SDFormat has no class for contact sensors.
 ContactDescription read_contact(const sdf::ElementPtr& sensor) {
   ContactDescription description;
   if (!sensor->HasElement("contact")) return description;
   for (auto each = sensor->GetElement("contact")->FindElement("collision"); each;
        each = each->GetNextElement("collision")) {
     const auto name = each->Get<std::string>();
-    const std::size_t scope = name.rfind("::");  // some write model::link::collision
+    const std::size_t scope = name.rfind("::");  // some files have model::link::collision
     description.collisions.push_back(scope == std::string::npos ? name : name.substr(scope + 2));
   }
   return description;
 }
 
-/// Gazebo takes half a turn, of which a plane shows nothing but the edge.
+/// Gazebo accepts half a turn, for which the image plane would be infinite.
 void widen_at_most(double& field_of_view, const Source& source, const std::string& path) {
   constexpr double kWide = 3.1;
   constexpr double kWidest = 3.13;
   if (!(field_of_view > kWide && field_of_view <= M_PI + 1e-3)) return;
-  const std::string taken = field_of_view > kWidest ? ", " + text(kWidest) + " is taken" : "";
+  const std::string taken = field_of_view > kWidest ? ", using " + text(kWidest) : "";
   LoadContext::warn(source, path,
                     "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
-                        ": what lies ahead is tiny in such a picture");
+                        ": objects ahead are tiny in such an image");
   field_of_view = std::min(field_of_view, kWidest);
 }
 
@@ -169,11 +169,11 @@ CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const 
   widen_at_most(description.horizontal_fov, source_of(camera.Element(), "horizontal_fov"), path);
   description.near = depth_only && camera.HasDepthNearClip() ? camera.DepthNearClip() : camera.NearClip();
   description.far = depth_only && camera.HasDepthFarClip() ? camera.DepthFarClip() : camera.FarClip();
-  // Plugins of depth cameras publish pictures, too.
+  // Plugins of depth cameras publish colour images, too.
   const sdf::ElementPtr sensor = camera.Element()->GetParent();
   description.color = !depth_only || (sensor != nullptr && sensor->HasElement("plugin"));
   description.noise = read_noise(camera.ImageNoise());
-  // SDFormat keeps a plain true as 1.
+  // SDFormat stores a plain true as 1.
   const std::string antialias = own_text(camera.Element(), "bubblesim:antialias").value_or("false");
   description.antialias = antialias == "true" || antialias == "1";
   if (!description.antialias && antialias != "false" && antialias != "0") {
@@ -212,11 +212,11 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
 void tell_left_out(const Source& source, const std::string& path, const std::string& type) {
   LoadContext::warn(source, path,
                     "sensors of type '" + type +
-                        "' are not simulated, the model goes without this one; simulated are " + list_of_simulated());
+                        "' are not simulated: this sensor is ignored; simulated types: " + list_of_simulated());
 }
 
-/// Reads what kind of sensor it is, and how it measures, into `description`, whose pose is known already. False when it
-/// cannot be told or is not simulated; the reason is reported.
+/// Reads kind and parameters of a sensor into `description`, whose pose is known already. Returns false when the kind
+/// is unknown or not simulated; the reason is reported.
 bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description,
                const Report& report) {
   switch (sensor.Type()) {
@@ -265,11 +265,11 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
       return false;
     case sdf::SensorType::NONE: {
       const auto type = sensor.Element()->Get<std::string>("type");
-      if (type == "air_speed" || type == "custom" || type == "dvl") {  // of later versions
+      if (type == "air_speed" || type == "custom" || type == "dvl") {  // of later SDFormat versions
         tell_left_out(description.source, path, type);
         return false;
       }
-      report(description.source, "SDFormat has no sensors of type '" + type + "'" + did_you_mean(type, kSimulated));
+      report(description.source, "SDFormat has no sensor type '" + type + "'" + did_you_mean(type, kSimulated));
       return false;
     }
     default:
@@ -278,7 +278,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
   }
 }
 
-/// The first of several elements that is there, without spaces around its text.
+/// The text of the first existing element, without surrounding spaces.
 std::string first_text(const sdf::ElementPtr& parent, std::initializer_list<const char*> names) {
   for (const char* name : names) {
     if (parent == nullptr) break;
@@ -287,7 +287,7 @@ std::string first_text(const sdf::ElementPtr& parent, std::initializer_list<cons
   return "";
 }
 
-/// SDFormat has no functions for most of it, and later versions of the format more of it.
+/// SDFormat has no functions for most of these elements; later versions of the format have more.
 GzTopic read_gz_topic(const sdf::ElementPtr& sensor) {
   const sdf::ElementPtr contact = sensor->FindElement("contact");
   const sdf::ElementPtr camera = sensor->FindElement("camera");

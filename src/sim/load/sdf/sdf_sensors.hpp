@@ -12,8 +12,8 @@
 
 namespace bubblesim {
 
-/// A sensor of the link or joint at a path, with its pose in there. Nothing when it cannot be told what it is, which
-/// is reported, or when it is of a kind that is not simulated, which is a warning.
+/// Reads a sensor of the link or joint at a path; its pose is relative to that. Empty when its kind is unknown, which
+/// is reported, or not simulated, which is a warning.
 std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
                                              const Pose& pose, LoadContext& reading);
 

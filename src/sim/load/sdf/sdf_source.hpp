@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where an element of SDFormat was written, and how readers of elements tell what is wrong there.
+// Location of an SDFormat element, for error messages.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ inline Source source_of(const sdf::ElementPtr& element) {
   return {element->FilePath(), element->LineNumber().value_or(0)};
 }
 
-/// The child `name` of an element where it is written, or the element itself.
+/// The location of the child element `name` if it exists, otherwise that of the element.
 inline Source source_of(const sdf::ElementPtr& element, const std::string& name) {
   const Source own = element->HasElement(name) ? source_of(element->GetElement(name)) : Source{};
   return own.line > 0 ? own : source_of(element);

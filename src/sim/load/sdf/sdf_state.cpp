@@ -10,7 +10,7 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kMoving = 0.01;  // m/s or rad/s; what is saved at rest trembles
+constexpr double kMoving = 0.01;  // m/s or rad/s; saved velocities at rest are not exactly zero
 
 sdf::ElementPtr state_of(const sdf::World& world) { return world.Element()->FindElement("state"); }
 
@@ -27,7 +27,7 @@ Part* named(std::vector<Part>& parts, const std::string& name) {
   return found != parts.end() ? &*found : nullptr;
 }
 
-/// The state of one model and of those in it.
+/// Applies the state of one model and its nested models.
 class ModelState {
  public:
   explicit ModelState(ModelDescription& model) : model_(model), path_("/" + model.name) {}
@@ -40,7 +40,7 @@ class ModelState {
  private:
   void apply_parts(const sdf::ElementPtr& state, const std::string& prefix) {
     const Vector3 scale = state->Get<Vector3>("scale", Vector3::One).first;
-    if (scale != Vector3::One) warn(state, "the <scale> of its <state> is left out");
+    if (scale != Vector3::One) warn(state, "the <scale> in its <state> is ignored");
     for (auto link = state->FindElement("link"); link; link = link->GetNextElement("link")) {
       put(prefix + name_of(link), link);
     }
@@ -48,7 +48,7 @@ class ModelState {
       const std::string name = prefix + name_of(inner);
       NestedModelDescription* nested = named(model_.nested, name);
       if (nested == nullptr) {
-        warn(inner, "the <state> names '" + name + "', which is no model in it");
+        warn(inner, "the <state> names '" + name + "', which is not a model in it");
         continue;
       }
       if (const auto pose = pose_in(inner)) nested->pose = model_.pose.Inverse() * *pose;
@@ -58,15 +58,15 @@ class ModelState {
 
   void put(const std::string& name, const sdf::ElementPtr& state) {
     LinkDescription* link = named(model_.links, name);
-    if (link == nullptr) return warn(state, "the <state> names '" + name + "', which is none of its links");
+    if (link == nullptr) return warn(state, "the <state> names '" + name + "', which is not a link of it");
     const Pose velocity = state->Get<Pose>("velocity", Pose::Zero).first;
     if (velocity.Pos().Length() > kMoving || velocity.Rot().Euler().Length() > kMoving) {
-      warn(state, "the <velocity> of '" + name + "' in the <state> is left out: it begins at rest");
+      warn(state, "the <velocity> of '" + name + "' in the <state> is ignored: the link starts at rest");
     }
     const auto pose = pose_in(state);
     if (!pose) return;
     const Pose in_model = model_.pose.Inverse() * *pose;
-    // Joints are where the links have their own poses, and have other positions in the state.
+    // Joints are defined at the links' own poses; the state gives other joint positions.
     (model_.is_static || model_.joints.empty() ? link->pose : link->start.emplace()) = in_model;
   }
 
@@ -95,17 +95,17 @@ void apply_state(const sdf::World& world, std::vector<ModelDescription>& models)
   for (auto each = state->FindElement("model"); each; each = each->GetNextElement("model")) {
     std::string name = name_of(each);
     const int number = ++seen[name];
-    if (number > 1) name += "_" + std::to_string(number);  // as models of one name are numbered
+    if (number > 1) name += "_" + std::to_string(number);  // like models with equal names
     if (ModelDescription* model = named(models, name)) {
       ModelState(*model).apply(each);
     } else {
-      LoadContext::warn(source_of(each), "/" + name, "the <state> names it, and the world has no such model");
+      LoadContext::warn(source_of(each), "/" + name, "the <state> contains this model, which is not in the world");
     }
   }
   for (const char* kind : {"insertions", "deletions"}) {
     const sdf::ElementPtr element = state->FindElement(kind);
     if (element == nullptr) continue;
-    LoadContext::warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> are left out");
+    LoadContext::warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> is ignored");
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The <state> in which a world was saved: where Gazebo puts its models when it loads it.
+// The <state> of a saved world, which gives the initial poses of its models.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace bubblesim {
 
-/// The pose in the world that the state gives a model or light of this name.
+/// The pose, in the world, of a model or light of this name in the state.
 std::optional<Pose> state_pose(const sdf::World& world, const std::string& kind, const std::string& name);
 
-/// Puts models and their links where the state has them, and warns of what else it says.
+/// Sets the poses of models and links from the state, and warns about its other contents.
 void apply_state(const sdf::World& world, std::vector<ModelDescription>& models);
 
 }  // namespace bubblesim

@@ -9,7 +9,7 @@
 namespace bubblesim {
 namespace {
 
-/// The element at a way of names, or null.
+/// The element at a path of names, or null.
 sdf::ElementPtr below(sdf::ElementPtr element, std::initializer_list<const char*> way) {
   for (const char* name : way) {
     if (element == nullptr || !element->HasElement(name)) return nullptr;
@@ -18,13 +18,13 @@ sdf::ElementPtr below(sdf::ElementPtr element, std::initializer_list<const char*
   return element;
 }
 
-/// Overwrites a value that the file gives.
+/// Overwrites `value` if the file has the element.
 template <class T, class Value>
 void read(const sdf::ElementPtr& element, const char* name, Value& value) {
   if (element != nullptr && element->HasElement(name)) value = element->Get<T>(name);
 }
 
-/// As Gazebo has it: the torque of a patch of contact under an even pressure, with a coefficient of its own.
+/// Like Gazebo: the torque of a contact patch under uniform pressure, with a separate coefficient.
 double read_torsion(const sdf::ElementPtr& element) {
   if (element == nullptr) return 0;
   double coefficient = 1;
@@ -56,7 +56,7 @@ Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, 
   const auto mask = contact->Get<unsigned int>("collide_bitmask", surface.collide_bitmask).first;
   if (mask > 0xffff) {
     reading.report(source_of(contact, "collide_bitmask"), path,
-                   "<collide_bitmask> is " + std::to_string(mask) + ", it must be 0 to 65535: there are 16 bits");
+                   "<collide_bitmask> is " + std::to_string(mask) + ", it must be 0 to 65535 (16 bits)");
   }
   surface.collide_bitmask = static_cast<std::uint16_t>(mask);
   const sdf::ElementPtr ode = below(contact, {"ode"});

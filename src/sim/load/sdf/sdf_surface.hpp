@@ -10,7 +10,7 @@
 
 namespace bubblesim {
 
-/// `path` is the path of the collision that has it.
+/// `path` is the path of the collision.
 Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -30,7 +30,7 @@ const sdf::ElementPtr& root_description() {
   return root;
 }
 
-/// Null when SDFormat does not know such an element.
+/// Null when SDFormat does not know the element.
 sdf::ElementPtr description_below(const sdf::ElementPtr& parent, const std::string& name) {
   for (std::size_t i = 0; i < parent->GetElementDescriptionCount(); ++i) {
     sdf::ElementPtr found = parent->GetElementDescription(static_cast<unsigned int>(i));
@@ -39,18 +39,13 @@ sdf::ElementPtr description_below(const sdf::ElementPtr& parent, const std::stri
   return nullptr;
 }
 
-/// A model in a model is described by a reference only.
+/// A nested model is described by a reference only.
 sdf::ElementPtr description_of(const sdf::ElementPtr& parent, const std::string& name) {
   if (name == "model" && parent->GetName() == "model") return parent;
   return description_below(parent, name);
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-/// The numbers of a text, infinite beyond what can be written; nothing when it holds anything else.
+/// The numbers in a text, infinite beyond the range of double; empty when the text has other content.
 std::optional<std::vector<double>> numbers_in(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream words(text);
@@ -62,7 +57,7 @@ std::optional<std::vector<double>> numbers_in(const std::string& text) {
   return numbers;
 }
 
-/// How many numbers a type has that is written as those; 0 for others.
+/// The number of values of a numeric type; 0 for other types.
 std::size_t size_of(const std::string& type) {
   if (type == "double") return 1;
   if (type == "vector2d") return 2;
@@ -90,7 +85,7 @@ class ValueCheck {
   void check_below(XMLElement& parent, const sdf::ElementPtr& description) {
     for (auto* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
       const std::string name = child->Name();
-      if (name == "plugin" || is_own_element(name)) continue;  // they may hold anything
+      if (name == "plugin" || is_own_element(name)) continue;  // they may have any content
       if (const auto known = description_of(description, name)) check(*child, known);
     }
   }
@@ -113,7 +108,7 @@ class ValueCheck {
       const std::string standard = default_of(value);
       if (standard.empty()) return;
       replace(element, standard);
-      return warn(element, "is empty: its default " + standard + " is taken");
+      return warn(element, "is empty: using the default " + standard);
     }
     const bool bounded = value.GetMinValueAsString().has_value() || value.GetMaxValueAsString().has_value();
     const auto numbers = numbers_in(text);
@@ -124,7 +119,7 @@ class ValueCheck {
     refuse_or_replace(element, description, text, numbers);
   }
 
-  /// Only those that must be there may not be empty.
+  /// Only required elements must not be empty.
   void check_text(XMLElement& element, const sdf::Element& description, const std::string& text) {
     if (!text.empty() || description.GetRequired() != "1") return;
     const std::string name = element.Name();
@@ -133,7 +128,7 @@ class ValueCheck {
     report(element, "<" + name + "> is empty");
   }
 
-  /// What is beyond a double is infinite, or zero; whether it was one.
+  /// Replaces numbers beyond the range of double by infinity or zero. Returns whether there was one.
   bool replace_unbounded(XMLElement& element, const std::string& text, const std::vector<double>& numbers) {
     if (text.find_first_of("eE") == std::string::npos) return false;
     errno = 0;
@@ -141,7 +136,7 @@ class ValueCheck {
     for (std::string word; words >> word;) std::strtod(word.c_str(), nullptr);
     if (errno != ERANGE) return false;
     replace(element, joined(numbers));
-    warn(element, "is '" + text + "', beyond what a number can be: " + joined(numbers) + " is taken");
+    warn(element, "is '" + text + "', out of the range of numbers: using " + joined(numbers));
     return true;
   }
 
@@ -167,29 +162,28 @@ class ValueCheck {
     const std::string name = element.Name();
     if ((name == "mu" || name == "mu2") && numbers && numbers->size() == 1 && numbers->front() < 0) {
       replace(element, "inf");
-      return warn(element, "is " + text + ": the friction is infinite");
+      return warn(element, "is " + text + ": using infinite friction");
     }
     if (type == "color" && numbers && (numbers->size() == 3 || numbers->size() == 4)) {
       std::vector<double> parts = *numbers;
       for (double& part : parts) part = std::isnan(part) ? 0 : std::clamp(part, 0.0, 1.0);
       replace(element, joined(parts));
-      return warn(element,
-                  "is '" + text + "', and parts of colours lie between 0 and 1: " + joined(parts) + " is taken");
+      return warn(element, "is '" + text + "', colour values must be from 0 to 1: using " + joined(parts));
     }
     if (type == "bool" && numbers && numbers->size() == 1) {
       const std::string flag = numbers->front() != 0 ? "true" : "false";
       replace(element, flag);
-      return warn(element, "is '" + text + "': " + flag + " is taken");
+      return warn(element, "is '" + text + "': using " + flag);
     }
-    // A mass that is none would change how everything moves.
+    // A default mass would change the motion.
     const bool has_default = description.GetRequired() != "1" && !value.GetDefaultAsString().empty() && name != "mass";
     const std::string standard = default_of(value);
     replace(element, standard);
-    // A number out of range says what was meant.
+    // A number out of range shows what was intended.
     if (!has_default || (numbers && numbers->size() == size_of(type))) {
-      return report(element, "<" + name + "> is '" + text + "', which its type or range does not allow");
+      return report(element, "<" + name + "> has the invalid value '" + text + "' (wrong type or out of range)");
     }
-    warn(element, "is '" + text + "', which cannot be read: its default " + standard + " is taken");
+    warn(element, "is '" + text + "', which cannot be read: using the default " + standard);
   }
 
   void replace(XMLElement& element, const std::string& text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts of elements that SDFormat would refuse to read, and the whole file with them.
+// Replaces texts of elements that SDFormat would reject together with the whole file.
 #pragma once
 
 #include <tinyxml2.h>
@@ -10,11 +10,11 @@
 
 namespace bubblesim {
 
-/// Replaces values in the <sdf> of `file` that its description does not allow, so that the rest can be read: by what
-/// Gazebo takes, with a warning, or by the default, with a problem. True when it has changed anything.
+/// Replaces invalid values in the <sdf> of `file`, so that the rest can be read: by Gazebo's interpretation, with a
+/// warning, or by the default, with a problem. Returns whether anything changed.
 bool replace_bad_values(tinyxml2::XMLElement& sdf, const std::string& file, LoadContext& reading);
 
-/// The same of what stands in a <gazebo> of URDF: `parent` says where SDFormat has it, "link" or "model".
+/// The same for an element in a <gazebo> of URDF: `parent` is its parent in SDFormat, "link" or "model".
 bool replace_bad_values(tinyxml2::XMLElement& element, const std::string& parent, const std::string& file,
                         LoadContext& reading);
 

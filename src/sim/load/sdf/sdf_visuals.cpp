@@ -27,7 +27,7 @@ Color brightened(const ignition::math::Color& color, double factor) {
   return {part(color.R()), part(color.G()), part(color.B())};
 }
 
-/// Of the script that a material names: the model's own, or one of Gazebo's.
+/// The material of a material script: the model's own, or one of Gazebo's.
 std::optional<Material> scripted(const sdf::Material& material, LoadContext& reading) {
   const sdf::ElementPtr element = material.Element();
   if (!element->HasElement("script")) return std::nullopt;
@@ -43,7 +43,7 @@ std::optional<Material> scripted(const sdf::Material& material, LoadContext& rea
   return named_material(material.ScriptName());
 }
 
-/// The picture that <pbr> gives for colours, as models for gz-sim have it.
+/// The albedo texture of <pbr>, as in models for gz-sim.
 std::shared_ptr<const Texture> albedo(const sdf::Material& material, LoadContext& reading) {
   const sdf::Pbr* pbr = material.PbrMaterial();
   if (pbr == nullptr) return nullptr;
@@ -56,7 +56,7 @@ std::shared_ptr<const Texture> albedo(const sdf::Material& material, LoadContext
     try {
       return read_texture(file);
     } catch (const MeshError&) {
-      return nullptr;  // its other colours remain
+      return nullptr;  // the other colours are used
     }
   }
   return nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDFormat's <material>, <scene>, <spherical_coordinates> and <light>: what a scene looks like and where it is.
+// SDFormat's <material>, <scene>, <spherical_coordinates> and <light>: appearance and geographic origin of a scene.
 #pragma once
 
 #include <ignition/math/SphericalCoordinates.hh>
@@ -13,17 +13,17 @@
 
 namespace bubblesim {
 
-/// What a visual gives by values, by the name of a material script that the model brings, or by one of Gazebo's names.
-/// Nothing when it gives none that is known.
+/// The material of a visual, given by values, by the name of a material script of the model, or by one of Gazebo's
+/// names. Empty when it is not given or unknown.
 std::optional<Material> read_material(const sdf::Visual& visual, LoadContext& reading);
 
 /// Background, ambient light and shadows.
 void read_surroundings(const sdf::Scene& scene, Environment& environment);
 
-/// Where on Earth the world's origin lies.
+/// The geographic coordinates of the world's origin.
 void read_origin(const ignition::math::SphericalCoordinates& place, GeographicOrigin& origin);
 
-/// `pose` is the light's in the world, or in the frame of its link.
+/// `pose` is in the world, or in the frame of the light's link.
 Light read_light(const sdf::Light& light, const Pose& pose);
 
 }  // namespace bubblesim

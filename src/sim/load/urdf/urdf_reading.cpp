@@ -16,9 +16,9 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// SDFormat says it of all files without a link, and URDF has links always.
+// SDFormat's message for all files without a link; URDF files always have links.
 constexpr std::string_view kNoLink = "A model must have at least one link";
-constexpr const char* kNoOwnLink = "holds no <link> but the world";
+constexpr const char* kNoOwnLink = "contains no <link> except the world";
 constexpr const char* kWorld = "world";
 constexpr int kMostLinks = 1000;  // one below the other
 
@@ -38,7 +38,7 @@ std::string child_attribute(const XMLElement& parent, const char* child, const c
   return attribute(parent.FirstChildElement(child), name);
 }
 
-/// Neither the world's motion nor the parent's holds the child of such a joint.
+/// Whether a joint does not hold its child.
 bool lets_go(const XMLElement& joint) {
   const std::string type = attribute(&joint, "type");
   return type == "floating" || type == "planar";
@@ -50,7 +50,7 @@ bool is_massless(const XMLElement& link) {
   return mass == nullptr || !(mass->DoubleAttribute("value") > 0);
 }
 
-/// SDFormat keeps a link without mass out of the model, so a fixed joint of it must be lumped, whatever a file asks.
+/// SDFormat drops a link without mass, so fixed joints of such a link must be lumped, whatever the file requests.
 void lump_massless(XMLElement& robot) {
   std::set<std::string> massless;
   each(robot, "link", [&](const XMLElement& link) {
@@ -71,9 +71,9 @@ void lump_massless(XMLElement& robot) {
   }
 }
 
-/// Whether it has mass once what fixed joints hold to it is one with it.
+/// Whether the link has mass, including links that are fixed to it.
 bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
-  if (depth > kMostLinks) return false;  // links that carry each other, which SDFormat tells of
+  if (depth > kMostLinks) return false;  // a cycle of links, which SDFormat reports
   bool found = false;
   each(robot, "link",
        [&](const XMLElement& link) { found = found || (attribute(&link, "name") == name && !is_massless(link)); });
@@ -84,7 +84,7 @@ bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
   return found;
 }
 
-/// A first link without mass would go, and the whole robot with it: nothing could move it, so the world holds it.
+/// A root link without mass would be dropped with the whole robot. Nothing can move it, so it is fixed to the world.
 void hold_massless_root(XMLElement& robot, const LoadContext& reading) {
   std::set<std::string> children;
   each(robot, "joint", [&](const XMLElement& joint) { children.insert(child_attribute(joint, "child", "link")); });
@@ -93,8 +93,7 @@ void hold_massless_root(XMLElement& robot, const LoadContext& reading) {
   const std::string name = attribute(root, "name");
   if (root == nullptr || name == kWorld || has_mass(robot, name)) return;
   LoadContext::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
-                    "has no mass, so that nothing can move it: it is fixed to the world; give it an <inertial> if it "
-                    "is to move");
+                    "has no mass: it is fixed to the world; add an <inertial> if it shall move");
   if (auto* inertial = root->FirstChildElement("inertial")) root->DeleteChild(inertial);
   auto* inertial = root->InsertNewChildElement("inertial");
   inertial->InsertNewChildElement("mass")->SetAttribute("value", 1);
@@ -109,7 +108,7 @@ void hold_massless_root(XMLElement& robot, const LoadContext& reading) {
   joint->InsertNewChildElement("child")->SetAttribute("link", name.c_str());
 }
 
-/// What a <gazebo> adds to a link or to the model is SDFormat, but for its own words.
+/// The content of a <gazebo> for a link or the model is SDFormat, except for some own elements.
 void repair_extension(XMLElement& extension, LoadContext& reading) {
   const std::string& file = reading.xml().file();
   const std::string link = attribute(&extension, "reference");
@@ -118,7 +117,7 @@ void repair_extension(XMLElement& extension, LoadContext& reading) {
     const std::string_view name = child->Name();
     if ((name == "mu1" || name == "mu2") && child->DoubleText() < 0) {
       LoadContext::warn({file, child->GetLineNum()}, path,
-                        "<" + std::string(name) + "> is below 0: the friction is infinite");
+                        "<" + std::string(name) + "> is below 0: using infinite friction");
       child->SetText("inf");
     } else if (name == "sensor") {
       replace_bad_values(*child, link.empty() ? "model" : "link", file, reading);
@@ -136,7 +135,7 @@ std::optional<MimicDescription> mimic_of(const XMLElement& joint) {
 }  // namespace
 
 std::string prepared_urdf(LoadContext& reading) {
-  XMLElement& original = *reading.xml().document().RootElement();  // a copy has no lines
+  XMLElement& original = *reading.xml().document().RootElement();  // copies have no line numbers
   for (auto* extension = original.FirstChildElement("gazebo"); extension != nullptr;
        extension = extension->NextSiblingElement("gazebo")) {
     repair_extension(*extension, reading);
@@ -145,7 +144,7 @@ std::string prepared_urdf(LoadContext& reading) {
   reading.xml().document().DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
-    // SDFormat knows no such joints and loses the pose of the link; finish_urdf() takes the joint away.
+    // SDFormat does not support such joints and loses the pose of the link; finish_urdf() removes the joint.
     if (lets_go(*joint)) joint->SetAttribute("type", "continuous");
   }
   lump_massless(robot);
@@ -172,7 +171,7 @@ void finish_urdf(ModelDescription& model, LoadContext& reading) {
   each(robot, "link", [&](const XMLElement& link) {
     const auto* inertial = link.FirstChildElement("inertial");
     const std::string mass = inertial != nullptr ? child_attribute(*inertial, "mass", "value") : "";
-    if (mass.empty() || mass.front() != '-') return;  // none at all is left out, or part of what carries it
+    if (mass.empty() || mass.front() != '-') return;  // a link without mass is ignored, or lumped into its parent
     reading.report({reading.xml().file(), link.GetLineNum()}, "/" + model.name + "/" + attribute(&link, "name"),
                    "the mass is " + mass + " kg, it must be above 0 and at most 1e6 kg");
   });
@@ -184,8 +183,8 @@ void finish_urdf(ModelDescription& model, LoadContext& reading) {
     if (found == model.joints.end()) {
       if (attribute(&joint, "type") == "fixed") return;  // lumped
       LoadContext::warn(source, path,
-                        "is left out with all that hangs on it: '" + child_attribute(joint, "child", "link") +
-                            "', or a link that carries it, has no mass; give it an <inertial>");
+                        "is ignored with all links below it: '" + child_attribute(joint, "child", "link") +
+                            "' or one of its parent links has no mass; add an <inertial>");
     } else if (lets_go(joint)) {
       model.joints.erase(found);
       if (attribute(&joint, "type") == "planar") {
@@ -197,12 +196,12 @@ void finish_urdf(ModelDescription& model, LoadContext& reading) {
     const auto found = find(attribute(&joint, "name"));
     const std::optional<MimicDescription> mimic = mimic_of(joint);
     if (!mimic || found == model.joints.end() || found->axes.empty()) return;
-    // One that is in the file but not in the model stands still.
+    // A leader that is in the file and not in the model does not move.
     const auto* leader = robot.FirstChildElement("joint");
     while (leader != nullptr && attribute(leader, "name") != mimic->joint) leader = leader->NextSiblingElement("joint");
     if (leader != nullptr && find(mimic->joint) == model.joints.end()) {
       LoadContext::warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
-                        "mimics '" + mimic->joint + "', which does not move: it is free instead");
+                        "mimics '" + mimic->joint + "', which does not move: the mimic is ignored");
       return;
     }
     found->axes.front().mimic = mimic;

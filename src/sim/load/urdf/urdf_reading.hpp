@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What URDF says and SDFormat refuses or drops without a word, which then is told.
+// Handles URDF that SDFormat rejects or drops silently, and reports it.
 #pragma once
 
 #include <tinyxml2.h>
@@ -14,14 +14,14 @@
 
 namespace bubblesim {
 
-/// The text of a reading's <robot> that SDFormat is to convert.
+/// The text of the <robot> for SDFormat.
 std::string prepared_urdf(LoadContext& reading);
 
 /// Reads that text.
 sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const std::string& prepared);
 
-/// Lets go what <joint type="floating"> and "planar" hold, takes mimics over, and tells of all joints that SDFormat
-/// left out. For a model of which load_urdf() made the root.
+/// Frees the children of <joint type="floating"> and "planar", reads mimics, and reports all joints that SDFormat
+/// dropped. For a model from load_urdf().
 void finish_urdf(ModelDescription& model, LoadContext& reading);
 
 }  // namespace bubblesim

@@ -12,7 +12,7 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kNoLimit = 1e9;  // N, N m, m/s or rad/s: URDF wants a number
+constexpr double kNoLimit = 1e9;  // URDF requires a number
 
 std::string number(double value) {
   std::ostringstream out;
@@ -23,7 +23,7 @@ std::string number(double value) {
 
 std::string numbers(const Vector3& v) { return number(v.X()) + " " + number(v.Y()) + " " + number(v.Z()); }
 
-/// Whether URDF has an element for it.
+/// Whether URDF has an element for the geometry.
 bool writable(const Geometry& geometry) {
   return std::holds_alternative<Box>(geometry) || std::holds_alternative<Sphere>(geometry) ||
          std::holds_alternative<Cylinder>(geometry);
@@ -35,7 +35,8 @@ class UrdfWriter {
     for (const JointDescription& joint : model.joints) {
       if (joint.parent == "world") continue;
       if (!parent_joint_.emplace(joint.child, &joint).second) {
-        throw InvalidInput("/" + model.name + "/" + joint.child + " is the child of two joints: URDF tells trees only");
+        throw InvalidInput("/" + model.name + "/" + joint.child +
+                           " is the child of two joints: URDF supports trees only");
       }
     }
   }
@@ -45,7 +46,7 @@ class UrdfWriter {
                                      [this](const LinkDescription& link) { return is_root(link); });
     if (roots != 1) {
       throw InvalidInput("/" + model_.name + " has " + std::to_string(roots) +
-                         " links that no joint carries: URDF tells trees, which have one");
+                         " root links: URDF supports trees only, with one root link");
     }
     xml_.OpenElement("robot");
     xml_.PushAttribute("name", model_.name.c_str());
@@ -143,7 +144,7 @@ class UrdfWriter {
     }
   }
 
-  /// A link without a body, fixed to another.
+  /// A link without inertia, fixed to another link.
   void write_frame(const std::string& name, const std::string& parent, const Pose& pose) {
     element("link", "name", name);
     open_joint(name + "_mount", "fixed", parent, name, pose);
@@ -160,7 +161,7 @@ class UrdfWriter {
     element("child", "link", child);
   }
 
-  /// URDF's links have their frames where their joints are; a link that has not hangs on another in between.
+  /// In URDF the frame of a link is that of its joint. Other links are attached to an extra link in between.
   void write_joint(const JointDescription& joint) {
     const bool moves = joint.type == "revolute" || joint.type == "continuous" || joint.type == "prismatic";
     if (!moves && joint.type != "fixed") {

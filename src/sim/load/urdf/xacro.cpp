@@ -17,14 +17,14 @@ namespace {
 
 constexpr const char* kTimeVariable = "BUBBLESIM_XACRO_SECONDS";
 
-/// `env PYTHONPATH=...`, with which xacro finds how ROS 1 finds packages.
+/// `env PYTHONPATH=...`, with which xacro finds packages as ROS 1 does.
 std::vector<std::string> with_packages() {
   const char* given = std::getenv("PYTHONPATH");
   const std::string path = shared_folder("xacro_packages", BUBBLESIM_XACRO_PACKAGES).string();
   return {"/usr/bin/env", "PYTHONPATH=" + path + (given != nullptr ? ":" + std::string(given) : "")};
 }
 
-/// The last line, but for those in which xacro lists the files that it was in.
+/// The last line, without those in which xacro lists the files of an error.
 std::string last_line(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
@@ -35,7 +35,7 @@ std::string last_line(const std::string& text) {
   return last;
 }
 
-/// How long xacro may take.
+/// Time limit of xacro.
 std::chrono::milliseconds patience() {
   const char* given = std::getenv(kTimeVariable);
   const double seconds = given != nullptr ? std::atof(given) : 0;
@@ -43,7 +43,7 @@ std::chrono::milliseconds patience() {
                                       : std::chrono::seconds(30);
 }
 
-/// The one on PATH, or else of the virtual environment of this build.
+/// The program on PATH, or else that of the virtual environment of this build.
 std::string program() {
   const std::string found = find_program("xacro");
   const std::string own = BUBBLESIM_VIRTUAL_ENV "/bin/xacro";
@@ -56,7 +56,7 @@ std::string program() {
 std::string run_xacro(const std::filesystem::path& file, const XacroArguments& arguments) {
   const auto fail = [&](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
   const std::string xacro = program();
-  if (xacro.empty()) fail("needs the program xacro, which is not on PATH: pip install xacro==2.1.1");
+  if (xacro.empty()) fail("the program xacro is not on PATH; install it: pip install xacro==2.1.1");
   const std::chrono::milliseconds time = patience();
   std::vector<std::string> command = with_packages();
   command.insert(command.end(), {xacro, file.string()});
@@ -64,13 +64,13 @@ std::string run_xacro(const std::filesystem::path& file, const XacroArguments& a
   const ProgramResult result = run_limited(command, time);
   if (!result.in_time) {
     fail("xacro did not end within " + std::to_string(std::chrono::duration<double>(time).count()).substr(0, 4) +
-         " s and was killed; " + kTimeVariable + " gives it more");
+         " s and was killed; " + kTimeVariable + " sets the limit");
   }
   if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) != 0) {
-    const std::string reason = WIFSIGNALED(result.status) ? "it was ended by the signal " +
-                                                                std::string(::sigabbrev_np(WTERMSIG(result.status)))
-                                                          : last_line(result.errors);
-    fail("xacro cannot expand it: " + reason + " ('xacro " + file.string() + "' says more)");
+    const std::string reason = WIFSIGNALED(result.status)
+                                   ? "it was killed by signal " + std::string(::sigabbrev_np(WTERMSIG(result.status)))
+                                   : last_line(result.errors);
+    fail("xacro failed: " + reason + " (run 'xacro " + file.string() + "' for details)");
   }
   return result.output;
 }

@@ -8,9 +8,9 @@
 
 namespace bubblesim {
 
-/// The URDF that the program xacro makes of a file: the one on PATH, or else of the virtual environment of this build.
-/// $(find PACKAGE) means a ROS package to each of its versions. Throws SceneError with what xacro says, and when there
-/// is none.
+/// Expands a file to URDF with the program xacro: the one on PATH, or else that of the virtual environment of this
+/// build. $(find PACKAGE) refers to ROS packages in every version of xacro. Throws SceneError with xacro's error, and
+/// when xacro is not found.
 std::string run_xacro(const std::filesystem::path& file, const XacroArguments& arguments);
 
 }  // namespace bubblesim

@@ -16,7 +16,7 @@
 namespace bubblesim {
 namespace {
 
-/// Mesh files name others: a FIFO or a device would never end.
+/// Mesh files refer to other files: reading a FIFO or a device would never end.
 class RegularFiles final : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* file, const char* mode) override {
@@ -35,7 +35,7 @@ const aiScene& AssimpFile::scene(const MeshQuery& query, bool by_name) {
   if (importer_ != nullptr && by_name_ == by_name) return *importer_->GetScene();
   importer_ = std::make_unique<Assimp::Importer>();
   importer_->SetIOHandler(new RegularFiles);                                       // the importer deletes it
-  importer_->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // z is up, whatever the file says
+  importer_->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // z is up, regardless of the file
   importer_->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, by_name);
   importer_->SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* read = importer_->ReadFile(query.file, aiProcess_Triangulate | aiProcess_SortByPType);
@@ -43,7 +43,7 @@ const aiScene& AssimpFile::scene(const MeshQuery& query, bool by_name) {
     const std::string reason = importer_->GetErrorString();
     importer_.reset();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
-    throw std::runtime_error("cannot be read as a mesh (" + reason + "); dae, stl and obj are known");
+    throw std::runtime_error("cannot be read as a mesh (" + reason + "); supported formats: dae, stl, obj");
   }
   file_ = query.file;
   digest_ = query.digest;
@@ -54,7 +54,7 @@ const aiScene& AssimpFile::scene(const MeshQuery& query, bool by_name) {
 MeshContent AssimpFile::read(const MeshQuery& query) {
   std::set<std::string> names;
   MeshContent content;
-  // Parts of COLLADA have names and ids: a submesh may go by either.
+  // Parts of COLLADA files have names and ids: a submesh may be given by either.
   for (const bool by_name : {true, false}) {
     const aiScene& read = scene(query, by_name);
     content.mesh = gather(read, query, names);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh files as assimp reads them.
+// Reads mesh files with assimp.
 #pragma once
 
 #include <assimp/Importer.hpp>
@@ -13,12 +13,12 @@ struct aiScene;
 
 namespace bubblesim {
 
-/// Keeps the last file, because scenes take several parts of one.
+/// Caches the last file, because scenes use several parts of one file.
 class AssimpFile {
  public:
-  /// The surface asked for, or the reason why there is none.
+  /// Returns the requested mesh, or the reason of a failure.
   MeshContent read(const MeshQuery& query);
-  /// Lets go of the last file, unless it is the one asked for.
+  /// Drops the last file, unless it is the requested one.
   void prepare(const MeshQuery& query);
 
  private:

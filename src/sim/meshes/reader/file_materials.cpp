@@ -11,7 +11,7 @@ namespace bubblesim {
 namespace {
 
 Color to_color(const aiColor4D& color) {
-  const auto part = [](float value) { return std::clamp(value, 0.0F, 1.0F); };  // takes NaN to NaN
+  const auto part = [](float value) { return std::clamp(value, 0.0F, 1.0F); };  // NaN stays NaN
   const Color read{part(color.r), part(color.g), part(color.b)};
   return read.r + read.g + read.b >= 0 ? read : Color{};
 }
@@ -39,7 +39,7 @@ std::vector<FileMaterial> file_materials(const aiScene& scene) {
     FileMaterial& material = materials.emplace_back();
     aiColor4D color;
     aiString text;
-    // Assimp's own, of files without any.
+    // Assimp's default material, for files without materials.
     const bool made_up =
         read.Get(AI_MATKEY_NAME, text) == aiReturn_SUCCESS && text == aiString(AI_DEFAULT_MATERIAL_NAME);
     if (!made_up && read.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {

@@ -9,7 +9,7 @@ struct aiScene;
 
 namespace bubblesim {
 
-/// In the order of the file.
+/// The materials in the order of the file.
 std::vector<FileMaterial> file_materials(const aiScene& scene);
 
 }  // namespace bubblesim

@@ -27,7 +27,7 @@ class Gatherer {
 
   TriangleMesh gather() {
     add_node(*scene_.mRootNode, aiMatrix4x4(), query_.submesh.empty());
-    // What only some parts have, none keeps.
+    // Normals and texture coordinates are dropped unless all parts have them.
     if (!smooth_) mesh_.normals.clear();
     if (!textured_) mesh_.texture_coordinates.clear();
     return std::move(mesh_);
@@ -79,7 +79,7 @@ class Gatherer {
   const MeshQuery& query_;
   TriangleMesh mesh_;
   std::set<std::string>& names_;
-  bool has_own_normals_;  // those of STL are its triangles'
+  bool has_own_normals_;  // those of STL are per triangle
   bool smooth_ = true;
   bool textured_ = false;
 };

@@ -10,7 +10,7 @@ struct aiScene;
 
 namespace bubblesim {
 
-/// The parts of a file as one surface, without materials. `names` takes those of all parts.
+/// Merges the parts of a file into one mesh, without materials. `names` receives the names of all parts.
 TriangleMesh gather(const aiScene& scene, const MeshQuery& query, std::set<std::string>& names);
 
 }  // namespace bubblesim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program mesh_reader: reads mesh files for a simulator in a process of its own, because assimp crashes or takes
-// all memory on some damaged files. Ends when the simulator closes its socket.
+// The program mesh_reader: reads mesh files for a simulator in a separate process, because assimp crashes or uses all
+// memory on some damaged files. Ends when the simulator closes its socket.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@
 namespace bubblesim {
 namespace {
 
-/// What this process takes of the address space. bytes
+/// Address space of this process in bytes.
 std::uint64_t memory_in_use() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t pages = 0;
@@ -31,7 +31,7 @@ std::uint64_t memory_in_use() {
 }
 
 void set_memory_limit(std::uint64_t bytes) {
-#if !defined(__SANITIZE_ADDRESS__)  // which takes terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__)  // it uses terabytes of address space
   rlimit limit{bytes, RLIM_INFINITY};
   ::setrlimit(RLIMIT_AS, &limit);
 #else
@@ -39,7 +39,7 @@ void set_memory_limit(std::uint64_t bytes) {
 #endif
 }
 
-/// For the next file: the kernel ends a process that takes more time, and gives it no more memory.
+/// Sets limits for the next file: the kernel kills the process when it exceeds its CPU time, and denies more memory.
 void set_limits(const MeshQuery& query) {
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
@@ -63,7 +63,7 @@ MeshContent answer(AssimpFile& file, const MeshQuery& query) {
   try {
     return file.read(query);
   } catch (const std::bad_alloc&) {
-    error = "cannot be read as a mesh: it takes over " + std::to_string(mesh_memory(query.size) >> 20U) +
+    error = "cannot be read as a mesh: it takes more than " + std::to_string(mesh_memory(query.size) >> 20U) +
             " MB of memory; the file is damaged";
   } catch (const std::exception& failure) {
     error = failure.what();
@@ -98,12 +98,13 @@ bool is_socket(int descriptor) {
 
 int main() {
   if (!bubblesim::is_socket(STDIN_FILENO)) {
-    std::fputs("usage: none by hand: bubblesim starts mesh_reader to read the mesh files of a scene\n", stderr);
+    std::fputs("mesh_reader is started by bubblesim to read the mesh files of a scene; it cannot be run directly\n",
+               stderr);
     return 2;
   }
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the simulator's end is this one's
-  ::signal(SIGINT, SIG_IGN);           // which a terminal sends to both
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with the simulator
+  ::signal(SIGINT, SIG_IGN);           // a terminal sends it to both processes
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
-  ::_exit(bubblesim::serve(STDIN_FILENO));  // the kernel frees the last file quicker
+  ::_exit(bubblesim::serve(STDIN_FILENO));  // faster than freeing the last file
 }

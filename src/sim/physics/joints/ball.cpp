@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ball: the child turns about a point.
+// ball: the child rotates about a point.
 #include "physics/joints/kinds.hpp"
 
 namespace bubblesim {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fixed: child and parent move as one.
+// fixed: child and parent move as one body.
 #include "physics/joints/kinds.hpp"
 
 namespace bubblesim {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gearbox: when the parent turns in the reference body by an angle, the child turns by -ratio times that angle. Parent
-// and child are held in the reference body by hinges of their own.
+// gearbox: when the parent turns by an angle in the reference body, the child turns by -ratio times that angle. Hinges
+// connect parent and child to the reference body.
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +12,12 @@ namespace bubblesim {
 namespace {
 
 constexpr double kSmallestSize = 0.1;  // m, of gears whose axes meet
-/// Two axes lie on one line when the ways of a point beside them differ by less than this angle, rad.
+/// Two axes are collinear when the motions of a point beside them differ by less than this angle, rad.
 constexpr double kOneLine = 1e-2;
-/// Mass and inertia of a layshaft beside those of the child.
+/// Mass and inertia of a layshaft relative to those of the child.
 constexpr double kLayshaftPart = 1e-3;
 
-/// A body, null is the world, and its motion.
+/// The pose and velocity of a body; null is the world.
 struct Frame {
   explicit Frame(dBodyID body) {
     if (body == nullptr) return;
@@ -31,23 +31,23 @@ struct Frame {
   Vector3 angular;  // rad/s
 };
 
-/// An axis in the frame of the reference body, and what turns about it.
+/// An axis in the frame of the reference body, and the body that turns about it.
 struct Shaft {
   dBodyID body = nullptr;
   Vector3 point;
   Vector3 direction;
 
-  Vector3 way_of(const Vector3& at) const { return direction.Cross(at - point); }  // for a turn of one radian
+  Vector3 way_of(const Vector3& at) const { return direction.Cross(at - point); }  // per radian
 };
 
-/// Where two shafts hold each other.
+/// The point at which two shafts mesh.
 struct Mesh {
   Vector3 point;  // in the frame of the reference body
   Vector3 direction;
-  double arm = 0;  // m, that the first shaft moves along the direction when it turns by a radian
+  double arm = 0;  // m per radian, motion of the first shaft along the direction
 };
 
-/// So that the second turns -ratio times as fast as the first. Nothing when the axes lie on one line.
+/// Computes the mesh for a ratio of -ratio. Empty when the axes are collinear.
 std::optional<Mesh> mesh_of(const Shaft& first, const Shaft& second, double ratio) {
   const Vector3 apart = second.point - first.point;
   const double size = std::max(apart.Length(), kSmallestSize);
@@ -60,7 +60,7 @@ std::optional<Mesh> mesh_of(const Shaft& first, const Shaft& second, double rati
     const double angle = way1.Cross(way2).Length() / std::max(way1.Length() * way2.Length(), 1e-12);
     if (angle <= widest) continue;
     widest = angle;
-    // Along the direction, way1 must be as long as way2 for a turn of -ratio.
+    // Along the direction, way1 must be as long as way2 for a rotation of -ratio.
     const Vector3 difference = way1 + way2 * ratio;
     const Vector3 direction = (way1 - difference * (way1.Dot(difference) / difference.SquaredLength())).Normalized();
     best = Mesh{point, direction, way1.Dot(direction)};
@@ -87,7 +87,7 @@ class Gearbox final : public Joint {
     }
   }
 
-  /// Of the parent (axis 0) and of the child (axis 1) in the reference body, with whole turns.
+  /// Angle of the parent (axis 0) or the child (axis 1) in the reference body, counting full turns.
   double position(int axis) const override {
     const Quaternion turn =
         Frame(reference_).pose.Rot().Inverse() * Frame(shafts_[axis].body).pose.Rot() * at_start_[axis].Inverse();
@@ -110,7 +110,7 @@ class Gearbox final : public Joint {
     PointVelocityConstraint tooth;
   };
 
-  /// Shafts on one line have no point in which they could hold each other: a small shaft beside them turns in between.
+  /// Collinear shafts have no point at which they could mesh: a small layshaft beside them connects them.
   void add_layshaft(dWorldID world) {
     const Shaft& parent = shafts_[0];
     const Vector3 least = parent.direction.Abs().X() < 0.6 ? Vector3::UnitX : Vector3::UnitY;
@@ -137,8 +137,8 @@ class Gearbox final : public Joint {
         {lay.body, shafts_[1].body, *mesh_of(lay, shafts_[1], -ratio_), -ratio_, PointVelocityConstraint(world)});
   }
 
-  /// Puts the layshaft where the reference body has it, for that may have been moved. It is round: its own turn does
-  /// not matter, only its spin.
+  /// Moves the layshaft with the reference body, which may have been moved. The layshaft is round, so only its spin
+  /// matters, not its angle.
   void carry_layshaft() {
     const Frame frame(reference_);
     const Vector3 at = frame.pose.CoordPositionAdd(lay_.point);
@@ -161,7 +161,7 @@ class Gearbox final : public Joint {
     const double error = followed_[1] + ratio_ * followed_[0];
     const Frame frame(reference_);
     for (Pair& pair : teeth_) {
-      // Only the last pair can tell how far the child is off.
+      // Only the last pair corrects the error of the child's angle.
       const double gain = &pair == &teeth_.back() ? kErrorReduction / step : 0;
       pair.tooth.hold(pair.first, pair.second, frame.pose.CoordPositionAdd(pair.mesh.point),
                       frame.pose.Rot().RotateVector(pair.mesh.direction), -gain * error * pair.mesh.arm / pair.ratio);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// revolute and continuous: the child turns about one axis.
+// revolute and continuous: the child rotates about one axis.
 #include <cmath>
 
 #include "physics/joints/kinds.hpp"
@@ -13,7 +13,7 @@ class Hinge final : public Joint {
  public:
   Hinge(dWorldID world, const JointDescription& description, const JointSite& site)
       : Joint(description.axes), joint_(dJointCreateHinge(world, nullptr)) {
-    // Child first: ODE counts the angle of the first body relative to the second.
+    // Child first: ODE measures the angle of the first body relative to the second.
     dJointAttach(joint_.get(), site.child, site.parent);
     const Vector3 direction = axis_direction(description, 0, site);
     dJointSetHingeAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
@@ -23,7 +23,7 @@ class Hinge final : public Joint {
     add_rows(world, Motor(joint_.get(), dJointSetHingeParam, 0), Motion::kTurns, {direction, site.child, site.parent});
   }
 
-  /// From -pi to pi, unless there are limits beyond, or a spring: then whole turns count.
+  /// From -pi to pi; with limits beyond, or a spring, full turns are counted.
   double position(int) const override {
     const double angle = dJointGetHingeAngle(joint_.get());
     return counts_turns_ ? angle + 2 * M_PI * std::round((followed_ - angle) / (2 * M_PI)) : angle;
@@ -34,7 +34,7 @@ class Hinge final : public Joint {
   void follow(double) override {
     if (!counts_turns_) return;
     followed_ = position(0);
-    // ODE knows angles from -pi to pi only and compares them with the stops: move those into the turn that we are in.
+    // ODE compares angles from -pi to pi with the stops: shift the stops to the current turn.
     const double turns = followed_ - dJointGetHingeAngle(joint_.get());
     set_stops(0, axis(0).lower - turns, axis(0).upper - turns);
   }

@@ -9,8 +9,8 @@ class Hinge2 final : public Joint {
  public:
   Hinge2(dWorldID world, const JointDescription& description, const JointSite& site)
       : Joint(description.axes), joint_(dJointCreateHinge2(world, nullptr)) {
-    // Hinge2 needs two bodies and wants the one that holds the first axis first: the parent. It counts the turn of the
-    // first body relative to the second; about the negative axes, that is the child's about the positive ones.
+    // Hinge2 needs two bodies, the one with the first axis (the parent) first. It measures the rotation of the first
+    // body relative to the second; about the negative axes this equals that of the child about the positive axes.
     dJointAttach(joint_.get(), site.parent, site.child);
     dJointSetHinge2Anchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
     const Vector3 steering = -axis_direction(description, 0, site);
@@ -26,7 +26,7 @@ class Hinge2 final : public Joint {
 
   double position(int axis) const override {
     return axis == 0 ? dJointGetHinge2Angle1(joint_.get())
-                     : -dJointGetHinge2Angle2(joint_.get());  // against its own rate
+                     : -dJointGetHinge2Angle2(joint_.get());  // sign opposite to that of its rate
   }
   double velocity(int axis) const override {
     return axis == 0 ? dJointGetHinge2Angle1Rate(joint_.get()) : dJointGetHinge2Angle2Rate(joint_.get());

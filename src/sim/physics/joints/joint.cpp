@@ -10,10 +10,10 @@
 namespace bubblesim {
 namespace {
 
-/// How fast position control closes the gap to its target, as a time constant in seconds: one default step.
+/// Time constant of position control in s: one default simulation step.
 constexpr double kServoTime = 0.05;
 
-/// The turn from `from` to `to` that is at most half a revolution.
+/// The rotation from `from` to `to` of at most half a turn.
 double shortest_turn(double from, double to) { return std::remainder(to - from, 2 * M_PI); }
 
 bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) || std::isfinite(axis.upper); }
@@ -52,9 +52,9 @@ void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& 
     own = motion == Motion::kTurns ? Motor::turning(world, line) : Motor::sliding(world, line);
     return &*own;
   };
-  axis.motor = take(axis.own_motor);  // also when nothing drives it yet; it costs nothing then
+  axis.motor = take(axis.own_motor);  // also without a command; it costs nothing then
   if (description.friction > 0) {
-    // A motor at rest that may slip.
+    // A motor with velocity 0 and a force limit.
     axis.friction = take(axis.own_friction);
     axis.friction->hold(0, description.friction);
   }
@@ -131,7 +131,7 @@ void Joint::drive_motor(int index, double step) {
     return;
   }
   if (description.motor == MotorMode::kVelocity) {
-    // Not beyond the limit: motor and stop, each of any force, would meet somewhere behind it.
+    // Stop at the limit: a motor and a stop with unlimited forces would settle somewhere behind it.
     const double speed = target_speed(description, axis.target_velocity);
     const double room = speed > 0 ? description.upper - here : here - description.lower;
     axis.motor->set(dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
@@ -146,8 +146,8 @@ void Joint::drive_motor(int index, double step) {
 void Joint::drive_spring(int index, double step) {
   const Axis& axis = axes_[static_cast<std::size_t>(index)];
   const AxisDescription& description = axis.description;
-  // The spring's force at the end of the step, k (reference - x - h v), is damping towards a velocity: stable for any
-  // k.
+  // The spring's force at the end of the step, k (reference - x - h v), equals damping towards a velocity: stable for
+  // any k.
   const double coefficient = description.damping + step * description.spring_stiffness;
   const double force = description.spring_stiffness * (description.spring_reference - position(index));
   axis.damper->damp(force / coefficient, coefficient);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every joint kind has in common: axes with a motor, limits, friction, damping and a spring.
+// Common parts of all joint kinds: axes with a motor, limits, friction, damping and a spring.
 #pragma once
 
 #include <ode/ode.h>
@@ -14,12 +14,12 @@
 
 namespace bubblesim {
 
-/// Where a joint is made: the bodies that it connects, a null one is the world, and its frame in the world.
+/// Where a joint is created: the bodies that it connects (null: the world) and its frame in the world.
 struct JointSite {
   Pose pose;
   dBodyID parent = nullptr;
   dBodyID child = nullptr;
-  /// Of a gearbox: the body that its shafts turn in, and a point of the parent's and of the child's axis, in the world.
+  /// Of a gearbox: the reference body of its shafts, and a point of the parent's and of the child's axis, in the world.
   dBodyID reference = nullptr;
   Vector3 parent_shaft;
   Vector3 child_shaft;
@@ -35,7 +35,7 @@ class Joint {
   int axis_count() const { return static_cast<int>(axes_.size()); }
   const AxisDescription& axis(int index) const { return axes_[static_cast<std::size_t>(index)].description; }
 
-  /// Radians or metres, counted from the pose in which the joint was made; the child moves relative to the parent.
+  /// Radians or metres, relative to the pose in which the joint was created; of the child relative to the parent.
   virtual double position(int axis) const = 0;
   virtual double velocity(int axis) const = 0;
 
@@ -49,7 +49,7 @@ class Joint {
   /// ODE's joint with the motor of an axis; null when it has none.
   dJointID motor_joint(int axis) const;
 
-  /// Lets an axis that has a MimicDescription follow another joint, which must live as long as this one.
+  /// Makes an axis with a MimicDescription follow another joint, which must live as long as this one.
   void mimic(int axis, const Joint& leader);
 
   /// Sets ODE's motors for the next substep of `step` seconds.
@@ -57,7 +57,7 @@ class Joint {
 
  protected:
   enum class Motion { kTurns, kSlides };
-  /// To be called for each axis in its order, once the ODE joint exists. `rows` are those that the joint has for it.
+  /// Call for each axis in order, after the ODE joint is created. `rows` are the joint's rows of the axis.
   void add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line);
   void set_stops(int axis, double lower, double upper) const;
   /// Called before each substep.
@@ -69,11 +69,11 @@ class Joint {
     double target_position = 0;
     double target_velocity = 0;
     const Joint* leader = nullptr;
-    // ODE serves the stop and the motor of an axis by one constraint: a motor that pushes on a stop becomes a plain
-    // force, infinite when it has no limit. An axis with limits therefore leaves the motor of its rows alone.
+    // ODE handles the stop and the motor of an axis in one constraint: a motor that pushes against a stop becomes a
+    // plain force, infinite without a limit. Therefore an axis with limits does not use the motor of its rows.
     std::optional<Motor> rows;
     std::optional<Motor> own_motor, own_friction, own_damper;
-    const Motor* motor = nullptr;     // into the above; null in a gearbox
+    const Motor* motor = nullptr;     // points to one of the above; null in a gearbox
     const Motor* friction = nullptr;  // null when there is none
     const Motor* damper = nullptr;
   };
@@ -82,17 +82,17 @@ class Joint {
   void drive_spring(int index, double step);
 
   std::vector<Axis> axes_;
-  std::vector<int> driven_;  // axes whose motor is set anew in each substep
+  std::vector<int> driven_;  // axes whose motor is set in each substep
   std::vector<int> sprung_;
 };
 
 /// The unit direction of an axis in the world, at the joint's site.
 Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site);
 
-/// Makes the joint in ODE. Throws InvalidInput for a type that is not known.
+/// Creates the joint in ODE. Throws InvalidInput for an unknown type.
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site);
 
-/// The kinds that make_joint() knows, and how many axes each takes.
+/// The kinds of make_joint(), with their number of axes.
 struct JointKind {
   const char* type;
   int axes;

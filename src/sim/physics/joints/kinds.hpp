@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maker of each joint kind; a new kind adds its file, its line here and its line in registry.cpp.
+// Factory functions of the joint kinds. A new kind adds its file, its line here and its line in registry.cpp.
 #pragma once
 
 #include "physics/joints/joint.hpp"

@@ -33,7 +33,7 @@ void Motor::hold(double velocity, double max_force) const {
 
 void Motor::damp(double velocity, double coefficient) const {
   hold(velocity, dInfinity);
-  set(dParamCFM, 1 / coefficient);  // a row of force f lets the velocity differ by CFM f
+  set(dParamCFM, 1 / coefficient);  // CFM f is the velocity error of a row with force f
 }
 
 }  // namespace bubblesim

@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// What ODE needs to know of an axis: the first body's motion relative to the second's is positive along `direction`.
+/// Axis of a motor: motion of the first body relative to the second is positive along `direction`.
 struct AxisLine {
   Vector3 direction;  ///< world axes, unit length
   dBodyID first = nullptr;
@@ -21,21 +21,21 @@ class Motor {
  public:
   using SetParameter = void (*)(dJointID, int, dReal);
 
-  /// The rows that `joint` has itself for one of its axes; `group` is ODE's number of that axis, from 0.
+  /// The rows of `joint` for one of its axes; `group` is ODE's index of that axis, from 0.
   Motor(dJointID joint, SetParameter set, int group) : joint_(joint), set_(set), group_(group) {}
-  /// A joint of its own between the same bodies.
+  /// A separate motor joint between the same bodies.
   static Motor turning(dWorldID world, const AxisLine& line);
   static Motor sliding(dWorldID world, const AxisLine& line);
 
-  /// ODE's joint that has the row.
+  /// The ODE joint with the row.
   dJointID joint() const { return joint_; }
-  /// Sets one of ODE's parameters dParam..., without the offset of the group.
+  /// Sets an ODE parameter dParam..., given without the offset of the group.
   void set(int parameter, double value) const { set_(joint_, group_ * dParamGroup + parameter, value); }
 
-  /// Holds `velocity` with a force of at most `max_force`, N or N m, which may be infinite.
+  /// Holds `velocity` with a force of at most `max_force` (N or N m), which may be infinite.
   void hold(double velocity, double max_force) const;
-  /// Pulls towards `velocity` by `coefficient` times what it differs, N s/m or N m s/rad. The velocity at the end of
-  /// the step counts, so that any coefficient is stable.
+  /// Applies a force of `coefficient` (N s/m or N m s/rad) times the difference to `velocity`. Uses the velocity at the
+  /// end of the step, so any coefficient is stable.
   void damp(double velocity, double coefficient) const;
 
  private:

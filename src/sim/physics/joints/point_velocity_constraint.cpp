@@ -7,8 +7,8 @@ namespace bubblesim {
 
 void PointVelocityConstraint::hold(dBodyID first, dBodyID second, const Vector3& point, const Vector3& direction,
                                    double velocity) {
-  // The friction of a contact, of any force, holds the direction. The contact itself, at right angles to it, would hold
-  // only what comes nearer faster than anything can.
+  // The direction is held by the unlimited friction of a contact. The contact's normal, at right angles to it, is
+  // inactive: its target velocity is beyond the speed limit.
   const dVector3 along = {direction.X(), direction.Y(), direction.Z()};
   dVector3 normal;
   dVector3 unused;

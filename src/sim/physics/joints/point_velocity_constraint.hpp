@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The constraint behind screws and gears, which ODE has no joints for: two bodies that touch in one point cannot move
-// relative to each other along one direction there, like two teeth. What else the force along this direction does is
-// held by the joints that the bodies turn or slide in.
+// The constraint of screws and gears, for which ODE has no joints: at one point, two bodies have a given relative
+// velocity along one direction, like meshing teeth. The joints of the bodies hold the other effects of the force.
 #pragma once
 
 #include <ode/ode.h>
@@ -15,8 +14,8 @@ class PointVelocityConstraint {
  public:
   explicit PointVelocityConstraint(dWorldID world) : world_(world) {}
 
-  /// For the next substep: the velocity of `first` relative to `second` (null: the world) at `point` along `direction`
-  /// is `velocity`. All in the world, the direction of unit length.
+  /// For the next substep, makes `velocity` the velocity of `first` relative to `second` (null: the world) at `point`
+  /// along `direction`. World frame; unit direction.
   void hold(dBodyID first, dBodyID second, const Vector3& point, const Vector3& direction, double velocity);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which joint kinds there are, by SDFormat's type names.
+// The registry of joint kinds, by SDFormat's type names.
 #include <string>
 
 #include "bubblesim/error.hpp"
@@ -20,7 +20,7 @@ std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& descri
   for (const JointKind& kind : joint_kinds()) {
     if (description.type == kind.type) return kind.make(world, description, site);
   }
-  throw InvalidInput("joint '" + description.name + "' has the unknown type '" + description.type + "'");
+  throw InvalidInput("joint '" + description.name + "': unknown type '" + description.type + "'");
 }
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// screw: the child turns about an axis and slides along it by its lead for each turn.
+// screw: the child rotates about an axis and slides along it by its lead per turn.
 #include <cmath>
 
 #include "physics/contact_defaults.hpp"
@@ -25,7 +25,7 @@ class Screw final : public Joint {
     add_rows(world, Motor(joint_.get(), dJointSetPistonParam, 1), Motion::kTurns, {direction, site.child, site.parent});
   }
 
-  /// Radians, with whole turns.
+  /// Radians, counting full turns.
   double position(int) const override { return dJointGetPistonPosition(joint_.get()) / slope_; }
   double velocity(int) const override { return dJointGetPistonPositionRate(joint_.get()) / slope_; }
 
@@ -37,7 +37,7 @@ class Screw final : public Joint {
     mesh(dJointGetPistonPosition(joint_.get()) - slope_ * (angle + turns), step);
   }
 
-  /// `error`: how far the slide is ahead of the turn, m.
+  /// `error`: distance in m by which the slide is ahead of the rotation.
   void mesh(double error, double step) {
     dVector3 axis;
     dVector3 out;
@@ -47,7 +47,7 @@ class Screw final : public Joint {
     dPlaneSpace(axis, out, round);  // round = axis x out
     dJointGetPistonAnchor2(joint_.get(), anchor);
     const double radius = std::abs(slope_);
-    // Across the thread, which climbs `slope` per radian at this radius.
+    // Perpendicular to the thread, which climbs `slope` per radian at this radius.
     const Vector3 along = Vector3(axis[0], axis[1], axis[2]) * radius - Vector3(round[0], round[1], round[2]) * slope_;
     const Vector3 point = Vector3(anchor[0], anchor[1], anchor[2]) + Vector3(out[0], out[1], out[2]) * radius;
     thread_.hold(child_, parent_, point, along.Normalized(), -kErrorReduction * error / step * radius / along.Length());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// universal: a cross of two axes at right angles. The first is fixed in the parent, the second in the child.
+// universal: two axes at right angles. The first is fixed in the parent, the second in the child.
 #include "physics/joints/kinds.hpp"
 
 namespace bubblesim {
@@ -9,7 +9,7 @@ class Universal final : public Joint {
  public:
   Universal(dWorldID world, const JointDescription& description, const JointSite& site)
       : Joint(description.axes), joint_(dJointCreateUniversal(world, nullptr)) {
-    // Child first, so that the parent may be the world: what ODE calls its first axis is then our second.
+    // Child first, so that the parent may be the world: ODE's first axis is then our second.
     dJointAttach(joint_.get(), site.child, site.parent);
     dJointSetUniversalAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
     const Vector3 of_parent = axis_direction(description, 0, site);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The client's side of an action: goals sent, and what becomes of them."""
+"""Action client: sends goals and tracks their states."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from bubblesim.scripting.api.ros.stamps import Message
 
 
 class ResultCode(IntEnum):
-    """How a goal ended, in the numbers of ROS 2's action_msgs/GoalStatus."""
+    """Final state of a goal, with the values of ROS 2's action_msgs/GoalStatus."""
 
-    UNKNOWN = 0  # the server lost it
+    UNKNOWN = 0  # the server does not know it any more
     SUCCEEDED = 4
     CANCELED = 5
     ABORTED = 6
@@ -30,7 +30,7 @@ _CODES: dict[int, ResultCode] = {
     GoalStatus.RECALLED: ResultCode.CANCELED,
     GoalStatus.ABORTED: ResultCode.ABORTED,
 }
-# A server of ROS 1 may still reject a goal that is pending.
+# A ROS 1 server may still reject a pending goal.
 _UNDECIDED = (GoalStatus.PENDING, GoalStatus.RECALLING)
 _REFUSED = (GoalStatus.REJECTED, GoalStatus.LOST)
 
@@ -42,7 +42,7 @@ class _Sent:
 
 
 class ActionClient:
-    """Follows its goals by actionlib's protocol; callbacks come while messages are drained."""
+    """Tracks its goals by actionlib's protocol; callbacks are called while pending input is processed."""
 
     def __init__(
         self,
@@ -51,24 +51,24 @@ class ActionClient:
         feedback: Callable[[str, Message], None],
         result: Callable[[str, int, Message], None],
     ) -> None:
-        """Open the topics."""
+        """Create the topics."""
         self._topics = topics
         self._goal_response = goal_response
         self._feedback = feedback
         self._result = result
-        self._goals: dict[str, _Sent] = {}  # those that are not over
+        self._goals: dict[str, _Sent] = {}  # goals that have not ended
         self._last_goal = ""
         self._outgoing: deque[tuple[int, Message]] = deque()  # publisher, message
-        self._server_heard = False
-        topics.subscribe("feedback", topics.own_type("Feedback"), self._on_feedback)
-        topics.subscribe("result", topics.own_type("Result"), self._on_result)
+        self._server_ready = False
+        topics.subscribe("feedback", topics.message_type("Feedback"), self._on_feedback)
+        topics.subscribe("result", topics.message_type("Result"), self._on_result)
         topics.subscribe("status", STATUS_ARRAY, self._on_status)
-        self._goal_publisher = topics.advertise("goal", topics.own_type("Goal"))
+        self._goal_publisher = topics.advertise("goal", topics.message_type("Goal"))
         self._cancel_publisher = topics.advertise("cancel", GOAL_ID)
         self.handle = self._goal_publisher
 
     def send_goal(self, goal: Message) -> str:
-        """Send a goal, now or once the server is there; return its id."""
+        """Send a goal, now or when the server is connected; return its id."""
         goal_id, now = str(uuid.uuid4()), self._topics.now()
         message = {"header": {"stamp": now}, "goal_id": {"id": goal_id, "stamp": now}, "goal": goal}
         self._topics.check(self._goal_publisher, message)
@@ -79,7 +79,7 @@ class ActionClient:
         return goal_id
 
     def cancel_last_goal(self) -> bool:
-        """Ask the server to cancel the goal that was sent last; False when there is none or it is over."""
+        """Request the server to cancel the last goal; return False if there is none or it has ended."""
         if self._last_goal not in self._goals:
             return False
         self._outgoing.append((self._cancel_publisher, {"id": self._last_goal}))
@@ -87,21 +87,21 @@ class ActionClient:
         return True
 
     def send_outgoing(self) -> None:
-        """Send what waits for the server, if it is there; to be called in every step."""
+        """Send queued messages if the server is connected; call it in every step."""
         if self._topics.closed:
             return
-        if not self._topics.are_connected():  # a server's answer would be lost
-            self._server_heard = False  # whoever comes next is another server
-        while self._server_heard and self._outgoing:
+        if not self._topics.are_connected():  # otherwise the server's response would be lost
+            self._server_ready = False  # the next connection is another server
+        while self._server_ready and self._outgoing:
             self._topics.publish(*self._outgoing.popleft())
 
     def close(self) -> None:
-        """Forget all goals and take the topics down; the server is not told."""
+        """Delete all goals and shut down the topics, without notifying the server."""
         self._goals.clear()
         self._topics.close()
 
     def _on_status(self, message: dict[str, Any]) -> None:
-        self._server_heard = True
+        self._server_ready = True
         statuses = {each["goal_id"]["id"]: each["status"] for each in message["status_list"]}
         for goal_id, sent in list(self._goals.items()):
             if goal_id in statuses:
@@ -113,7 +113,7 @@ class ActionClient:
 
     def _on_feedback(self, message: dict[str, Any]) -> None:
         goal_id = message["status"]["goal_id"]["id"]
-        self._answer(goal_id, GoalStatus.ACTIVE)  # messages on several topics come in any order
+        self._answer(goal_id, GoalStatus.ACTIVE)  # messages on different topics arrive in any order
         if goal_id in self._goals:
             self._feedback(goal_id, message["feedback"])
 
@@ -121,7 +121,7 @@ class ActionClient:
         self._finish(message["status"]["goal_id"]["id"], message["status"]["status"], message["result"])
 
     def _answer(self, goal_id: str, status: int) -> None:
-        """Tell the script once whether the goal was accepted; one that was not is over."""
+        """Report once to the script whether the goal was accepted; a rejected goal has ended."""
         sent = self._goals.get(goal_id)
         if sent is None or sent.answered or status in _UNDECIDED:
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The server's side of an action: the goals it got, their states, and what clients are told."""
+"""Action server: the received goals, their states, and the messages to clients."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from bubblesim import _core
 from bubblesim.scripting.api.ros.action_topics import GOAL_ID, STATUS_ARRAY, ActionTopics, GoalStatus
 from bubblesim.scripting.api.ros.stamps import Message
 
-# Answers of the callbacks; False and True are the first two.
+# Return values of the callbacks; False and True equal the first two.
 REJECT, ACCEPT, DEFER = range(3)
 
-_STATUS_PERIOD = 0.2  # s of wall time, as actionlib's default
-_KEPT = 5.0  # s of wall time that goals which are over stay in the status, as actionlib's default
+_STATUS_PERIOD = 0.2  # s of wall time, actionlib's default
+_KEPT = 5.0  # s of wall time for which ended goals stay in the status, actionlib's default
 
 _LIVE = {
     "execute": {GoalStatus.PENDING: GoalStatus.ACTIVE, GoalStatus.RECALLING: GoalStatus.PREEMPTING},
@@ -39,7 +39,7 @@ _FINAL = {
 class _Goal:
     id: str
     stamp: Message
-    goal: Message | None  # None: only its cancelling has come so far
+    goal: Message | None  # None: only a cancel request was received
     status: GoalStatus = GoalStatus.PENDING
     ended: float | None = None  # s of wall time
 
@@ -48,7 +48,7 @@ class _Goal:
 
 
 class ActionServer:
-    """Holds several goals at a time, by actionlib's protocol; callbacks come while messages are drained."""
+    """Handles several goals at a time by actionlib's protocol; callbacks run while pending input is processed."""
 
     def __init__(
         self,
@@ -57,51 +57,51 @@ class ActionServer:
         handle_cancel: Callable[[str, Message], int],
         handle_accepted: Callable[[str, Message], None],
     ) -> None:
-        """Open the topics."""
+        """Create the topics."""
         self._topics = topics
         self._handle_goal = handle_goal
         self._handle_cancel = handle_cancel
         self._handle_accepted = handle_accepted
         self._goals: dict[str, _Goal] = {}
-        self._last_cancel = (0, 0)  # goals stamped up to then are cancelled when they come
+        self._last_cancel = (0, 0)  # goals stamped up to this time are cancelled on arrival
         self._next_status = 0.0
         self._status_publisher = topics.advertise("status", STATUS_ARRAY, latch=True)
-        self._result_publisher = topics.advertise("result", topics.own_type("Result"))
-        self._feedback_publisher = topics.advertise("feedback", topics.own_type("Feedback"))
+        self._result_publisher = topics.advertise("result", topics.message_type("Result"))
+        self._feedback_publisher = topics.advertise("feedback", topics.message_type("Feedback"))
         topics.subscribe("cancel", GOAL_ID, self._on_cancel)
-        topics.subscribe("goal", topics.own_type("Goal"), self._on_goal)
+        topics.subscribe("goal", topics.message_type("Goal"), self._on_goal)
         self.handle = self._status_publisher
         self._publish_status()
 
     def publish_feedback(self, goal_id: str, feedback: Message) -> None:
-        """Tell the client of a goal how far it is."""
+        """Publish feedback on a goal."""
         goal = self._live_goal(goal_id)
         message = {"header": {"stamp": self._topics.now()}, "status": goal.message(), "feedback": feedback}
         self._topics.check(self._feedback_publisher, message)
         self._topics.publish(self._feedback_publisher, message)
 
     def execute(self, goal_id: str) -> None:
-        """Start a goal that was accepted to be executed later."""
+        """Start a goal that was accepted for deferred execution."""
         goal = self._live_goal(goal_id)
         goal.status = self._next_of(goal, _LIVE, "execute")
         self._publish_status()
 
     def finish(self, goal_id: str, how: str, result: Message) -> None:
-        """End a goal and send its result; ``how`` is "succeed", "abort" or "be canceled"."""
+        """End a goal and publish its result; ``how`` is "succeed", "abort" or "be canceled"."""
         goal = self._live_goal(goal_id)
         self._end(goal, self._next_of(goal, _FINAL, how), result)
 
     def is_in(self, goal_id: str, *statuses: GoalStatus) -> bool:
-        """Whether a goal is in one of these states; False for one that is not known (any more)."""
+        """Return whether a goal is in one of these states; False for an unknown goal."""
         return goal_id in self._goals and self._goals[goal_id].status in statuses
 
     def publish_status_when_due(self) -> None:
-        """Publish the status some times a second; to be called in every step."""
+        """Publish the status at a fixed rate; call it in every step."""
         if time.monotonic() >= self._next_status:
             self._publish_status()
 
     def close(self) -> None:
-        """Take the topics down; clients are not told."""
+        """Shut down the topics, without notifying clients."""
         self._topics.close()
 
     def _live_goal(self, goal_id: str) -> _Goal:
@@ -109,7 +109,7 @@ class ActionServer:
         if goal is not None and goal.ended is None:
             return goal
         live = [each.id for each in self._goals.values() if each.ended is None]
-        reason = "it is not known" if goal is None else f"it has ended as {goal.status.name}"
+        reason = "it is unknown" if goal is None else f"it has ended as {goal.status.name}"
         raise ValueError(
             f"action server '{self._topics.name}' has no goal '{goal_id}': {reason}; its goals are {live or 'none'}"
         )
@@ -141,8 +141,8 @@ class ActionServer:
             self._decide(goal, message["goal"])
 
     def _decide(self, goal: _Goal, content: Message) -> None:
-        answer = _ask(self._handle_goal, goal.id, content)
-        if self._topics.closed or goal.status is not GoalStatus.PENDING:  # the callback may have ended either
+        answer = _response_of(self._handle_goal, goal.id, content)
+        if self._topics.closed or goal.status is not GoalStatus.PENDING:  # ended in the callback
             return
         if answer == REJECT:
             self._end(goal, GoalStatus.REJECTED, {})
@@ -162,7 +162,7 @@ class ActionServer:
             if self._topics.closed:
                 return
         if goal_id and goal_id not in self._goals:
-            # Its goal may still be on the way.
+            # The goal may arrive after its cancel request.
             self._goals[goal_id] = _Goal(
                 goal_id, message["stamp"], None, status=GoalStatus.RECALLING, ended=time.monotonic()
             )
@@ -172,8 +172,8 @@ class ActionServer:
     def _request_cancel(self, goal: _Goal) -> None:
         if goal.goal is None or goal.status not in _LIVE["cancel"]:
             return
-        answer = _ask(self._handle_cancel, goal.id, goal.goal)
-        if answer == ACCEPT and goal.status in _LIVE["cancel"]:  # the callback may have ended it at once
+        answer = _response_of(self._handle_cancel, goal.id, goal.goal)
+        if answer == ACCEPT and goal.status in _LIVE["cancel"]:  # the callback may have ended the goal
             goal.status = _LIVE["cancel"][goal.status]
 
     def _end(self, goal: _Goal, status: GoalStatus, result: Message) -> None:
@@ -195,11 +195,11 @@ class ActionServer:
         self._topics.publish(self._status_publisher, {"header": {"stamp": self._topics.now()}, "status_list": statuses})
 
 
-def _ask(callback: Callable[[str, Message], int], goal_id: str, goal: Message) -> int:
+def _response_of(callback: Callable[[str, Message], int], goal_id: str, goal: Message) -> int:
     try:
         return int(callback(goal_id, goal))
     except _core.ServiceError:
-        return REJECT  # the script has failed, and the server has ended with it
+        return REJECT  # the script has failed, which has ended the server
 
 
 def _seconds_and_rest(stamp: Message) -> tuple[int, int]:

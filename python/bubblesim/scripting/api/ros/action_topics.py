@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The topics of an action as actionlib lays them out: NAME/goal, cancel, status, feedback and result."""
+"""The topics of an action in actionlib: NAME/goal, cancel, status, feedback and result."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ class GoalStatus(IntEnum):
 
 
 class ActionTopics:
-    """One side's publishers and subscribers of one action."""
+    """The publishers and subscribers of one action client or server."""
 
     def __init__(self, bridge: Any, name: str, action_type: str, note_truncations: Callable[[str, Any], None]) -> None:
-        """Open nothing yet; raises MessageError when the type is unknown.
+        """Create no topics yet; raise MessageError if the type is unknown.
 
-        :param note_truncations: gets what ``check`` finds, with the action's name in quotes.
+        :param note_truncations: called with the result of ``check``, and the action's name in quotes.
         """
         self.name = name
         self.closed = False
@@ -53,7 +53,7 @@ class ActionTopics:
 
     @contextmanager
     def closed_on_error(self) -> Iterator[None]:
-        """Leave nothing open when the block fails."""
+        """Close all topics if the block fails."""
         try:
             yield
         except BaseException:
@@ -61,21 +61,21 @@ class ActionTopics:
             raise
 
     def close(self) -> None:
-        """Take all topics down."""
+        """Shut down all topics."""
         self.closed = True
         self._opened.close()
 
-    def own_type(self, part: str) -> str:
-        """The type of the message that carries a "Goal", "Feedback" or "Result" of this action."""
+    def message_type(self, part: str) -> str:
+        """Return the type of the message with a "Goal", "Feedback" or "Result" of this action."""
         return f"{self._type}Action{part}"
 
     def default_result(self) -> dict[str, Any]:
-        """A result with all fields at their defaults."""
-        result: dict[str, Any] = _core.messages.default(self.own_type("Result"), _TIME_FORM)["result"]
+        """Return a result with all fields at their defaults."""
+        result: dict[str, Any] = _core.messages.default(self.message_type("Result"), _TIME_FORM)["result"]
         return result
 
     def advertise(self, topic: str, message_type: str, *, latch: bool = False) -> int:
-        """Make a publisher on NAME/``topic``."""
+        """Create a publisher on NAME/``topic``."""
         publisher = int(self._bridge.advertise(f"{self.name}/{topic}", message_type, _QUEUE_SIZE, latch))
         self._opened.callback(self._bridge.shutdown_publisher, publisher)
         self._publishers.append(publisher)
@@ -88,13 +88,13 @@ class ActionTopics:
         self._subscribers.append(subscriber)
 
     def are_connected(self) -> bool:
-        """Whether somebody is at the other end of every topic."""
+        """Return whether every topic is connected to another node."""
         return all(map(self._bridge.wants_messages, self._publishers)) and all(
             map(self._bridge.has_publisher, self._subscribers)
         )
 
     def check(self, publisher: int, message: Message) -> None:
-        """Raise the MessageError of a message that cannot be published, whether or not somebody listens."""
+        """Raise the MessageError of a message that cannot be published, also without subscribers."""
         self._note_truncations(f"'{self.name}'", self._bridge.check(publisher, message))
 
     def publish(self, publisher: int, message: Message) -> None:
@@ -102,17 +102,17 @@ class ActionTopics:
         self._bridge.publish(publisher, message)
 
     def now(self) -> dict[str, int]:
-        """ROS time, to stamp with."""
+        """Return ROS time, for stamps."""
         return now(self._bridge)
 
 
 def _known_type(given: str) -> str:
-    """`actionlib/Test`, also of `actionlib/action/Test`, when there are messages for it."""
+    """Return `actionlib/Test`, also for `actionlib/action/Test`, if its messages exist."""
     name = type_name(given.replace("/action/", "/"))
     known = _core.messages.message_names()
     if name is not None and f"{name}ActionGoal" in known:
         return name
-    # Here and not above, for this needs a ROS machine, which simulations without ROS do not.
+    # Imported here because it needs the ROS installation, which simulations without ROS do not have.
     from bubblesim.messages.packages import machine_index
 
     index = machine_index()
@@ -121,7 +121,7 @@ def _known_type(given: str) -> str:
     goals = [each for each in (*known, *index.names("msg")) if each.endswith("ActionGoal")]
     actions = sorted({each.removesuffix("ActionGoal") for each in goals})
     raise _core.MessageError(
-        f"'{given}' is no action type of this build or machine, expected package/Name such as actionlib/Test of which "
-        f"there are the messages NameActionGoal, NameActionFeedback and NameActionResult"
+        f"'{given}' is not an action type of this build or machine, expected package/Name such as actionlib/Test with "
+        f"the messages NameActionGoal, NameActionFeedback and NameActionResult"
         + did_you_mean(nearest_names(name or given, actions))
     )

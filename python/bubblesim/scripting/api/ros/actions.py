@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS2` functions about actions, which are actionlib's on the wire."""
+"""`simROS2` functions for actions, with actionlib's protocol."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from bubblesim.scripting.caller import Caller
 class RosActions(RosContext):
     """Action clients and servers of one script; they are shut down when the script ends.
 
-    An action type is given as `actionlib/Test` or `actionlib/action/Test`, for which there must be the messages
-    TestActionGoal, TestActionFeedback and TestActionResult.
+    An action type is `actionlib/Test` or `actionlib/action/Test`; the messages TestActionGoal, TestActionFeedback and
+    TestActionResult must exist.
     """
 
     action_result_code_succeeded = int(ResultCode.SUCCEEDED)
@@ -45,12 +45,12 @@ class RosActions(RosContext):
         feedback_callback: CallbackOrName,
         result_callback: CallbackOrName,
     ) -> int:
-        """Make a client of an action and return its handle.
+        """Create an action client and return its handle.
 
-        ``goal_response_callback(goal_id, accepted)`` comes once for each goal; for one that was accepted,
-        ``feedback_callback(goal_id, feedback)`` any number of times, and ``result_callback(goal_id, code, result)``
-        once. The code is one of simROS2.action_result_code_succeeded (4), _canceled (5), _aborted (6), which are ROS
-        2's numbers, and _unknown (0) for a goal that the server does not know any more.
+        ``goal_response_callback(goal_id, accepted)`` is called once per goal. For an accepted goal,
+        ``feedback_callback(goal_id, feedback)`` is called with each feedback, and ``result_callback(goal_id, code,
+        result)`` once. The code is one of simROS2.action_result_code_succeeded (4), _canceled (5), _aborted (6), with
+        the values of ROS 2, and _unknown (0) for a goal that the server does not know any more.
         """
         callbacks = map(self._caller.callback, (goal_response_callback, feedback_callback, result_callback))
         topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
@@ -62,15 +62,15 @@ class RosActions(RosContext):
         return client.handle
 
     def sendGoal(self, client: RosHandle, goal: Message) -> str:
-        """Send a goal and return its id. While no server is there the goal waits for one; the call never does."""
+        """Send a goal and return its id. Without a server, it is sent when one connects; the call does not wait."""
         return self._action_client(client).send_goal(goal)
 
     def cancelLastGoal(self, client: RosHandle) -> bool:
-        """Ask the server to cancel the goal sent last; False when none was sent or it is over."""
+        """Request the server to cancel the last goal; return False if there is none or it has ended."""
         return self._action_client(client).cancel_last_goal()
 
     def shutdownActionClient(self, client: RosHandle) -> None:
-        """Drop a client; its goals go on, its handle cannot be used any more."""
+        """Shut down a client; its goals continue, and its handle becomes invalid."""
         self._action_client(client).close()
         del self._action_clients[client]
         self._forget("action client", client)
@@ -83,13 +83,13 @@ class RosActions(RosContext):
         handle_cancel_callback: CallbackOrName,
         handle_accepted_callback: CallbackOrName,
     ) -> int:
-        """Offer an action and return the server's handle.
+        """Create an action server and return its handle.
 
         ``handle_goal_callback(goal_id, goal)`` returns whether to accept a goal: False, True, or one of
         simROS2.goal_response_reject, _accept_and_execute, _accept_and_defer (then the goal is pending until
-        actionServerActionExecute). ``handle_cancel_callback(goal_id, goal)`` returns whether to accept a request to
-        cancel, which actionServerActionCanceled then completes. ``handle_accepted_callback(goal_id, goal)`` starts
-        the goal's execution.
+        actionServerActionExecute). ``handle_cancel_callback(goal_id, goal)`` returns whether to accept a cancel
+        request, which actionServerActionCanceled then completes. ``handle_accepted_callback(goal_id, goal)`` starts the
+        goal's execution.
         """
         handle_goal = self._caller.answering_callback(handle_goal_callback, _check_goal_response)
         handle_cancel = self._caller.answering_callback(handle_cancel_callback, _check_cancel_response)
@@ -103,13 +103,13 @@ class RosActions(RosContext):
         return server.handle
 
     def shutdownActionServer(self, server: RosHandle) -> None:
-        """Stop offering an action; the handle cannot be used any more."""
+        """Shut down an action server; its handle becomes invalid."""
         self._action_server(server).close()
         del self._action_servers[server]
         self._forget("action server", server)
 
     def actionServerPublishFeedback(self, server: RosHandle, goal_id: str, feedback: Message) -> None:
-        """Tell the client of a goal how far it is."""
+        """Publish feedback on a goal to its client."""
         self._action_server(server).publish_feedback(goal_id, feedback)
 
     def actionServerActionExecute(self, server: RosHandle, goal_id: str) -> None:
@@ -117,35 +117,35 @@ class RosActions(RosContext):
         self._action_server(server).execute(goal_id)
 
     def actionServerActionSucceed(self, server: RosHandle, goal_id: str, result: Message) -> None:
-        """End a goal that is being executed: it has been reached."""
+        """End an executing goal: it succeeded."""
         self._action_server(server).finish(goal_id, "succeed", result)
 
     def actionServerActionAbort(self, server: RosHandle, goal_id: str, result: Message) -> None:
-        """End a goal that is being executed: it cannot be reached."""
+        """End an executing goal: it was aborted."""
         self._action_server(server).finish(goal_id, "abort", result)
 
     def actionServerActionCanceled(self, server: RosHandle, goal_id: str, result: Message) -> None:
-        """End a goal that is pending or being executed: it was cancelled."""
+        """End a pending or executing goal: it was cancelled."""
         self._action_server(server).finish(goal_id, "be canceled", result)
 
     def actionServerActionIsCanceling(self, server: RosHandle, goal_id: str) -> bool:
-        """Whether cancelling was requested and accepted, and the goal is not over."""
+        """Return whether a cancel request was accepted and the goal has not ended."""
         return self._action_server(server).is_in(goal_id, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
 
     def actionServerActionIsActive(self, server: RosHandle, goal_id: str) -> bool:
-        """Whether the goal is pending, being executed or being cancelled; False when over or not known."""
+        """Return whether the goal is pending, executing or cancelling; False if it has ended or is unknown."""
         active = (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.RECALLING, GoalStatus.PREEMPTING)
         return self._action_server(server).is_in(goal_id, *active)
 
     def actionServerActionIsExecuting(self, server: RosHandle, goal_id: str) -> bool:
-        """Whether the goal is being executed and not being cancelled."""
+        """Return whether the goal is executing and not cancelling."""
         return self._action_server(server).is_in(goal_id, GoalStatus.ACTIVE)
 
     def actionClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def _action_client(self, handle: int) -> ActionClient:
         if handle not in self._action_clients:
@@ -165,7 +165,7 @@ class RosActions(RosContext):
 def _check_goal_response(response: object) -> None:
     if response not in (REJECT, ACCEPT, DEFER):
         raise ValueError(
-            "the callback for goals must return True, False or one of simROS2.goal_response_reject, "
+            "the goal callback must return True, False or one of simROS2.goal_response_reject, "
             f"goal_response_accept_and_execute, goal_response_accept_and_defer; it returned {response!r}"
         )
 
@@ -173,6 +173,6 @@ def _check_goal_response(response: object) -> None:
 def _check_cancel_response(response: object) -> None:
     if response not in (REJECT, ACCEPT):
         raise ValueError(
-            "the callback for cancelling must return True, False or one of simROS2.cancel_response_reject, "
+            "the cancel callback must return True, False or one of simROS2.cancel_response_reject, "
             f"cancel_response_accept; it returned {response!r}"
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What every group of `simROS` functions works on."""
+"""Common parts of all groups of `simROS` functions."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from bubblesim.scripting.caller import Caller
 
 
 class RosContext:
-    """The bridge, and the script that calls."""
+    """The bridge, and the calling script."""
 
-    _module = "simROS"  # its name in scripts
-    _time_form = _core.messages.TimeForm.FLOAT  # of times in the messages that a script gets
+    _module = "simROS"  # module name in scripts
+    _time_form = _core.messages.TimeForm.FLOAT  # of times in messages for the script
 
     def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
@@ -26,20 +26,18 @@ class RosContext:
         self._warned: set[object] = set()
 
     def _warn(self, text: str) -> None:
-        """Warn in the script's name, once of the same."""
+        """Warn once for the script."""
         if text not in self._warned:
             self._warned.add(text)
             write_line(sys.stderr, f"warning: child script of {self._caller.object_path}: {text}")
 
     def _warn_of_truncation(self, where: str, truncations: Iterable[tuple[str, float]] | None) -> None:
-        """Warn once of each integer field that was given a float with a fraction.
+        """Warn once per integer field about a truncated float.
 
-        :param where: the topic, service or action whose messages these are.
-        :param truncations: field and float, as ``_core.Bridge.check`` returns them.
+        :param where: topic, service or action of the messages.
+        :param truncations: fields and floats, as returned by ``_core.Bridge.check``.
         """
         for field, value in truncations or ():
             if (where, field) not in self._warned:
                 self._warned.add((where, field))
-                self._warn(
-                    f"{where}: the integer field {field} got the float {value!r}, which is truncated to {int(value)}"
-                )
+                self._warn(f"{where}: float {value!r} in integer field {field} is truncated to {int(value)}")

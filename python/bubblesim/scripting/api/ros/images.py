@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about images."""
+"""`simROS` functions for images."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ ImageCallback = Callable[[bytes, int, int], object] | str
 
 
 class RosImages(RosTopics, RosParameters):
-    """Images in scripts are rgb8 bytes without padding whose rows go from the bottom up, as those of `sim` do.
+    """Images in scripts are rgb8 bytes without padding, with rows from bottom to top, as in `sim`.
 
-    They are published raw on their topic, and compressed on topic/compressed while somebody listens there. The
-    parameters topic/compressed/format ('jpeg' or 'png'), .../jpeg_quality (1 to 100) and .../png_level (1 to 9), which
-    compressed_image_transport has, too, are read when the publisher is made.
+    They are published raw on their topic, and compressed on topic/compressed if it has subscribers. The parameters
+    topic/compressed/format ('jpeg' or 'png'), .../jpeg_quality (1 to 100) and .../png_level (1 to 9), which are those
+    of compressed_image_transport, are read when the publisher is created.
     """
 
     def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
@@ -36,9 +36,9 @@ class RosImages(RosTopics, RosParameters):
     def imageTransportPublish(self, publisher: RosHandle, data: Pixels, width: int, height: int, frame_id: str) -> None:
         """Publish an image given as bytes or a numpy array of uint8, stamped with ROS time.
 
-        Raises a ValueError when it does not hold width * height * 3 bytes.
+        Raises a ValueError if it does not hold width * height * 3 bytes.
         """
-        compressed, image_format, level = self._compressed_beside(publisher)
+        compressed, image_format, level = self._compressed_of(publisher)
         rows = _rows(data, width, height)
         raw_wanted = self._bridge.wants_messages(publisher)
         compressed_wanted = self._bridge.wants_messages(compressed)
@@ -51,14 +51,14 @@ class RosImages(RosTopics, RosParameters):
             message = {"header": header, "encoding": "rgb8", "data": top_down.reshape(-1), **size}
             self._bridge.publish(publisher, message)
         if compressed_wanted:
-            # The format is written as compressed_image_transport does: whoever decodes learns the channels from it.
+            # The format string is that of compressed_image_transport; decoders read the channels from it.
             message = {"header": header, "format": f"rgb8; {image_format} compressed bgr8"}
             self._bridge.publish(compressed, message | {"data": compress(top_down, image_format, level)})
 
     def wantsMessages(self, publisher: RosHandle) -> bool:
-        """Whether somebody listens, so that a message is worth making; always for a latched topic.
+        """Return whether the topic has subscribers; always true for a latched topic.
 
-        Of images, also to the compressed ones.
+        For images, also whether the compressed topic has subscribers.
         """
         compressed = self._compressed.get(publisher)
         return super().wantsMessages(publisher) or (
@@ -66,18 +66,18 @@ class RosImages(RosTopics, RosParameters):
         )
 
     def imageTransportShutdownPublisher(self, publisher: RosHandle) -> None:
-        """Stop publishing images; the handle cannot be used any more."""
-        compressed, _, _ = self._compressed_beside(publisher)
+        """Stop publishing images; the handle becomes invalid."""
+        compressed, _, _ = self._compressed_of(publisher)
         del self._compressed[publisher]
         self.shutdownPublisher(compressed)
         self.shutdownPublisher(publisher)
 
     def _advertise_images(self, topic: str, queue_size: int) -> int:
         publisher = self._advertise(topic, _RAW, queue_size, latch=False)
-        beside = f"{topic.rstrip('/')}/compressed"
-        image_format, level = self._compression(beside)
+        compressed_topic = f"{topic.rstrip('/')}/compressed"
+        image_format, level = self._compression(compressed_topic)
         self._compressed[publisher] = (
-            self._advertise(beside, _COMPRESSED, queue_size, latch=False),
+            self._advertise(compressed_topic, _COMPRESSED, queue_size, latch=False),
             image_format,
             level,
         )
@@ -86,28 +86,28 @@ class RosImages(RosTopics, RosParameters):
     def _subscribe_images(self, topic: str, callback: ImageCallback, queue_size: int, transport: str) -> int:
         guarded = self._caller.callback(callback)
         if transport == "raw":
-            return self._listen(topic, _RAW, self._deliver(topic, decode, guarded), queue_size)
+            return self._subscribe(topic, _RAW, self._deliver(topic, decode, guarded), queue_size)
         if transport == "compressed":
-            opencv()  # so that it is missed here, in the script
+            opencv()  # so that a missing module is reported in the script
             topic = f"{topic.rstrip('/')}/compressed"
-            return self._listen(topic, _COMPRESSED, self._deliver(topic, decompress, guarded), queue_size)
-        raise ValueError(f"transport takes 'raw' or 'compressed', found {transport!r}")
+            return self._subscribe(topic, _COMPRESSED, self._deliver(topic, decompress, guarded), queue_size)
+        raise ValueError(f"transport must be 'raw' or 'compressed', found {transport!r}")
 
-    def _compression(self, beside: str) -> tuple[str, int]:
-        image_format = self.getParamString(f"{beside}/format", "jpeg")[1]
+    def _compression(self, compressed_topic: str) -> tuple[str, int]:
+        image_format = self.getParamString(f"{compressed_topic}/format", "jpeg")[1]
         if image_format not in COMPRESSIONS:
             takes = " or ".join(f"'{name}'" for name in COMPRESSIONS)
-            self._warn(f"parameter '{beside}/format' takes {takes}, found {image_format!r}: 'jpeg' is used")
+            self._warn(f"parameter '{compressed_topic}/format' must be {takes}, found {image_format!r}: using 'jpeg'")
             image_format = "jpeg"
         parameter, levels, default = COMPRESSIONS[image_format]
-        level = self.getParamInt(f"{beside}/{parameter}", default)[1]
+        level = self.getParamInt(f"{compressed_topic}/{parameter}", default)[1]
         if level not in levels:
             takes = f"{levels.start} to {levels.stop - 1}"
-            self._warn(f"parameter '{beside}/{parameter}' takes {takes}, found {level}: {default} is used")
+            self._warn(f"parameter '{compressed_topic}/{parameter}' must be {takes}, found {level}: using {default}")
             level = default
         return image_format, level
 
-    def _compressed_beside(self, publisher: int) -> tuple[int, str, int]:
+    def _compressed_of(self, publisher: int) -> tuple[int, str, int]:
         if publisher not in self._compressed:
             raise ValueError(f"invalid object handle {publisher}: no such image publisher, or it was shut down")
         return self._compressed[publisher]
@@ -118,8 +118,8 @@ class RosImages(RosTopics, RosParameters):
         def deliver(message: dict[str, Any]) -> None:
             try:
                 image = read(message)
-            except ValueError as error:  # the fault of whoever sent it: no reason to end the script
-                self._warn(f"an image on '{topic}' is left out: {error}")
+            except ValueError as error:  # an error of the sender, which does not end the script
+                self._warn(f"an image on '{topic}' is ignored: {error}")
                 return
             height, width, _ = image.shape
             guarded(image[::-1].tobytes(), width, height)
@@ -128,10 +128,10 @@ class RosImages(RosTopics, RosParameters):
 
 
 def _rows(data: Image, width: int, height: int) -> Image:
-    """The image as an array of height x width x 3, without a copy."""
+    """Return the image as an array of height x width x 3, without a copy."""
     if width < 1 or height < 1 or data.size != width * height * 3:
         raise ValueError(
-            f"an image of {width} x {height} pixels takes {width} * {height} * 3 = {width * height * 3} bytes of rgb8, "
+            f"an image of {width} x {height} pixels needs {width} * {height} * 3 = {width * height * 3} bytes of rgb8 "
             f"and at least one pixel; found {data.size} bytes"
         )
     return data.reshape(height, width, 3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an argument of a `simROS` or `simROS2` function may be, beside the kinds of `sim`."""
+"""Argument kinds of `simROS` and `simROS2` functions, in addition to those of `sim`."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about the parameters that the ROS master keeps."""
+"""`simROS` functions for parameters on the ROS master."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ _KIND = {bool: "a bool", int: "an int", float: "a double", str: "a string", type
 
 
 class RosParameters(RosContext):
-    """Names are resolved as those of topics: absolute, or below the node's own name.
+    """Names are resolved like those of topics: absolute, or in the node's namespace.
 
-    Reading waits for the master, a second at most; writing does not. Without a master nothing exists, as one warning
-    tells, and what was written is sent when one appears. A new master starts without parameters.
+    Reading waits for the master, at most one second; writing does not wait. Without a master, no parameter exists (with
+    one warning), and written parameters are sent when a master appears. A new master starts without parameters.
     """
 
     def getParamString(self, name: str, default: str = "") -> tuple[bool, str]:
-        """Whether the parameter is a string, and its value or ``default``."""
+        """Return whether the parameter is a string, and its value or ``default``."""
         return self._get(name, str, default)
 
     def getParamBool(self, name: str, default: bool = False) -> tuple[bool, bool]:
-        """Whether the parameter is a bool, and its value or ``default``."""
+        """Return whether the parameter is a bool, and its value or ``default``."""
         return self._get(name, bool, default)
 
     def getParamDouble(self, name: str, default: float = 0.0) -> tuple[bool, float]:
-        """Whether the parameter is a number, and its value or ``default``."""
+        """Return whether the parameter is a number, and its value or ``default``."""
         return self._get(name, float, default)
 
     def getParamInt(self, name: str, default: Int32 = 0) -> tuple[bool, int]:
-        """Whether the parameter is a number, and its value, rounded if need be, or ``default``."""
+        """Return whether the parameter is a number, and its value, rounded if necessary, or ``default``."""
         return self._get(name, int, default)
 
     def setParamString(self, name: str, value: str) -> None:
@@ -50,19 +50,19 @@ class RosParameters(RosContext):
         self._bridge.set_parameter(name, value)
 
     def setParamInt(self, name: str, value: Int32) -> None:
-        """Set a parameter to a whole number of 32 bits."""
+        """Set a parameter to a 32-bit integer."""
         self._bridge.set_parameter(name, value)
 
     def hasParam(self, name: str) -> bool:
-        """Whether the parameter is set."""
+        """Return whether the parameter is set."""
         return self._read(name)[0]
 
     def deleteParam(self, name: str) -> None:
-        """Delete a parameter; one that is not set is no error."""
+        """Delete a parameter, if it is set."""
         self._bridge.delete_parameter(name)
 
     def searchParam(self, name: str) -> tuple[bool, str]:
-        """Whether the node's namespace or one above it has the parameter, and its full name there."""
+        """Return whether the node's namespace or one above it has the parameter, and its full name there."""
         try:
             found = self._bridge.search_parameter(name)
         except _core.NoMaster as error:
@@ -74,7 +74,7 @@ class RosParameters(RosContext):
         exists, value = self._read(name)
         if not exists:
             return False, default
-        # What roscpp converts, and nothing else.
+        # The conversions of roscpp.
         if type(value) is kind:
             return True, value
         if kind is float and type(value) is int:
@@ -84,7 +84,7 @@ class RosParameters(RosContext):
             if rounded in _INT32:
                 return True, rounded
         shown = "" if value is None else f" ({value!r})"
-        self._warn(f"parameter '{name}' is {_KIND[type(value)]}{shown}, not {_KIND[kind]}: the default is used")
+        self._warn(f"parameter '{name}' is {_KIND[type(value)]}{shown}, not {_KIND[kind]}: using the default")
         return False, default
 
     def _read(self, name: str) -> tuple[bool, Any]:

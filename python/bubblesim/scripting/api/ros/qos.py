@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ROS 2 calls the quality of service of a topic, as far as ROS 1 has a counterpart."""
+"""ROS 2's quality of service of a topic, as far as ROS 1 has an equivalent."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-# By key, the values that it takes; None for those that mean nothing in ROS 1 and are not looked at.
+# Allowed values by key; None for keys without effect in ROS 1, which are not checked.
 _KEYS: dict[str, tuple[str, ...] | None] = {
     "depth": None,
     "history": ("keep_last", "keep_all", "system_default"),
@@ -22,7 +22,7 @@ _KEYS: dict[str, tuple[str, ...] | None] = {
 
 @dataclass(frozen=True)
 class Qos:
-    """Messages that may wait (0: no limit), and whether late subscribers get the last one."""
+    """Queue size (0: unlimited), and whether late subscribers get the last message."""
 
     depth: int = 1
     latch: bool = False
@@ -31,31 +31,31 @@ class Qos:
 def read_qos(value: int | Mapping[str, Any]) -> Qos:
     """Read a queue size, or a dict such as ``{'depth': 10, 'durability': 'transient_local'}``.
 
-    ROS 1 is always reliable, so that ``reliability`` changes nothing.
+    ROS 1 is always reliable, so ``reliability`` has no effect.
 
-    :raises TypeError, ValueError: with the keys and values that are known.
+    :raises TypeError, ValueError: with the valid keys and values.
     """
     if not isinstance(value, Mapping):
         return Qos(_as_depth(value))
     words: dict[str, str] = {}
     for key, setting in value.items():
         if key not in _KEYS:
-            raise ValueError(f"QoS has no '{key}'; it has {', '.join(_KEYS)}")
+            raise ValueError(f"QoS has no '{key}'; valid keys: {', '.join(_KEYS)}")
         allowed = _KEYS[key]
         if allowed is None:
             continue
         words[key] = str(setting).lower()
         if words[key] not in allowed:
-            raise ValueError(f"QoS {key} is one of {', '.join(allowed)}; found {setting!r}")
+            raise ValueError(f"QoS {key} must be one of {', '.join(allowed)}; found {setting!r}")
     depth = 0 if words.get("history") == "keep_all" else _as_depth(value.get("depth", Qos.depth))
     return Qos(depth, latch=words.get("durability") == "transient_local")
 
 
 def _as_depth(value: Any) -> int:
-    if isinstance(value, float) and value.is_integer():  # a number of Lua
+    if isinstance(value, float) and value.is_integer():  # a number in Lua
         value = int(value)
     if isinstance(value, bool) or not isinstance(value, int):
-        raise TypeError(f"a queue size is a whole number, found {value!r}")
+        raise TypeError(f"the queue size must be an integer, found {value!r}")
     if value < 0:
-        raise ValueError(f"a queue size is not negative, found {value}")
+        raise ValueError(f"the queue size must not be negative, found {value}")
     return value

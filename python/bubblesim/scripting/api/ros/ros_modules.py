@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The modules `simROS` and `simROS2` as one child script sees them: the same bridge under two sets of names."""
+"""The modules `simROS` and `simROS2` of one child script: the same bridge with two sets of names."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
     """`simROS`: times in messages are float seconds."""
 
     def advertise(self, topic: str, message_type: str, queue_size: QueueSize = 1, latch: bool = False) -> int:
-        """Make a publisher and return its handle."""
+        """Create a publisher and return its handle."""
         return self._advertise(topic, message_type, queue_size, latch=latch)
 
     def subscribe(
@@ -35,64 +35,63 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         queue_size: QueueSize = 1,
         transport_hints: Mapping[str, Any] | None = None,
     ) -> int:
-        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
+        """Create a subscriber and return its handle; ``callback`` (a function or its name) gets each message as a dict.
 
-        ``transport_hints`` may have 'tcpNoDelay' (by default True), 'transports' (a list of 'reliable' or 'tcp',
-        'unreliable' or 'udp') and 'maxDatagramSize'. Messages come over TCP whatever the last two say. The first
-        subscriber of a topic decides for all.
+        ``transport_hints`` can have 'tcpNoDelay' (default True), 'transports' (a list of 'reliable' or 'tcp',
+        'unreliable' or 'udp') and 'maxDatagramSize'. The last two have no effect: messages are always sent over TCP.
+        The hints of the first subscriber of a topic apply to all.
         """
         hints = read_transport_hints(transport_hints)
         if hints.wants_udp:
-            self._warn(f"'{topic}' is subscribed over TCP: there is no UDP here")
+            self._warn(f"'{topic}' is subscribed over TCP: UDP is not supported")
         guarded = self._caller.callback(callback)
-        return self._listen(topic, message_type, guarded, queue_size, tcp_no_delay=hints.tcp_no_delay)
+        return self._subscribe(topic, message_type, guarded, queue_size, tcp_no_delay=hints.tcp_no_delay)
 
     def shutdownSubscriber(self, subscriber: RosHandle) -> None:
-        """Stop listening; the handle cannot be used any more."""
+        """Shut down a subscriber; its handle becomes invalid."""
         self._shutdown_subscriber(subscriber)
 
     def serviceClient(self, name: str, service_type: str) -> int:
-        """Make a client of a service and return its handle."""
+        """Create a service client and return its handle."""
         return self._client(name, service_type)
 
     def advertiseService(self, name: str, service_type: str, callback: CallbackOrName) -> int:
-        """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
+        """Advertise a service and return its handle; ``callback`` gets a request as a dict and returns the response."""
         return self._server(name, service_type, callback)
 
     def shutdownServiceClient(self, client: RosHandle) -> None:
-        """Drop a client; the handle cannot be used any more."""
+        """Shut down a service client; its handle becomes invalid."""
         self._shutdown_client(client)
 
     def shutdownServiceServer(self, server: RosHandle) -> None:
-        """Stop offering a service; the handle cannot be used any more."""
+        """Shut down a service server; its handle becomes invalid."""
         self._shutdown_server(server)
 
     def serviceClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def serviceServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def imageTransportAdvertise(self, topic: str, queue_size: QueueSize = 1) -> int:
-        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle."""
+        """Create a publisher of images on ``topic``, and compressed on ``topic``/compressed; return its handle."""
         return self._advertise_images(topic, queue_size)
 
     def imageTransportSubscribe(
         self, topic: str, callback: CallbackOrName, queue_size: QueueSize = 1, transport: str = "raw"
     ) -> int:
-        """Call ``callback`` with each image as (data, width, height); return a handle.
+        """Create a subscriber of images and return its handle; ``callback`` gets (data, width, height).
 
-        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
-        out with a warning.
+        ``transport`` is 'raw', or 'compressed' for ``topic``/compressed. An invalid image is ignored with a warning.
         """
         return self._subscribe_images(topic, callback, queue_size, transport)
 
     def imageTransportShutdownSubscriber(self, subscriber: RosHandle) -> None:
-        """Stop listening to images; the handle cannot be used any more."""
+        """Shut down a subscriber of images; its handle becomes invalid."""
         self._shutdown_subscriber(subscriber)
 
     def getTime(self, flag: int = 0) -> float:
-        """ROS time in seconds: the simulation's under /use_sim_time, else the wall clock's."""
+        """Return ROS time in seconds: simulated time with /use_sim_time, else wall clock time."""
         sec, nanosec = self._bridge.now()
         return float(sec + nanosec * 1e-9)
 
@@ -107,102 +106,101 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
     def createPublisher(
         self, topic: str, message_type: str, qos: int | Mapping[str, Any] = 1, latch: bool = False
     ) -> int:
-        """Make a publisher and return its handle; ``qos`` is a queue size, or a dict with ``depth``, ``durability``."""
+        """Create a publisher and return its handle; ``qos``: queue size, or a dict with ``depth``, ``durability``."""
         wanted = read_qos(qos)
         return self._advertise(topic, message_type, wanted.depth, latch=latch or wanted.latch)
 
     def createSubscription(
         self, topic: str, message_type: str, callback: CallbackOrName, qos: int | Mapping[str, Any] = 1
     ) -> int:
-        """Call ``callback`` (a function or the name of one) with each message as a dict; return a handle.
+        """Create a subscriber and return its handle; ``callback`` (a function or its name) gets each message as a dict.
 
-        ``qos`` is a queue size, or a dict with ``depth``. Whether the last message comes at once is up to the
+        ``qos`` is a queue size, or a dict with ``depth``. Whether the last message is sent on connection depends on the
         publisher.
         """
-        return self._listen(topic, message_type, self._caller.callback(callback), read_qos(qos).depth)
+        return self._subscribe(topic, message_type, self._caller.callback(callback), read_qos(qos).depth)
 
     def shutdownSubscription(self, subscriber: RosHandle) -> None:
-        """Stop listening; the handle cannot be used any more."""
+        """Shut down a subscriber; its handle becomes invalid."""
         self._shutdown_subscriber(subscriber)
 
     def createClient(self, name: str, service_type: str) -> int:
-        """Make a client of a service and return its handle."""
+        """Create a service client and return its handle."""
         return self._client(name, service_type)
 
     def createService(self, name: str, service_type: str, callback: CallbackOrName) -> int:
-        """Offer a service: ``callback`` gets each request as a dict and returns the response as one."""
+        """Advertise a service and return its handle; ``callback`` gets a request as a dict and returns the response."""
         return self._server(name, service_type, callback)
 
     def shutdownClient(self, client: RosHandle) -> None:
-        """Drop a client; the handle cannot be used any more."""
+        """Shut down a service client; its handle becomes invalid."""
         self._shutdown_client(client)
 
     def shutdownService(self, server: RosHandle) -> None:
-        """Stop offering a service; the handle cannot be used any more."""
+        """Shut down a service server; its handle becomes invalid."""
         self._shutdown_server(server)
 
     def subscriptionTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def clientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def serviceTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def imageTransportCreatePublisher(self, topic: str, queue_size: QueueSize = 1) -> int:
-        """Publish images on ``topic``, and compressed on ``topic``/compressed; return a handle."""
+        """Create a publisher of images on ``topic``, and compressed on ``topic``/compressed; return its handle."""
         return self._advertise_images(topic, queue_size)
 
     def imageTransportCreateSubscription(
         self, topic: str, callback: CallbackOrName, queue_size: QueueSize = 1, transport: str = "raw"
     ) -> int:
-        """Call ``callback`` with each image as (data, width, height); return a handle.
+        """Create a subscriber of images and return its handle; ``callback`` gets (data, width, height).
 
-        ``transport`` is 'raw', or 'compressed' to listen on ``topic``/compressed. An image that cannot be read is left
-        out with a warning.
+        ``transport`` is 'raw', or 'compressed' for ``topic``/compressed. An invalid image is ignored with a warning.
         """
         return self._subscribe_images(topic, callback, queue_size, transport)
 
     def imageTransportShutdownSubscription(self, subscriber: RosHandle) -> None:
-        """Stop listening to images; the handle cannot be used any more."""
+        """Shut down a subscriber of images; its handle becomes invalid."""
         self._shutdown_subscriber(subscriber)
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
-        """A message with all fields at their defaults."""
+        """Return a message with all fields at their defaults."""
         message: dict[str, Any] = _core.messages.default(message_type, self._time_form)
         return message
 
     def getInterfaceConstants(self, message_type: str) -> dict[str, Any]:
-        """The constants that a type defines, by name."""
+        """Return the constants of a type, by name."""
         constants: dict[str, Any] = _core.messages.constants(message_type)
         return constants
 
     def supportedInterfaces(self) -> list[str]:
-        """Names of all message and service types of this build."""
+        """Return the names of all message and service types of this build."""
         return [*_core.messages.message_names(), *_core.messages.service_names()]
 
     def timeFromFloat(self, seconds: Seconds) -> dict[str, int]:
-        """Seconds as {sec, nanosec}."""
+        """Convert seconds to {sec, nanosec}."""
         return _sec_nanosec(round(seconds * 1e9))
 
     def timeToFloat(self, time: Stamp) -> float:
-        """{sec, nanosec} as seconds."""
+        """Convert {sec, nanosec} to seconds."""
         return time["sec"] + time["nanosec"] * 1e-9
 
     def spinSome(self) -> None:
-        """Accepted for older scripts: messages are delivered at the start of each step in any case."""
+        """Do nothing; for older scripts: messages are delivered at the start of each step."""
 
     def getTime(self) -> dict[str, int]:
-        """ROS time as {sec, nanosec}."""
+        """Return ROS time as {sec, nanosec}."""
         return now(self._bridge)
 
     def getSystemTime(self) -> dict[str, int]:
-        """ROS time as {sec, nanosec}."""
+        """Return ROS time as {sec, nanosec}."""
         return self.getTime()
 
     def getSimulationTime(self) -> dict[str, int]:
-        """Simulation time as {sec, nanosec}."""
+        """Return simulated time as {sec, nanosec}."""
         return _sec_nanosec(round(self._simulation.time * 1e9))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about services."""
+"""`simROS` functions for services."""
 
 from __future__ import annotations
 
@@ -23,12 +23,13 @@ class RosServices(RosContext):
     def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, caller)
-        self._clients: dict[int, tuple[str, str]] = {}  # name and request's type of the services that they call
+        self._clients: dict[int, tuple[str, str]] = {}  # name and request type of the called services
 
     def call(self, client: RosHandle, request: Request | None = None, timeout: float = _CALL_TIMEOUT) -> dict[str, Any]:
-        """Call a service, one's own included, and return its response as a dict.
+        """Call a service, also one of the same script, and return its response as a dict.
 
-        Raises a RuntimeError when nobody offers the service, it fails, or does not answer within ``timeout`` seconds.
+        Raises a RuntimeError if no node offers the service, if it fails, or if it does not respond within ``timeout``
+        seconds.
         """
         if client in self._clients and request:
             name, request_type = self._clients[client]
@@ -37,7 +38,7 @@ class RosServices(RosContext):
         return response
 
     def waitForService(self, service: ServiceOrClient, timeout: float = _CALL_TIMEOUT) -> bool:
-        """Whether somebody offers a service (its name, or a client of it); waits ``timeout`` seconds at most."""
+        """Wait for a service (its name, or a client of it) for at most ``timeout`` seconds; return its availability."""
         if isinstance(service, str):
             return bool(self._bridge.wait_for_service(service, timeout))
         if service not in self._clients:
@@ -54,7 +55,7 @@ class RosServices(RosContext):
         _, response_type = _core.messages.service_halves(service_type)
 
         def check(response: object) -> None:
-            """Let a response that does not fit its type be the callback's error, not the bridge's."""
+            """Report an invalid response as an error of the callback, not of the bridge."""
             if response is not None:
                 self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response))
 

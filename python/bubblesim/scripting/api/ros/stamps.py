@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The times that messages carry in their headers."""
+"""Time stamps in the headers of messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Message = Mapping[str, Any]
 
 
 def stamps(message: Message) -> Iterator[float]:
-    """Seconds that the headers of a message and of its transforms say; the message must fit its type."""
+    """Yield the time stamps, s, of the headers of a message and of its transforms; the message must fit its type."""
     transforms = message.get("transforms", ())
     for stamped in (message, *(transforms if isinstance(transforms, list) else ())):
         header = stamped.get("header")
@@ -19,7 +19,7 @@ def stamps(message: Message) -> Iterator[float]:
 
 
 def now(bridge: Any) -> dict[str, int]:
-    """ROS time as {sec, nanosec}, to stamp with."""
+    """Return ROS time as {sec, nanosec}, for stamps."""
     sec, nanosec = bridge.now()
     return {"sec": sec, "nanosec": nanosec}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about topics."""
+"""`simROS` functions for topics."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bubblesim.scripting.api.ros.stamps import Message, stamps
 from bubblesim.scripting.caller import Caller
 
 _CLOCK_TOLERANCE = 1.0  # s
-_BETWEEN_CHECKS = 1.0  # s of simulation time
+_CHECK_INTERVAL = 1.0  # s of simulation time
 
 Callback = Callable[[dict[str, Any]], object] | str
 
@@ -27,15 +27,15 @@ class RosTopics(RosContext):
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, caller)
         self._topics: dict[int, str] = {}  # by publisher
-        self._checked: set[int] = set()  # publishers of which a message was checked lately
-        self._first_checked: set[int] = set()  # publishers of which a message was checked at all
+        self._checked: set[int] = set()  # publishers with a recently checked message
+        self._first_checked: set[int] = set()  # publishers with at least one checked message
         self._next_checks = 0.0  # simulation time
 
     @checked_on_failure
     def publish(self, publisher: RosHandle, message: Message) -> None:
-        """Publish a message given as a dict; fields left out have their defaults.
+        """Publish a message given as a dict; omitted fields have their defaults.
 
-        Floats in integer fields are truncated toward zero, with one warning for each field.
+        Floats in integer fields are truncated toward zero, with one warning per field.
         """
         if publisher not in self._checked:
             self._check(publisher, message)
@@ -44,11 +44,11 @@ class RosTopics(RosContext):
             self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
 
     def wantsMessages(self, publisher: RosHandle) -> bool:
-        """Whether somebody listens, so that a message is worth making; always for a latched topic."""
+        """Return whether the topic has subscribers; always true for a latched topic."""
         return bool(self._bridge.wants_messages(publisher))
 
     def shutdownPublisher(self, publisher: RosHandle) -> None:
-        """Stop publishing; the handle cannot be used any more."""
+        """Shut down a publisher; its handle becomes invalid."""
         self._bridge.shutdown_publisher(publisher)
         self._topics.pop(publisher, None)
         self._checked.discard(publisher)
@@ -56,10 +56,10 @@ class RosTopics(RosContext):
         self._caller.at_end.pop(("publisher", publisher), None)
 
     def publisherTreatUInt8ArrayAsString(self, publisher: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
-        """Accepted for older scripts: uint8[] takes and gives bytes in any case."""
+        """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
         publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
@@ -69,10 +69,10 @@ class RosTopics(RosContext):
         return publisher
 
     def _check(self, publisher: int, message: Message) -> None:
-        """Check a message that may have no subscriber.
+        """Check a message also without subscribers.
 
-        Messages are converted only for subscribers. An error should not wait until there is one: the first message is
-        checked, and then one a second.
+        Messages are converted only for subscribers. To report errors early, the first message is checked, and then one
+        per second.
         """
         truncations = self._bridge.check(publisher, message)
         self._checked.add(publisher)
@@ -83,10 +83,10 @@ class RosTopics(RosContext):
 
     def _renew_checks(self) -> None:
         if self._simulation.time >= self._next_checks:
-            self._next_checks = self._simulation.time + _BETWEEN_CHECKS
+            self._next_checks = self._simulation.time + _CHECK_INTERVAL
             self._checked.clear()
 
-    def _listen(
+    def _subscribe(
         self,
         topic: str,
         message_type: str,
@@ -106,17 +106,17 @@ class RosTopics(RosContext):
         self._caller.at_end.pop(("subscriber", subscriber), None)
 
     def _warn_of_another_clock(self, topic: str, message: Message) -> None:
-        """Scripts like to stamp with a clock that starts at 0, and then tf and RViz drop all of it in silence."""
+        """Warn about stamps of a clock that starts at 0, because tf and RViz drop such messages silently."""
         sec, nanosec = self._bridge.now()
         for stamp in stamps(message):
             ahead = stamp - (sec + nanosec * 1e-9)
-            # Time 0 is that of a message without a stamp; a static transform holds at any time.
+            # Stamp 0 means no stamp; a static transform is valid at any time.
             if stamp == 0.0 or abs(ahead) <= _CLOCK_TOLERANCE or topic == "/tf_static":
                 continue
             write_line(
                 sys.stderr,
                 f"warning: child script of {self._caller.object_path}: the first message on '{topic}' is stamped "
-                f"{abs(ahead):.3g} s {'after' if ahead > 0 else 'before'} ROS time and sent as it is; "
+                f"{abs(ahead):.3g} s {'after' if ahead > 0 else 'before'} ROS time; "
                 f"stamp with {self._module}.getTime()",
             )
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS` functions about transforms."""
+"""`simROS` functions for transforms."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bubblesim.scripting.caller import Caller
 
 _QUEUE_SIZE = 100
 _TYPE = "tf2_msgs/TFMessage"
-# tf2 ignores transforms whose squared length differs from 1 by more (tf2::QUATERNION_NORMALIZATION_TOLERANCE).
+# tf2 ignores transforms whose squared norm differs from 1 by more (tf2::QUATERNION_NORMALIZATION_TOLERANCE).
 _LENGTH_TOLERANCE = 10e-3
 
 
@@ -29,13 +29,13 @@ class RosTransforms(RosTopics):
         self._static_transforms: dict[str, Message] = {}  # by child frame
 
     def sendTransform(self, transform: Message) -> None:
-        """Send a transform on /tf."""
+        """Publish a transform on /tf."""
         self.sendTransforms([transform])
 
     def sendTransforms(self, transforms: Transforms) -> None:
-        """Send several transforms in one message.
+        """Publish several transforms in one message.
 
-        Raises a ValueError, and sends none, when one has no unit quaternion or a number that is not finite.
+        Raises a ValueError, and publishes none, if one has no unit quaternion or a number that is not finite.
         """
         checked = _checked(transforms)
         if self._tf_publisher is None:
@@ -43,12 +43,12 @@ class RosTransforms(RosTopics):
         self.publish(self._tf_publisher, {"transforms": checked})
 
     def sendStaticTransform(self, transform: Message) -> None:
-        """Send a transform that stays, on /tf_static: whoever comes later gets it, too."""
+        """Publish a static transform on /tf_static; later subscribers also get it."""
         self.sendStaticTransforms([transform])
 
     def sendStaticTransforms(self, transforms: Transforms) -> None:
-        """Send several transforms that stay; a new one replaces the one before of the same child frame."""
-        # All of them each time, for a latched topic keeps only its last message.
+        """Publish several static transforms; a transform replaces the previous one of the same child frame."""
+        # Send all each time, because a latched topic keeps only its last message.
         all_transforms = self._static_transforms | {_child_frame(each): each for each in _checked(transforms)}
         message = {"transforms": list(all_transforms.values())}
         if self._static_publisher is None:
@@ -65,7 +65,7 @@ def _checked(transforms: Iterable[Message]) -> list[Message]:
 
 
 def _check(transform: object) -> None:
-    """Refuse numbers that tf2 refuses; what is no transform at all is left to the conversion to tell."""
+    """Reject numbers that tf2 rejects; values that are not transforms are reported by the conversion."""
     parts = transform.get("transform", {}) if isinstance(transform, Mapping) else None
     if not isinstance(transform, Mapping) or not isinstance(parts, Mapping):
         return
@@ -76,16 +76,16 @@ def _check(transform: object) -> None:
         return
     for name, numbers in (("translation", translation), ("rotation", rotation)):
         if not all(map(math.isfinite, numbers)):
-            raise ValueError(f"{where}: its {name} {numbers} is not finite")
+            raise ValueError(f"{where}: {name} {numbers} is not finite")
     if abs(sum(number * number for number in rotation) - 1.0) > _LENGTH_TOLERANCE:
         raise ValueError(
-            f"{where}: its rotation {rotation} is no unit quaternion (x, y, z, w) but has length "
-            f"{math.hypot(*rotation):.6g}; no rotation is 0, 0, 0, 1"
+            f"{where}: rotation {rotation} is not a unit quaternion (x, y, z, w), its norm is "
+            f"{math.hypot(*rotation):.6g}; the identity is 0, 0, 0, 1"
         )
 
 
 def _numbers(vector: object, names: str) -> list[float] | None:
-    """The vector's numbers, those left out being 0; None when it does not hold numbers."""
+    """Return the vector's numbers, 0 for omitted ones; None if it does not hold numbers."""
     if not isinstance(vector, Mapping):
         return None
     try:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The constants of the `sim` module, with the values that CoppeliaSim gives them."""
+"""The constants of the `sim` module, with CoppeliaSim's values."""
 
 from __future__ import annotations
 
 
 class SimConstants:
-    """Mixed into the `sim` module."""
+    """Base class of the `sim` module."""
 
     handle_world = -1
     handle_all = -2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What every group of `sim` functions works on."""
+"""Common parts of all groups of `sim` functions."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from bubblesim.scripting.api.kinds import HandleError
 from bubblesim.scripting.api.sim.constants import SimConstants
 from bubblesim.scripting.caller import Caller
 
-_LARGEST_HANDLE = 2**31 - 1
+_MAX_HANDLE = 2**31 - 1
 
 
 class ApiContext(SimConstants):
-    """The simulation and the script that calls."""
+    """The simulation and the calling script."""
 
     def __init__(self, simulation: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
@@ -22,15 +22,15 @@ class ApiContext(SimConstants):
         self._caller = caller
 
     def _with_all_below(self, handle: int) -> list[int]:
-        """An object and all of its descendants, each before its own."""
+        """Return an object and all its descendants, parents first."""
         found = [handle]
         for child in self._world.children(handle):
             found += self._with_all_below(int(child))
         return found
 
     def _resolve(self, handle: int) -> int:
-        """Turn sim.handle_self and sim.handle_parent into the handle of an object."""
-        if 0 <= handle <= _LARGEST_HANDLE:
+        """Convert sim.handle_self and sim.handle_parent to the handle of an object."""
+        if 0 <= handle <= _MAX_HANDLE:
             return handle
         if handle == self.handle_self:
             return self._caller.object_handle

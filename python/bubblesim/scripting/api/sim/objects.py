@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that find objects and read and set their poses."""
+"""`sim` functions that find objects and get and set their poses."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ class ObjectFunctions(ApiContext):
     """Positions in metres, quaternions x, y, z, w, Euler angles in radians (about the moving x, then y, then z)."""
 
     def getObject(self, path: str, options: Options = NO_OPTIONS) -> int:
-        """Handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
+        """Return the handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
 
-        Options: ``index`` picks one of several matches, ``noError`` returns -1 when there is none, ``proxy`` is the
-        object that relative paths start at.
+        Options: ``index`` selects one of several matches, ``noError`` returns -1 if there is none, ``proxy`` is the
+        object where relative paths start.
         """
         unknown = options.keys() - {"index", "noError", "proxy"}
         if unknown:
-            raise ValueError(f"getObject has no option '{min(unknown)}'; it has index, noError and proxy")
+            raise ValueError(f"getObject has no option '{min(unknown)}'; valid options: index, noError and proxy")
         start = self._resolve(options.get("proxy", self._caller.object_handle))
         try:
             return int(self._world.find(path, start, INTEGER.convert(options.get("index", 0))))
@@ -35,18 +35,18 @@ class ObjectFunctions(ApiContext):
             raise
 
     def getObjectHandle(self, name: str) -> int:
-        """Handle of the object called ``name``, wherever it is (old style)."""
+        """Return the handle of the object with the name ``name``, anywhere in the scene (old style)."""
         path = name if name.startswith(("/", ".", ":")) else f"/{name}"
         return int(self._world.find(path, self._caller.object_handle))
 
     def getObjectAssociatedWithScript(self, script: Handle) -> int:
-        """Handle of the object that the script is attached to."""
+        """Return the handle of the object that the script is attached to."""
         return self._resolve(script)
 
     def getObjectAlias(self, handle: Handle, option: int = -1) -> str:
-        """Name of an object: -1 bare, 0 with index, 1 short unique path, 2 full path, 5 path.
+        """Return the name of an object; ``option``: -1 bare, 0 with index, 1 short unique path, 2 full path, 5 path.
 
-        3 bare, but as 'name__handle__' when other objects have the name, too; 4 always as 'name__handle__'.
+        3 bare, or 'name__handle__' if other objects have the same name; 4 always 'name__handle__'.
         """
         handle = self._resolve(handle)
         name = str(self._world.name(handle))
@@ -66,22 +66,22 @@ class ObjectFunctions(ApiContext):
                 return name
 
     def getObjectName(self, handle: Handle) -> str:
-        """Name of an object (old style)."""
+        """Return the name of an object (old style)."""
         return self.getObjectAlias(handle)
 
     def getObjectParent(self, handle: Handle) -> int:
-        """Handle of the object above, -1 at the top of the scene."""
+        """Return the handle of the parent object, -1 at the top of the scene."""
         return int(self._world.parent(self._resolve(handle)))
 
     def getObjectChild(self, handle: Handle, index: int) -> int:
-        """Handle of the ``index``-th object below, -1 when there are fewer."""
+        """Return the handle of the ``index``-th child, -1 if there are fewer."""
         children = self._world.children(self._resolve(handle))
         return int(children[index]) if 0 <= index < len(children) else -1
 
     def getObjectsInTree(self, base: Handle, object_type: int = HANDLE_ALL, options: int = 0) -> list[int]:
-        """Handles of an object and all below it, or of the whole scene for sim.handle_scene.
+        """Return the handles of an object and all its descendants, or of the whole scene for sim.handle_scene.
 
-        ``object_type`` (sim.object_joint_type ...) leaves out others; options 1 leaves out the object itself, 2 all but
+        ``object_type`` (sim.object_joint_type ...) selects one type; options 1 excludes the object itself, 2 all except
         its direct children.
         """
         if base == self.handle_scene:
@@ -96,10 +96,10 @@ class ObjectFunctions(ApiContext):
         return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
 
     def getObjectType(self, handle: Handle) -> int:
-        """sim.object_shape_type of models and links, and what joints and sensors are.
+        """Return sim.object_shape_type for models and links, and the type of joints and sensors.
 
-        object_joint_type, object_proximitysensor_type, object_visionsensor_type of cameras, object_forcesensor_type of
-        force-torque sensors, and object_dummy_type of other sensors.
+        object_joint_type, object_proximitysensor_type, object_visionsensor_type for cameras, object_forcesensor_type
+        for force-torque sensors, and object_dummy_type for other sensors.
         """
         handle = self._resolve(handle)
         kind = str(self._world.kind(handle))
@@ -113,48 +113,48 @@ class ObjectFunctions(ApiContext):
         return self.object_joint_type if kind == "joint" else self.object_shape_type
 
     def getObjectPose(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
-        """[x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""
+        """Return [x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""
         return self._pose(handle, relative_to)
 
     @value_first
     def setObjectPose(self, handle: Handle, pose: Vector7, relative_to: Handle = WORLD) -> None:
-        """Put a model or link somewhere else. Also takes the old order (handle, relative_to, pose)."""
+        """Set the pose of a model or link. Also accepts the old order (handle, relative_to, pose)."""
         self._set_pose(handle, pose, relative_to)
 
     def getObjectPosition(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
-        """[x, y, z] in metres."""
+        """Return [x, y, z] in metres."""
         return self._pose(handle, relative_to)[:3]
 
     @value_first
     def setObjectPosition(self, handle: Handle, position: Vector3, relative_to: Handle = WORLD) -> None:
-        """Move a model or link. Also takes the old order (handle, relative_to, position)."""
+        """Set the position of a model or link. Also accepts the old order (handle, relative_to, position)."""
         self._set_pose(handle, [*position, *self._pose(handle, relative_to)[3:]], relative_to)
 
     def getObjectQuaternion(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
-        """[qx, qy, qz, qw]."""
+        """Return [qx, qy, qz, qw]."""
         return self._pose(handle, relative_to)[3:]
 
     @value_first
     def setObjectQuaternion(self, handle: Handle, quaternion: Vector4, relative_to: Handle = WORLD) -> None:
-        """Turn a model or link. Also takes the old order (handle, relative_to, quaternion)."""
+        """Set the orientation of a model or link. Also accepts the old order (handle, relative_to, quaternion)."""
         self._set_pose(handle, [*self._pose(handle, relative_to)[:3], *quaternion], relative_to)
 
     def getObjectOrientation(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
-        """[alpha, beta, gamma] in radians."""
+        """Return [alpha, beta, gamma] in radians."""
         return rotations.euler_angles(self._pose(handle, relative_to)[3:])
 
     @value_first
     def setObjectOrientation(self, handle: Handle, angles: Vector3, relative_to: Handle = WORLD) -> None:
-        """Turn a model or link to Euler angles. Also takes the old order (handle, relative_to, angles)."""
+        """Set the Euler angles of a model or link. Also accepts the old order (handle, relative_to, angles)."""
         position = self._pose(handle, relative_to)[:3]
         self._set_pose(handle, [*position, *rotations.quaternion_of_euler(angles)], relative_to)
 
     def getObjectMatrix(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
-        """The upper three rows of the transformation matrix, 12 numbers row by row."""
+        """Return the upper three rows of the transformation matrix, 12 numbers row by row."""
         return rotations.matrix_of_pose(self._pose(handle, relative_to))
 
     def getObjectVelocity(self, handle: Handle) -> tuple[Vector, Vector]:
-        """Linear (m/s) and angular (rad/s) velocity in the world's axes."""
+        """Return the linear (m/s) and angular (rad/s) velocity in world axes."""
         linear, angular = self._world.velocity(self._resolve(handle))
         return list(linear), list(angular)
 
@@ -164,7 +164,7 @@ class ObjectFunctions(ApiContext):
         return list(self._world.pose(handle) if frame is None else self._world.pose_in(handle, frame))
 
     def _frame(self, handle: Handle, relative_to: int) -> int | None:
-        """The object whose frame is meant; None for the world's."""
+        """Return the object with the reference frame; None for the world's."""
         if relative_to == self.handle_world:
             return None
         if relative_to == self.handle_parent:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that turn tables into bytes and back."""
+"""`sim` functions that pack tables into bytes and unpack them."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from bubblesim.scripting.api.sim.context import ApiContext
 
 
 class PackFunctions(ApiContext):
-    """Bytes are little-endian. ``start`` and ``count`` pick numbers out of a table; a count of 0 takes all the rest."""
+    """Bytes are little-endian. ``start`` and ``count`` select numbers of a table; a count of 0 selects all the rest."""
 
     def packTable(self, table: Any) -> bytes:
-        """Any nesting of tables, texts, bytes and numbers as bytes (CBOR, RFC 8949)."""
+        """Return nested tables, texts, bytes and numbers as bytes (CBOR, RFC 8949)."""
         try:
             data: bytes = cbor2.dumps(table)
         except cbor2.CBOREncodeError as error:
@@ -24,42 +24,42 @@ class PackFunctions(ApiContext):
         return data
 
     def unpackTable(self, data: Bytes) -> Any:
-        """What packTable made bytes of."""
+        """Return the data packed by packTable."""
         try:
             return cbor2.loads(data)
         except cbor2.CBORDecodeError as error:
-            raise ValueError(f"sim.unpackTable: these bytes are no packed table: {error}") from None
+            raise ValueError(f"sim.unpackTable: the bytes are not a packed table: {error}") from None
 
     def packUInt8Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
-        """Integers from 0 to 255 as a byte each."""
+        """Pack integers from 0 to 255 as one byte each."""
         return _pack("sim.packUInt8Table", "B", numbers, start, count)
 
     def unpackUInt8Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
-        """The bytes, from byte ``offset`` on, as integers."""
+        """Unpack bytes, starting at byte ``offset``, as integers."""
         return _unpack("sim.unpackUInt8Table", "B", data, start, count, offset)
 
     def packInt32Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
-        """Integers as 4 bytes each."""
+        """Pack integers as 4 bytes each."""
         return _pack("sim.packInt32Table", "i", numbers, start, count)
 
     def unpackInt32Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
-        """The bytes, from byte ``offset`` on, as integers of 4 bytes each."""
+        """Unpack integers of 4 bytes each, starting at byte ``offset``."""
         return _unpack("sim.unpackInt32Table", "i", data, start, count, offset)
 
     def packFloatTable(self, numbers: Numbers, start: int = 0, count: int = 0) -> bytes:
-        """Numbers as 4 bytes each (IEEE 754 single precision)."""
+        """Pack numbers as 4 bytes each (IEEE 754 single precision)."""
         return _pack("sim.packFloatTable", "f", numbers, start, count)
 
     def unpackFloatTable(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[float]:
-        """The bytes, from byte ``offset`` on, as numbers of 4 bytes each."""
+        """Unpack numbers of 4 bytes each, starting at byte ``offset``."""
         return _unpack("sim.unpackFloatTable", "f", data, start, count, offset)
 
     def packDoubleTable(self, numbers: Numbers, start: int = 0, count: int = 0) -> bytes:
-        """Numbers as 8 bytes each (IEEE 754 double precision)."""
+        """Pack numbers as 8 bytes each (IEEE 754 double precision)."""
         return _pack("sim.packDoubleTable", "d", numbers, start, count)
 
     def unpackDoubleTable(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[float]:
-        """The bytes, from byte ``offset`` on, as numbers of 8 bytes each."""
+        """Unpack numbers of 8 bytes each, starting at byte ``offset``."""
         return _unpack("sim.unpackDoubleTable", "d", data, start, count, offset)
 
 
@@ -68,12 +68,12 @@ def _pack(function: str, letter: str, numbers: list[Any], start: int, count: int
     try:
         return struct.pack(f"<{len(picked)}{letter}", *picked)
     except (struct.error, OverflowError) as error:
-        raise ValueError(f"{function}: a number does not fit: {error}") from None
+        raise ValueError(f"{function}: number out of range: {error}") from None
 
 
 def _unpack(function: str, letter: str, data: bytes, start: int, count: int, offset: int) -> list[Any]:
     if not 0 <= offset <= len(data):
-        raise ValueError(f"{function}: offset {offset} lies outside of {len(data)} bytes")
+        raise ValueError(f"{function}: offset {offset} is outside the {len(data)} bytes")
     size = struct.calcsize(letter)
     there = (len(data) - offset) // size
     picked = _range(function, there, start, count)
@@ -83,5 +83,5 @@ def _unpack(function: str, letter: str, data: bytes, start: int, count: int, off
 def _range(function: str, there: int, start: int, count: int) -> slice:
     end = start + count if count else there
     if not 0 <= start <= end <= there:
-        raise ValueError(f"{function}: start {start} and count {count} do not fit {there} numbers")
+        raise ValueError(f"{function}: start {start} and count {count} exceed the {there} numbers")
     return slice(start, end)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that start programs, write messages and name the simulator's parts."""
+"""`sim` functions that start programs, write log messages and list the simulator's modules."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from bubblesim.scripting.api.sim.context import ApiContext
 
 
 class ProgramFunctions(ApiContext):
-    """Programs started by a script end with it, and so does what they have started."""
+    """Programs started by a script end with it, together with their child processes."""
 
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
-        """Start a program of this package or on PATH; ``arguments`` is split as a shell would.
+        """Start a program of this package or on PATH; ``arguments`` is split as in a shell.
 
-        Returns its process id. A script in Lua may start programs of ROS packages, and those that the node's option
-        --allow-programs names: a PermissionError for others.
+        Returns its process id. A Lua script can start programs of ROS packages, and those given by the node's option
+        --allow-programs; for others it raises a PermissionError.
         """
         program = find_program(file)
         if not self._caller.may_start(program):
             raise PermissionError(
-                f"a script in Lua may not start {program}, which belongs to no ROS package of the workspace; "
+                f"a Lua script must not start {program}, which is not part of a ROS package of the workspace; "
                 f"allow it with the node's option --allow-programs {program}"
             )
         process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
@@ -32,12 +32,12 @@ class ProgramFunctions(ApiContext):
         return process.pid
 
     def getModuleName(self, index: int) -> str | None:
-        """Name of a plugin, 'RosInterface' for the bridge to ROS; None (nil) when there are not so many."""
+        """Return the name of a plugin, 'RosInterface' for the ROS bridge; None (nil) if the index is too large."""
         plugins = ["RosInterface"] if self._caller.shared.has_ros else []
         return plugins[index] if 0 <= index < len(plugins) else None
 
     def addLog(self, level: object, text: object) -> None:
-        """Write a message; errors and warnings go to stderr, what is more detailed than infos is left out."""
+        """Write a message; errors and warnings are written to stderr, levels above infos are ignored."""
         if isinstance(level, int) and level > self.verbosity_infos:
             return
         errors = (self.verbosity_errors, self.verbosity_scripterrors)

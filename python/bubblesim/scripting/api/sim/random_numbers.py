@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that draw random numbers."""
+"""`sim` functions for random numbers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bubblesim.scripting.caller import Caller
 
 
 class RandomFunctions(ApiContext):
-    """Random numbers follow from the simulation's seed and the script's object: a run can be repeated."""
+    """Random numbers depend only on the random seed and the script's object, so runs are reproducible."""
 
     def __init__(self, simulation: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
@@ -19,7 +19,7 @@ class RandomFunctions(ApiContext):
         self._random = random.Random(f"{simulation.seed} {caller.object_path}")
 
     def getRandom(self, seed: int | None = None) -> float:
-        """A number from 0 up to below 1; a ``seed`` starts the script's sequence of numbers anew."""
+        """Return a number from 0 to less than 1; a ``seed`` restarts the script's sequence of numbers."""
         if seed is not None:
             self._random.seed(seed)
         return self._random.random()

@@ -23,10 +23,10 @@ Reading = tuple[int, float, list[float], int, list[float]]
 
 
 class SensorFunctions(ApiContext):
-    """Proximity sensors give (result, distance, point, object, normal) in the sensor's frame, metres."""
+    """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres."""
 
     def readProximitySensor(self, sensor: Handle) -> Reading:
-        """What the sensor measured last; result 0 and distance 0.0 for nothing."""
+        """Return the last measurement; result 0 and distance 0.0 if nothing was detected."""
         reading: Reading = read_proximity(self._simulation, self._resolve(sensor))
         return reading
 
@@ -36,9 +36,9 @@ class SensorFunctions(ApiContext):
         return reading
 
     def checkProximitySensor(self, sensor: Handle, entity: Handle) -> Reading:
-        """Measure now; a result of 0 also when the nearest thing does not belong to ``entity``.
+        """Measure now; the result is 0 also if the nearest object does not belong to ``entity``.
 
-        Any object takes part for sim.handle_all.
+        sim.handle_all includes all objects.
         """
         reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
         seen = reading[3]
@@ -47,38 +47,38 @@ class SensorFunctions(ApiContext):
         return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
 
     def getReadingTime(self, sensor: Handle) -> float:
-        """Simulated seconds at which the sensor was last due: another time, another reading. It measures nothing."""
+        """Return the simulated time, s, at which the sensor was last due, without triggering a measurement."""
         return float(reading_time(self._simulation, self._resolve(sensor)))
 
     def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:
-        """Orientation (x, y, z, w), angular velocity (rad/s) and linear acceleration (m/s^2), in the sensor's frame."""
+        """Return orientation (x, y, z, w), angular velocity (rad/s), linear acceleration (m/s^2), in sensor axes."""
         reading = read_imu(self._simulation, self._resolve(sensor))
         return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
 
     def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
-        """1, and the force (N) and torque (N m) of a force-torque sensor, the means over the last step."""
+        """Return 1, and the force (N) and torque (N m) of a force-torque sensor, averaged over the last step."""
         reading = read_force_torque(self._simulation, self._resolve(sensor))
         return 1, reading.force.tolist(), reading.torque.tolist()
 
     def readNavSat(self, sensor: Handle) -> tuple[list[float], list[float]]:
-        """Latitude and longitude (degrees) with altitude (m above WGS84), and the velocity (m/s) east, north and up."""
+        """Return [latitude, longitude (degrees), altitude (m above WGS84)], and [east, north, up] velocity (m/s)."""
         reading = read_navsat(self._simulation, self._resolve(sensor))
         return [reading.latitude, reading.longitude, reading.altitude], reading.velocity.tolist()
 
     def readAltimeter(self, sensor: Handle) -> tuple[float, float]:
-        """Height (m) above where it came into the world, and velocity (m/s) upwards."""
+        """Return the height (m) above the initial height, and the upward velocity (m/s)."""
         reading = read_altimeter(self._simulation, self._resolve(sensor))
         return reading.height, reading.velocity
 
     def readMagnetometer(self, sensor: Handle) -> list[float]:
-        """The magnetic field (T) in the sensor's frame."""
+        """Return the magnetic field (T) in the sensor's frame."""
         field: list[float] = read_magnetometer(self._simulation, self._resolve(sensor)).field.tolist()
         return field
 
     def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
-        """What the sensor's link touched during the last step, one for each pair of shapes; empty for nothing.
+        """Return the contacts of the sensor's link during the last step, one per pair of shapes.
 
-        Each has ``other``, the handle of the link touched, the names ``collision`` and ``otherCollision``, the mean
+        Each has ``other``, the handle of the other link, the names ``collision`` and ``otherCollision``, the mean
         ``force`` (N, on the sensor's link) and the lists ``positions`` (m) and ``normals``, all in world axes.
         """
         return [
@@ -94,7 +94,7 @@ class SensorFunctions(ApiContext):
         ]
 
     def _belongs(self, handle: int, to: int) -> bool:
-        """Whether an object is, or lies below, another one."""
+        """Return whether an object is another one or its descendant."""
         while handle >= 0 and handle != to:
             handle = int(self._world.parent(handle))
         return handle >= 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions for values that all scripts of a scene share by name."""
+"""`sim` functions for named values shared by all scripts of a scene."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from bubblesim._core import read_lidar, reading_time
 from bubblesim.scripting.api.kinds import Handle, TextOrBytes
 from bubblesim.scripting.api.sim.context import ApiContext
 
-_PREFIX = "signal."  # of the names that newer scripts use, as properties of the scene
+_PREFIX = "signal."  # of the names in the newer functions: properties of the scene
 
 
 class SignalFunctions(ApiContext):
-    """Named values, shared by all scripts; one name may hold a text, a number and an integer, each on its own."""
+    """Named values, shared by all scripts; texts, numbers and integers have separate namespaces."""
 
     def setStringSignal(self, name: str, value: TextOrBytes) -> None:
         """Set a text or bytes."""
         self._set(str, name, value)
 
     def getStringSignal(self, name: str) -> str | bytes | None:
-        """What was last set, a text as text and bytes as bytes; None (nil) when there is nothing.
+        """Return the text or bytes last set; None (nil) if there is nothing.
 
-        A lidar with this name as its <bubblesim:signal> sets it whenever it measures: x, y, z of all points as packed
+        A lidar with this name as its <bubblesim:signal> sets it with each measurement: x, y, z of all points as packed
         floats, in metres in the lidar's frame.
         """
         return self._get_text(name)
 
     def clearStringSignal(self, name: str) -> None:
-        """Forget a text; a lidar sets its signal again when it measures again."""
+        """Delete a text; a lidar sets its signal again with the next measurement."""
         self._clear(str, name)
         if name and (lidar := self._world.find_signal(name)) >= 0:
             self._caller.shared.cleared_scans[name] = float(reading_time(self._simulation, lidar))
@@ -38,27 +38,27 @@ class SignalFunctions(ApiContext):
         self._set(float, name, value)
 
     def getFloatSignal(self, name: str) -> float | None:
-        """The number last set, None (nil) when there is none."""
+        """Return the number last set; None (nil) if there is none."""
         value: float | None = self._get(float, name)
         return value
 
     def clearFloatSignal(self, name: str) -> None:
-        """Forget a number."""
+        """Delete a number."""
         self._clear(float, name)
 
     def setInt32Signal(self, name: str, value: int) -> None:
-        """Set an integer of 32 bits."""
+        """Set a 32-bit integer."""
         if not -(2**31) <= value < 2**31:
             raise ValueError(f"sim.setInt32Signal: {value} does not fit into 32 bits")
         self._set(int, name, value)
 
     def getInt32Signal(self, name: str) -> int | None:
-        """The integer last set, None (nil) when there is none."""
+        """Return the integer last set; None (nil) if there is none."""
         value: int | None = self._get(int, name)
         return value
 
     def clearInt32Signal(self, name: str) -> None:
-        """Forget an integer."""
+        """Delete an integer."""
         self._clear(int, name)
 
     def setStringProperty(self, target: Handle, name: str, value: TextOrBytes) -> None:
@@ -66,7 +66,7 @@ class SignalFunctions(ApiContext):
         self._set(str, self._signal(target, name), value)
 
     def getStringProperty(self, target: Handle, name: str) -> str | bytes | None:
-        """The text 'signal.NAME' of the scene."""
+        """Return the text 'signal.NAME' of the scene."""
         return self._get_text(self._signal(target, name))
 
     def setFloatProperty(self, target: Handle, name: str, value: float) -> None:
@@ -74,7 +74,7 @@ class SignalFunctions(ApiContext):
         self._set(float, self._signal(target, name), value)
 
     def getFloatProperty(self, target: Handle, name: str) -> float | None:
-        """The number 'signal.NAME' of the scene."""
+        """Return the number 'signal.NAME' of the scene."""
         value: float | None = self._get(float, self._signal(target, name))
         return value
 
@@ -83,15 +83,13 @@ class SignalFunctions(ApiContext):
         self._set(int, self._signal(target, name), value)
 
     def getIntProperty(self, target: Handle, name: str) -> int | None:
-        """The integer 'signal.NAME' of the scene."""
+        """Return the integer 'signal.NAME' of the scene."""
         value: int | None = self._get(int, self._signal(target, name))
         return value
 
     def _signal(self, target: int, name: str) -> str:
         if target != self.handle_scene or not name.startswith(_PREFIX):
-            raise ValueError(
-                f"there is no property '{name}' of {target}; there are signals: sim.handle_scene and 'signal.NAME'"
-            )
+            raise ValueError(f"object {target} has no property '{name}'; expected sim.handle_scene and 'signal.NAME'")
         return name.removeprefix(_PREFIX)
 
     def _get_text(self, name: str) -> str | bytes | None:
@@ -99,7 +97,7 @@ class SignalFunctions(ApiContext):
         return self._scan(name) if value is None and name else value
 
     def _scan(self, name: str) -> bytes | None:
-        """The points of the lidar that has this signal: made here, for most of the time nobody reads them."""
+        """Return the points of the lidar that has this signal; computed here because most scans are not read."""
         lidar = self._world.find_signal(name)
         if lidar < 0:
             return None

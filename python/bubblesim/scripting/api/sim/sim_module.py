@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The module `sim` as one child script sees it."""
+"""The module `sim` of one child script."""
 
 from __future__ import annotations
 
@@ -29,4 +29,4 @@ class SimApi(
     RandomFunctions,
     ProgramFunctions,
 ):
-    """All functions and constants, grouped by what they are about."""
+    """All functions and constants of `sim`."""

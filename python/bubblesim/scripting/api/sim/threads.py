@@ -14,13 +14,13 @@ _TOLERANCE = 1e-6  # of a step
 
 
 class ThreadFunctions(ApiContext):
-    """A script's thread is switched away after 2 ms in each step, or with stepping where it calls ``step``."""
+    """A script's thread is suspended after 2 ms in each step, or, in stepping mode, only in ``step``."""
 
     @any_time
     def setStepping(self, enable: bool) -> int:
-        """Let the thread be switched away only where it calls ``step``; calls nest.
+        """Enable or disable stepping mode, in which the thread is suspended only in ``step``; calls nest.
 
-        Returns how many were in force before.
+        Returns the previous nesting depth.
         """
         thread = self._thread("setStepping")
         before = thread.stepping
@@ -29,12 +29,12 @@ class ThreadFunctions(ApiContext):
 
     @any_time
     def setThreadAutomaticSwitch(self, enable: bool) -> int:
-        """The opposite of ``setStepping``, as older scripts call it."""
+        """The opposite of ``setStepping``, for older scripts."""
         return self.setStepping(not enable)
 
     @any_time
     def acquireLock(self) -> None:
-        """Keep from being switched away until ``releaseLock``."""
+        """Prevent suspension until ``releaseLock``."""
         self.setStepping(True)
 
     @any_time
@@ -54,7 +54,7 @@ class ThreadFunctions(ApiContext):
 
     @any_time
     def wait(self, seconds: float, simulation_time: bool = True) -> float:
-        """Wait for so many seconds of simulation time, or of the machine's; returns how much longer it took."""
+        """Wait for a number of seconds of simulated time, or of wall time; return the excess time."""
         thread = self._thread("wait")
         if not simulation_time:
             begin = time.monotonic()
@@ -71,17 +71,17 @@ class ThreadFunctions(ApiContext):
 
     @any_time
     def getThreadExitRequest(self) -> bool:
-        """Whether the thread is asked to end."""
+        """Return whether the thread is requested to end."""
         thread = current()
         return thread is not None and thread.exit_requested
 
     @any_time
     def getSimulationStopping(self) -> bool:
-        """Whether this is the last step, or the end after it."""
+        """Return whether this is the last step, or the simulation has ended after it."""
         return self.getThreadExitRequest() or bool(self._simulation.state == RunState.STOPPING)
 
     def _thread(self, function: str) -> AnyThread:
         thread = current()
         if thread is None:
-            raise RuntimeError(f"sim.{function} is for sysCall_thread: a callback must not wait for the simulation")
+            raise RuntimeError(f"sim.{function} is only allowed in sysCall_thread: other callbacks must not wait")
         return thread

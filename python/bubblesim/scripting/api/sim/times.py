@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that tell the time and control the simulation."""
+"""`sim` functions for simulation time and run state."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _STATES = {
     RunState.STOPPING: SimConstants.simulation_advancing_lastbeforestop,
 }
 
-_started = time.monotonic()  # this is read when the simulator starts, long before a script calls anything
+_started = time.monotonic()  # this module is loaded at the start of the simulator
 
 
 def _seconds_since_start() -> float:
@@ -24,36 +24,36 @@ def _seconds_since_start() -> float:
 
 
 class TimeFunctions(ApiContext):
-    """Simulation time in seconds starts at 0 and is constant through a step."""
+    """Simulation time in seconds starts at 0 and is constant during a step."""
 
     def getSimulationTime(self) -> float:
-        """Simulated seconds."""
+        """Return the simulated time in seconds."""
         return float(self._simulation.time)
 
     def getSimulationTimeStep(self) -> float:
-        """Seconds that one step takes."""
+        """Return the duration of a step in seconds."""
         return float(self._simulation.time_step)
 
     def setSimulationTimeStep(self, seconds: float) -> None:
-        """Let steps take so many seconds from this one on, 0.0001 to 10, until the simulation stops.
+        """Set the duration of steps, 0.0001 to 10 s, from this step until the simulation stops.
 
-        Physics substeps become shorter when need be, never longer.
+        Physics substeps become shorter if necessary, never longer.
         """
         self._simulation.set_time_step(seconds)
 
     def getSystemTime(self) -> float:
-        """Seconds of the machine's clock since the start of the node."""
+        """Return the wall time in seconds since the start of the node."""
         return _seconds_since_start()
 
     def getSystemTimeInMs(self, previous: int = -1) -> int:
-        """Milliseconds since the start of the node (-1) or the epoch (-2), or passed since ``previous``."""
+        """Return milliseconds since the start of the node (-1) or the epoch (-2), or since ``previous``."""
         if previous == -2:
             return time.time_ns() // 1_000_000
         now = int(_seconds_since_start() * 1000)
         return now if previous == -1 else now - previous
 
     def getSimulationState(self) -> int:
-        """sim.simulation_advancing_running, simulation_paused or simulation_advancing_lastbeforestop."""
+        """Return sim.simulation_advancing_running, simulation_paused or simulation_advancing_lastbeforestop."""
         return _STATES[self._simulation.state]
 
     def pauseSimulation(self) -> None:
@@ -61,11 +61,11 @@ class TimeFunctions(ApiContext):
         self._simulation.pause()
 
     def startSimulation(self) -> None:
-        """Go on after a pause, or start again when it has stopped."""
+        """Continue after a pause, or restart a stopped simulation."""
         self._simulation.start()
 
     def stopSimulation(self) -> None:
-        """Stop after one more step, back to the start of the scene; the node ends when nobody could start it again."""
+        """Stop after one more step and reset the scene; the node ends if nothing can start the simulation again."""
         self._simulation.stop()
 
     def quitSimulator(self) -> None:

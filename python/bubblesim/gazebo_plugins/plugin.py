@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a device is: the part of a robot that a plugin of Gazebo stands for, seen from ROS."""
+"""Base class of the Gazebo plugins."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.gazebo_plugins.parameters import Parameters
-from bubblesim.gazebo_plugins.transforms import Transforms, wanted
+from bubblesim.gazebo_plugins.transforms import Transforms, is_needed
 from bubblesim.messages.names import did_you_mean, nearest_names
 from bubblesim.output import write_line
 
 Message = dict[str, Any]
-FASTEST = 1e6  # rad/s or m/s: what the physics takes
+FASTEST = 1e6  # rad/s or m/s: limit of the physics
 
 
 class StepTime:
-    """The time that all messages of a step carry, also where ROS's goes on meanwhile."""
+    """The time stamp of all messages of a step. ROS time may advance during the step."""
 
     def __init__(self, bridge: Any) -> None:
-        """Take it from this bridge."""
+        """Read the time from this bridge."""
         self._bridge = bridge
         self.stamp: Message = {}
 
     def begin_step(self) -> None:
-        """Take it anew."""
+        """Set the stamp to the current time."""
         secs, nsecs = self._bridge.now()
         self.stamp = {"secs": secs, "nsecs": nsecs}
 
 
 @dataclass(frozen=True)
 class PluginContext:
-    """Where a device is, and what it is made of."""
+    """The object that has the plugin, and the interfaces that the plugin uses."""
 
     simulation: Any
     bridge: Any
@@ -44,45 +44,45 @@ class PluginContext:
     owner: int  # handle of the model or sensor that has the plugin
     model: int  # handle
     parameters: Parameters
-    namespace: str | None  # of a model that was spawned into one, which a plugin's own replaces
-    endpoints: list[Callable[[], None]] = field(default_factory=list)  # what takes them down
+    namespace: str | None  # of the spawn request; the plugin's namespace replaces it
+    endpoints: list[Callable[[], None]] = field(default_factory=list)  # functions that shut them down
 
     def close(self) -> None:
-        """Take down the topics."""
+        """Shut down the topics and services."""
         while self.endpoints:
             self.endpoints.pop()()
 
 
-class Device:
-    """Made for one plugin of a model. Its phases are called once a step, and ``close`` when its model goes."""
+class Plugin:
+    """A model's plugin. ``actuate`` and ``publish`` are called in each step, ``close`` when the model is removed."""
 
     def __init__(self, context: PluginContext) -> None:
-        """Read the parameters; ParameterError for those with which the device cannot work."""
+        """Read the parameters; raise ParameterError if the plugin cannot work with them."""
         self.context = context
         self.parameters = context.parameters
         self.simulation = context.simulation
         self.world = context.simulation.world
         self.bridge = context.bridge
         self.namespace = ""
-        self._told = False
+        self._warned = False
 
     def actuate(self) -> None:
         """Command joints, before the physics."""
 
     def publish(self) -> None:
-        """Tell what is now, after physics and sensors."""
+        """Publish the new state, after physics and sensors."""
 
     def reset(self) -> None:
-        """The world was put back to its start; before this, once when the device begins."""
+        """Reset the state: called after a world reset, and once before the first step."""
 
     def close(self) -> None:
-        """Let go of everything outside."""
+        """Release all resources."""
         self.context.close()
 
     def enter_namespace(self, *, of_model: bool = False) -> None:
-        """Choose where topics and frames are.
+        """Choose the namespace of topics and frames.
 
-        That is <robotNamespace>; without one where the model was spawned; else the name of the model, or the root.
+        That is <robotNamespace>; else the namespace of the spawn request; else the name of the model, or the root.
         """
         default = self.world.name(self.context.model) if of_model else ""
         given = self.parameters.given("robotNamespace")
@@ -94,75 +94,75 @@ class Device:
         self.namespace = namespace.strip("/")
 
     def topic(self, name: str) -> str:
-        """The full name of a topic in the device's namespace."""
+        """Return the full name of a topic in the plugin's namespace."""
         parts = [name.strip("/")] if name.startswith("/") else [self.namespace, name.strip("/")]
         return "/" + "/".join(part for part in parts if part)
 
     def frame(self, name: str) -> str:
-        """The full name of a frame, which has the namespace for a prefix, as in tf."""
+        """Return the full name of a frame, with the namespace as prefix, as in tf."""
         if name.startswith("/") or not self.namespace:
             return name.lstrip("/")
         return f"{self.namespace}/{name}"
 
     def advertise(self, topic: str, message_type: str, queue_size: int) -> int:
-        """Advertise a topic until the device is closed."""
+        """Advertise a topic until the plugin is closed."""
         publisher: int = self.bridge.advertise(self.topic(topic), message_type, queue_size, False)
         self.context.endpoints.append(lambda: self.bridge.shutdown_publisher(publisher))
         return publisher
 
     def subscribe(self, topic: str, message_type: str, callback: Callable[[Message], None]) -> None:
-        """Have the newest message of each step handed over until the device is closed."""
+        """Subscribe until the plugin is closed; the callback gets the newest message of each step."""
         name = self.topic(topic)
 
         def deliver(message: Message) -> None:
             try:
                 callback(message)
-            except Exception as error:  # one device must not end the others
-                write_line(sys.stderr, f"error: {self.parameters.title} cannot take a message on {name}: {error}")
+            except Exception as error:  # an error of one plugin must not end the others
+                write_line(sys.stderr, f"error: {self.parameters.title} cannot process a message on {name}: {error}")
 
         subscriber = self.bridge.subscribe(name, message_type, deliver, 1, _core.messages.TimeForm.FLOAT)
         self.context.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
 
     def advertise_service(self, service: str, service_type: str, answer: Callable[[Message], Message | None]) -> None:
-        """Offer a service of a full name until the device is closed."""
+        """Advertise a service by its full name until the plugin is closed."""
         server = self.bridge.advertise_service(service, service_type, answer, _core.messages.TimeForm.FLOAT)
         self.context.endpoints.append(lambda: self.bridge.shutdown_service_server(server))
 
-    def wanted(self, publisher: int) -> bool:
-        """Whether somebody listens, or a bag keeps all."""
-        return wanted(self.bridge, publisher)
+    def is_needed(self, publisher: int) -> bool:
+        """Return whether the topic has subscribers or is recorded to a bag."""
+        return is_needed(self.bridge, publisher)
 
     def header(self, frame: str) -> Message:
-        """A std_msgs/Header of this step."""
+        """Return a std_msgs/Header of this step."""
         return {"stamp": self.context.step_time.stamp, "frame_id": frame}
 
     def joint(self, parameter: str, default: str) -> int:
-        """The handle of the joint that a parameter names."""
+        """Return the handle of the joint named by a parameter."""
         return self.joint_named(self.parameters.text(parameter, default), parameter)
 
     def joint_named(self, name: str, parameter: str) -> int:
-        """The handle of one of the model's joints."""
+        """Return the handle of a joint of the model."""
         return self.part_named(name, parameter, "joint")
 
     def link(self, parameter: str, default: str) -> int:
-        """The handle of the link that a parameter names, also as model::link."""
+        """Return the handle of the link named by a parameter, also as model::link."""
         return self.part_named(self.parameters.text(parameter, default).rpartition("::")[2], parameter, "link")
 
     def part_named(self, name: str, parameter: str, kind: str) -> int:
-        """The handle of one of the model's links, joints or sensors."""
+        """Return the handle of a link, joint or sensor of the model."""
         parts = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == kind}
         if name in parts:
             return int(parts[name])
         model = self.world.path(self.context.model)
         hint = did_you_mean(nearest_names(name, sorted(parts)))
-        raise self.parameters.fail(parameter, f"names no {kind} of {model}: it has no '{name}'{hint}")
+        raise self.parameters.fail(parameter, f"is '{name}', which is not a {kind} of {model}{hint}")
 
     def first_link(self) -> int:
-        """The handle of the model's first link."""
+        """Return the handle of the model's first link."""
         return next(part for part in self.parts_of_model() if self.world.kind(part) == "link")
 
     def parts_of_model(self) -> list[int]:
-        """The handles of all that belongs to the model."""
+        """Return the handles of all parts of the model."""
 
         def below(handle: int) -> list[int]:
             return [each for child in self.world.children(handle) for each in (child, *below(child))]
@@ -170,15 +170,15 @@ class Device:
         return below(self.context.model)
 
     def usable(self, what: str, numbers: Sequence[float]) -> bool:
-        """Whether numbers from a message are usable; when they are not for the first time, a line says so."""
+        """Return whether numbers from a message are usable; warn the first time that they are not."""
         if all(math.isfinite(number) and abs(number) <= FASTEST for number in numbers):
             return True
-        if not self._told:
-            self._told = True
+        if not self._warned:
+            self._warned = True
             found = ", ".join(f"{number:g}" for number in numbers)
             write_line(
                 sys.stderr,
-                f"warning: {self.parameters.title}: a {what} of {found} is left out: numbers must be finite and at "
-                "most 1e6; further ones are left out without a word",
+                f"warning: {self.parameters.title}: {what} ({found}) ignored: numbers must be finite and at "
+                "most 1e6; further ones are ignored without a warning",
             )
         return False
