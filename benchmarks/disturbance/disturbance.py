@@ -38,7 +38,7 @@ class Simulator:
 
     def __init__(self, built: Path, core: RosCore, period: int) -> None:
         """Start the simulation; ``period`` is in milliseconds."""
-        command = [str(built / "pass_times"), str(HERE / "script_talks.py"), str(period)]
+        command = [str(built / "step_times"), str(HERE / "script_talks.py"), str(period)]
         self._process = start(command, core.env, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def times(self) -> tuple[float, float]:

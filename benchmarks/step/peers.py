@@ -26,7 +26,7 @@ import pybullet
 import bubblesim
 
 STEP = 0.005  # s, for all candidates
-PASS = 10  # physics substeps in a step of bubblesim
+SUBSTEPS = 10  # physics substeps in a step of bubblesim
 STEPS = 400  # physics substeps of a candidate per round
 STEERING, SPEED = 0.6, 1.0  # rad, rad/s
 GROUND, OBSTACLE = 1, 2  # collide bits
@@ -72,7 +72,7 @@ class Ours:
 
     def run(self, steps: int) -> None:
         """Run this number of physics substeps."""
-        self.simulation.step(steps // PASS)
+        self.simulation.step(steps // SUBSTEPS)
 
     def position(self) -> Any:
         """Return the position of the (first) tricycle."""

@@ -19,7 +19,7 @@ namespace {
 
 using namespace bubblesim;
 
-constexpr int kPassesPerRound = 400;
+constexpr int kStepsPerRound = 400;
 constexpr double kSteering = 1.0;  // a circle without contact with walls
 constexpr double kSpeed = 0.5;
 
@@ -35,9 +35,9 @@ struct Candidate {
 
   void run() {
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < kPassesPerRound; ++i) pass();
+    for (int i = 0; i < kStepsPerRound; ++i) pass();
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-    rounds.push_back(took.count() / kPassesPerRound);
+    rounds.push_back(took.count() / kStepsPerRound);
   }
 };
 

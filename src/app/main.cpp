@@ -82,10 +82,12 @@ void run(const Options& options, Simulation& simulation, RosBridge* bridge, cons
 bool has_plugins(const SceneDescription& scene) {
   const auto plugged = [](const auto& owner) { return !owner.plugins.empty(); };
   const auto any = [&](const auto& owners) { return std::any_of(owners.begin(), owners.end(), plugged); };
+  const auto any_sensor = [&](const auto& carriers) {
+    return std::any_of(carriers.begin(), carriers.end(), [&](const auto& carrier) { return any(carrier.sensors); });
+  };
   return plugged(scene) || any(scene.models) ||
          std::any_of(scene.models.begin(), scene.models.end(), [&](const ModelDescription& model) {
-           return any(model.nested) || std::any_of(model.links.begin(), model.links.end(),
-                                                   [&](const LinkDescription& link) { return any(link.sensors); });
+           return any(model.nested) || any_sensor(model.links) || any_sensor(model.joints);
          });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the scene `tricycle` with a script like the node, one simulation step per period, for disturbance.py:
-//   pass_times SCRIPT PERIOD_IN_MS
+//   step_times SCRIPT PERIOD_IN_MS
 // For each line on standard input it prints the median and the 99th percentile of the step times since the last line,
 // in microseconds.
 #include <poll.h>
