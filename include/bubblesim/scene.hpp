@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/sensor_kinds.hpp"
 
 namespace bubblesim {
 
@@ -153,69 +154,6 @@ struct Environment {
   Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  ///< T, world axes; SDFormat's default
 };
 
-/// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
-/// drawn once, from N(bias_mean, bias_stddev).
-struct NoiseDescription {
-  double mean = 0;
-  double stddev = 0;
-  double bias_mean = 0;
-  double bias_stddev = 0;
-  double precision = 0;  ///< 0: not rounded
-};
-
-enum class ProximityVolume {
-  kRay,       ///< a single ray
-  kCone,      ///< round
-  kPyramid,   ///< square cross-section, as wide and high as the cone
-  kDisc,      ///< a flat fan to the left and right
-  kCylinder,  ///< parallel rays, with the radius of the cone at its end
-};
-
-/// A sensor that measures the distance to the nearest surface in a volume.
-struct SonarDescription {
-  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
-  double max_range = 1;   ///< m
-  double half_angle = 0;  ///< rad, between the axis and the volume's side
-  ProximityVolume volume = ProximityVolume::kCone;
-};
-
-/// Angles of a scan: `samples` evenly spaced angles from `min` to `max`, both included; a single sample lies at `min`.
-struct ScanAngles {
-  int samples = 1;
-  double min = 0;  ///< rad
-  double max = 0;  ///< rad
-
-  double at(int i) const { return samples > 1 ? min + (max - min) * i / (samples - 1) : min; }
-};
-
-struct LidarDescription {
-  ScanAngles horizontal;  ///< about z, to the left
-  ScanAngles vertical;    ///< upwards
-  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
-  double max_range = 1;   ///< m
-  double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
-  NoiseDescription noise;
-  std::string signal;  ///< name of the string signal that holds the points for child scripts; empty: none
-};
-
-/// A pinhole camera that looks along x, with y to the left and z up.
-struct CameraDescription {
-  int width = 320;                ///< pixels
-  int height = 240;               ///< pixels
-  double horizontal_fov = 1.047;  ///< rad
-  double near = 0.1;              ///< m along the axis
-  double far = 100;               ///< m along the axis
-  bool color = true;              ///< false: depth camera
-  bool antialias = false;         ///< four rays per pixel
-  NoiseDescription noise;         ///< of each colour value (0 to 1), or of the depth in m when color is false
-};
-
-/// An inertial measurement unit; noise along x, y, z.
-struct ImuDescription {
-  std::array<NoiseDescription, 3> angular_velocity_noise;     ///< rad/s
-  std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
-};
-
 /// An element of a <plugin>: its name and text, or its child elements.
 struct PluginParameter {
   std::string name;
@@ -232,45 +170,6 @@ struct PluginDescription {
   Source source;
 };
 
-/// A satellite navigation (GPS) receiver.
-struct NavSatDescription {
-  NoiseDescription horizontal_position_noise;  ///< m, east and north
-  NoiseDescription vertical_position_noise;    ///< m
-  NoiseDescription horizontal_velocity_noise;  ///< m/s, east and north
-  NoiseDescription vertical_velocity_noise;    ///< m/s
-};
-
-/// Measures the height above its start position.
-struct AltimeterDescription {
-  NoiseDescription position_noise;  ///< m
-  NoiseDescription velocity_noise;  ///< m/s
-};
-
-/// Measures the magnetic field; noise along x, y, z.
-struct MagnetometerDescription {
-  std::array<NoiseDescription, 3> field_noise;  ///< T
-};
-
-/// Measures the contacts of its link.
-struct ContactDescription {
-  std::vector<std::string> collisions;  ///< names of collisions of the link; empty: all
-};
-
-inline bool watches(const ContactDescription& sensor, const std::string& collision) {
-  return sensor.collisions.empty() ||
-         std::find(sensor.collisions.begin(), sensor.collisions.end(), collision) != sensor.collisions.end();
-}
-
-/// Measures the force and torque that a joint transmits.
-struct ForceTorqueDescription {
-  enum class Frame { kChild, kParent, kSensor };
-
-  Frame frame = Frame::kChild;  ///< axes of the readings
-  bool of_child = true;         ///< true: wrench of the child on the parent; false: of the parent on the child
-  std::array<NoiseDescription, 3> force_noise;   ///< N
-  std::array<NoiseDescription, 3> torque_noise;  ///< N m
-};
-
 /// Topics and frame under which gz-sim publishes a sensor.
 struct GzTopic {
   std::string topic;       ///< its <topic>; empty: named after the sensor's path in the world
@@ -283,9 +182,7 @@ struct SensorDescription {
   std::string type;        ///< SDFormat's name, such as gpu_lidar
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0: every step
-  std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
-               AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>
-      kind;
+  SensorKind kind;
   std::vector<PluginDescription> plugins;
   std::string topic;  ///< topic to publish on; empty: its plugins may publish it
   std::string frame;  ///< frame_id of the messages; default: its link

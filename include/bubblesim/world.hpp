@@ -32,23 +32,6 @@ struct PlacedShape {
   Pose pose;  ///< in the world
 };
 
-/// A contact point of two shapes; world axes.
-struct ContactPoint {
-  Vector3 position;  ///< m
-  Vector3 normal;    ///< direction in which the other shape pushes
-  double depth = 0;  ///< m
-  Vector3 force;     ///< N, in the last physics substep with contact
-};
-
-/// A contact between a shape of a link and another shape during the last step.
-struct Contact {
-  std::string collision;
-  ObjectId other_link = kNoObject;
-  std::string other_collision;
-  Vector3 force;                     ///< N on the link, mean over the step
-  std::vector<ContactPoint> points;  ///< of the last physics substep with contact
-};
-
 /// Force and torque of one body on another through a joint, world axes.
 struct Wrench {
   Vector3 force;   ///< N

@@ -20,25 +20,20 @@ namespace py = pybind11;
 
 /// Throws WrongObject if the sensor is of another kind.
 template <class Kind>
-Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading,
-                const char* wanted) {
+Held<Kind> hold(const Simulation& simulation, ObjectId sensor, std::shared_ptr<const Reading> reading) {
   if (std::holds_alternative<Kind>(reading->measurement)) return {std::move(reading)};
   throw WrongObject(simulation.world().tree().short_path(sensor) + " is a " +
-                    std::string(kind_name(reading->measurement)) + ", not a " + wanted);
+                    std::string(kind_name(reading->measurement)) + ", not a " + std::string(Kind::kName));
 }
 
 struct ToPython {
   const std::shared_ptr<const Reading>& reading;
 
   py::object operator()(const ProximityReading& proximity) const { return py::cast(proximity); }
-  py::object operator()(const LidarScan&) const { return py::cast(HeldScan{reading}); }
-  py::object operator()(const CameraImage&) const { return py::cast(HeldImage{reading}); }
-  py::object operator()(const ImuReading&) const { return py::cast(HeldImu{reading}); }
-  py::object operator()(const NavSatReading&) const { return py::cast(HeldNavSat{reading}); }
-  py::object operator()(const AltimeterReading&) const { return py::cast(HeldAltimeter{reading}); }
-  py::object operator()(const MagnetometerReading&) const { return py::cast(HeldMagnetometer{reading}); }
-  py::object operator()(const ContactReading&) const { return py::cast(HeldContacts{reading}); }
-  py::object operator()(const ForceTorqueReading&) const { return py::cast(HeldForceTorque{reading}); }
+  template <class Kind>
+  py::object operator()(const Kind&) const {
+    return py::cast(Held<Kind>{reading});
+  }
 };
 
 std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
@@ -81,38 +76,31 @@ void bind_sensors(py::module_& core) {
       "reading_time", [](Simulation& s, ObjectId sensor) { return s.reading_time(sensor); },
       "Return the simulated seconds at which the sensor was last due; do not measure.");
   module.def(
-      "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor), "lidar"); },
+      "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor)); },
       "Return the lidar's last scan.");
   module.def(
-      "measure_lidar",
-      [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.measure(sensor), "lidar"); },
+      "measure_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.measure(sensor)); },
       "Measure now and return the lidar's scan.");
   module.def(
-      "read_imu", [](Simulation& s, ObjectId sensor) { return hold<ImuReading>(s, sensor, s.read(sensor), "IMU"); },
+      "read_imu", [](Simulation& s, ObjectId sensor) { return hold<ImuReading>(s, sensor, s.read(sensor)); },
       "Return the IMU's last reading.");
   module.def(
-      "read_navsat",
-      [](Simulation& s, ObjectId sensor) { return hold<NavSatReading>(s, sensor, s.read(sensor), "GPS receiver"); },
+      "read_navsat", [](Simulation& s, ObjectId sensor) { return hold<NavSatReading>(s, sensor, s.read(sensor)); },
       "Return the receiver's last reading.");
   module.def(
       "read_altimeter",
-      [](Simulation& s, ObjectId sensor) { return hold<AltimeterReading>(s, sensor, s.read(sensor), "altimeter"); },
+      [](Simulation& s, ObjectId sensor) { return hold<AltimeterReading>(s, sensor, s.read(sensor)); },
       "Return the altimeter's last reading.");
   module.def(
       "read_magnetometer",
-      [](Simulation& s, ObjectId sensor) {
-        return hold<MagnetometerReading>(s, sensor, s.read(sensor), "magnetometer");
-      },
+      [](Simulation& s, ObjectId sensor) { return hold<MagnetometerReading>(s, sensor, s.read(sensor)); },
       "Return the magnetometer's last reading.");
   module.def(
-      "read_contacts",
-      [](Simulation& s, ObjectId sensor) { return hold<ContactReading>(s, sensor, s.read(sensor), "contact sensor"); },
+      "read_contacts", [](Simulation& s, ObjectId sensor) { return hold<ContactReading>(s, sensor, s.read(sensor)); },
       "Return the last contacts of the sensor's link.");
   module.def(
       "read_force_torque",
-      [](Simulation& s, ObjectId sensor) {
-        return hold<ForceTorqueReading>(s, sensor, s.read(sensor), "force-torque sensor");
-      },
+      [](Simulation& s, ObjectId sensor) { return hold<ForceTorqueReading>(s, sensor, s.read(sensor)); },
       "Return the last force and torque of the sensor's joint.");
   module.def(
       "override_image",
@@ -126,14 +114,12 @@ void bind_sensors(py::module_& core) {
       "Return 'proximity sensor', 'lidar', 'camera', 'IMU', 'GPS receiver', 'altimeter', 'magnetometer', 'contact "
       "sensor' or 'force-torque sensor'.");
   module.def(
-      "read_camera",
-      [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor), "camera"); },
+      "read_camera", [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.read(sensor)); },
       "Return the camera's last image.");
   module.def("camera_optics", &camera_optics,
              "Return a camera's width and height in pixels and its horizontal field of view, rad; do not measure.");
   module.def(
-      "measure_camera",
-      [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.measure(sensor), "camera"); },
+      "measure_camera", [](Simulation& s, ObjectId sensor) { return hold<CameraImage>(s, sensor, s.measure(sensor)); },
       "Measure now and return the camera's image.");
 }
 

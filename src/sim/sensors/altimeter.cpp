@@ -26,8 +26,8 @@ class Altimeter final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_altimeter(const AltimeterDescription& description, ObjectId id, const World& world) {
-  return std::make_unique<Altimeter>(description, id, world.pose(id).Pos().Z());
+std::unique_ptr<Sensor> make_kind(const AltimeterDescription& description, const SensorSite& site) {
+  return std::make_unique<Altimeter>(description, site.id, site.world.pose(site.id).Pos().Z());
 }
 
 }  // namespace bubblesim

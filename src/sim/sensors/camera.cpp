@@ -132,8 +132,8 @@ class Camera final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_camera(const CameraDescription& description, const Environment& environment, ObjectId id) {
-  return std::make_unique<Camera>(description, environment, id);
+std::unique_ptr<Sensor> make_kind(const CameraDescription& description, const SensorSite& site) {
+  return std::make_unique<Camera>(description, site.environment, site.id);
 }
 
 }  // namespace bubblesim

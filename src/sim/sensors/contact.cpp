@@ -27,8 +27,8 @@ class ContactSensor final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_contact(const ContactDescription& description, ObjectId id, const World& world) {
-  return std::make_unique<ContactSensor>(description, world.tree().at(id).parent);
+std::unique_ptr<Sensor> make_kind(const ContactDescription& description, const SensorSite& site) {
+  return std::make_unique<ContactSensor>(description, site.world.tree().at(site.id).parent);
 }
 
 }  // namespace bubblesim

@@ -50,19 +50,19 @@ class ForceTorque final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription& description, ObjectId id, const World& world) {
-  const SceneTree& tree = world.tree();
-  const Object& joint = tree.at(tree.at(id).parent);
-  const ModelDescription& model = world.description(id);
+std::unique_ptr<Sensor> make_kind(const ForceTorqueDescription& description, const SensorSite& site) {
+  const SceneTree& tree = site.world.tree();
+  const Object& joint = tree.at(tree.at(site.id).parent);
+  const ModelDescription& model = site.world.description(site.id);
   const JointDescription& described = model.joints[joint.index];
   ObjectId parent = kNoObject;
   ObjectId child = kNoObject;
-  for (const ObjectId link : tree.parts(tree.outermost_model_of(id), ObjectKind::kLink)) {
+  for (const ObjectId link : tree.parts(tree.outermost_model_of(site.id), ObjectKind::kLink)) {
     const std::string& name = model.links[tree.at(link).index].name;
     if (name == described.parent) parent = link;
     if (name == described.child) child = link;
   }
-  return std::make_unique<ForceTorque>(description, id, joint.id, parent, child);
+  return std::make_unique<ForceTorque>(description, site.id, joint.id, parent, child);
 }
 
 }  // namespace bubblesim

@@ -30,8 +30,8 @@ class Imu final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_imu(const ImuDescription& description, ObjectId id) {
-  return std::make_unique<Imu>(description, id);
+std::unique_ptr<Sensor> make_kind(const ImuDescription& description, const SensorSite& site) {
+  return std::make_unique<Imu>(description, site.id);
 }
 
 }  // namespace bubblesim

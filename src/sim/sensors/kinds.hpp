@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Factory functions of the sensor kinds. A new kind adds its file, its description in scene.hpp, its measurement in
-// sensor.hpp and its line here and in registry.cpp.
+// The maker of each sensor kind, in the file of that kind. A new kind adds its line here.
 #pragma once
+
+#include <memory>
 
 #include "bubblesim/sensor.hpp"
 #include "bubblesim/world.hpp"
 
 namespace bubblesim {
 
-std::unique_ptr<Sensor> make_sonar(const SonarDescription&, ObjectId, const World&);
-std::unique_ptr<Sensor> make_imu(const ImuDescription&, ObjectId);
-std::unique_ptr<Sensor> make_lidar(const LidarDescription&, ObjectId);
-std::unique_ptr<Sensor> make_navsat(const NavSatDescription&, const GeographicOrigin&, ObjectId);
-std::unique_ptr<Sensor> make_altimeter(const AltimeterDescription&, ObjectId, const World&);
-std::unique_ptr<Sensor> make_magnetometer(const MagnetometerDescription&, const Vector3& field, ObjectId);
-std::unique_ptr<Sensor> make_contact(const ContactDescription&, ObjectId, const World&);
-std::unique_ptr<Sensor> make_force_torque(const ForceTorqueDescription&, ObjectId, const World&);
-std::unique_ptr<Sensor> make_camera(const CameraDescription&, const Environment&, ObjectId);
+/// What the maker of a sensor may need besides the description.
+struct SensorSite {
+  ObjectId id;
+  const World& world;
+  const Environment& environment;
+};
+
+std::unique_ptr<Sensor> make_kind(const SonarDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const LidarDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const CameraDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const ImuDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const NavSatDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const AltimeterDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const MagnetometerDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const ContactDescription&, const SensorSite&);
+std::unique_ptr<Sensor> make_kind(const ForceTorqueDescription&, const SensorSite&);
 
 }  // namespace bubblesim

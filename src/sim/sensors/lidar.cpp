@@ -131,8 +131,8 @@ std::vector<Point> to_point_cloud(const LidarScan& scan) {
   return points;
 }
 
-std::unique_ptr<Sensor> make_lidar(const LidarDescription& description, ObjectId id) {
-  return std::make_unique<Lidar>(description, id);
+std::unique_ptr<Sensor> make_kind(const LidarDescription& description, const SensorSite& site) {
+  return std::make_unique<Lidar>(description, site.id);
 }
 
 }  // namespace bubblesim

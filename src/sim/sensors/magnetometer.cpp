@@ -27,9 +27,8 @@ class Magnetometer final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_magnetometer(const MagnetometerDescription& description, const Vector3& field,
-                                          ObjectId id) {
-  return std::make_unique<Magnetometer>(description, field, id);
+std::unique_ptr<Sensor> make_kind(const MagnetometerDescription& description, const SensorSite& site) {
+  return std::make_unique<Magnetometer>(description, site.environment.magnetic_field, site.id);
 }
 
 }  // namespace bubblesim

@@ -48,8 +48,8 @@ class NavSat final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_navsat(const NavSatDescription& description, const GeographicOrigin& origin, ObjectId id) {
-  return std::make_unique<NavSat>(description, origin, id);
+std::unique_ptr<Sensor> make_kind(const NavSatDescription& description, const SensorSite& site) {
+  return std::make_unique<NavSat>(description, site.environment.origin, site.id);
 }
 
 }  // namespace bubblesim

@@ -3,25 +3,12 @@
 
 #include <utility>
 
+#include "sensors/kinds.hpp"
+
 namespace bubblesim {
 
 Sensor::Sensor(Measurement empty) : empty_(std::move(empty)), reading_(std::make_shared<Reading>()) {
   reading_->measurement = empty_;
-}
-
-std::string_view kind_name(const Measurement& measurement) {
-  struct Name {
-    std::string_view operator()(const ProximityReading&) const { return "proximity sensor"; }
-    std::string_view operator()(const LidarScan&) const { return "lidar"; }
-    std::string_view operator()(const CameraImage&) const { return "camera"; }
-    std::string_view operator()(const ImuReading&) const { return "IMU"; }
-    std::string_view operator()(const NavSatReading&) const { return "GPS receiver"; }
-    std::string_view operator()(const AltimeterReading&) const { return "altimeter"; }
-    std::string_view operator()(const MagnetometerReading&) const { return "magnetometer"; }
-    std::string_view operator()(const ContactReading&) const { return "contact sensor"; }
-    std::string_view operator()(const ForceTorqueReading&) const { return "force-torque sensor"; }
-  };
-  return std::visit(Name{}, measurement);
 }
 
 void Sensor::update(const MeasurementContext& moment) {
@@ -37,6 +24,12 @@ void Sensor::replace(double time, Measurement measurement) {
   reading_ = std::make_shared<Reading>();
   reading_->time = time;
   reading_->measurement = std::move(measurement);
+}
+
+std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,
+                                    const World& world) {
+  const SensorSite site{id, world, environment};
+  return std::visit([&site](const auto& kind) { return make_kind(kind, site); }, description.kind);
 }
 
 }  // namespace bubblesim

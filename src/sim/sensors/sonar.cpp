@@ -110,8 +110,8 @@ class Sonar final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_sonar(const SonarDescription& description, ObjectId id, const World& world) {
-  return std::make_unique<Sonar>(description, id, world.tree().outermost_model_of(id));
+std::unique_ptr<Sensor> make_kind(const SonarDescription& description, const SensorSite& site) {
+  return std::make_unique<Sonar>(description, site.id, site.world.tree().outermost_model_of(site.id));
 }
 
 }  // namespace bubblesim

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kinds of sensors: for each its description and its measurement. The two variants at the end list them all.
+// SI units; sensors look along their x axis, y to the left, z up.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "bubblesim/scene_tree.hpp"
+
+namespace bubblesim {
+
+/// Gaussian noise of a measured value: value + N(mean, stddev) + bias, rounded to multiples of `precision`. The bias is
+/// drawn once, from N(bias_mean, bias_stddev).
+struct NoiseDescription {
+  double mean = 0;
+  double stddev = 0;
+  double bias_mean = 0;
+  double bias_stddev = 0;
+  double precision = 0;  ///< 0: not rounded
+};
+
+enum class ProximityVolume {
+  kRay,       ///< a single ray
+  kCone,      ///< round
+  kPyramid,   ///< square cross-section, as wide and high as the cone
+  kDisc,      ///< a flat fan to the left and right
+  kCylinder,  ///< parallel rays, with the radius of the cone at its end
+};
+
+/// A sensor that measures the distance to the nearest surface in a volume.
+struct SonarDescription {
+  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
+  double max_range = 1;   ///< m
+  double half_angle = 0;  ///< rad, between the axis and the volume's side
+  ProximityVolume volume = ProximityVolume::kCone;
+};
+
+/// Measurement of a sonar or another proximity sensor. Lengths in metres, in the sensor's frame.
+struct ProximityReading {
+  static constexpr std::string_view kName = "proximity sensor";
+
+  bool detected = false;
+  double distance = 0;
+  Vector3 point;
+  Vector3 normal;               ///< of the detected surface
+  ObjectId object = kNoObject;  ///< the detected link
+};
+
+/// Angles of a scan: `samples` evenly spaced angles from `min` to `max`, both included; a single sample lies at `min`.
+struct ScanAngles {
+  int samples = 1;
+  double min = 0;  ///< rad
+  double max = 0;  ///< rad
+
+  double at(int i) const { return samples > 1 ? min + (max - min) * i / (samples - 1) : min; }
+};
+
+struct LidarDescription {
+  ScanAngles horizontal;  ///< about z, to the left
+  ScanAngles vertical;    ///< upwards
+  double min_range = 0;   ///< m, start of the rays: nearer surfaces are not detected
+  double max_range = 1;   ///< m
+  double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
+  NoiseDescription noise;
+  std::string signal;  ///< name of the string signal that holds the points for child scripts; empty: none
+};
+
+/// One scan of a lidar. Ring by ring, the lowest first; each ring starts at `horizontal.min`.
+struct LidarScan {
+  static constexpr std::string_view kName = "lidar";
+
+  ScanAngles horizontal;
+  ScanAngles vertical;
+  double min_range = 0;
+  double max_range = 0;
+  std::vector<float> ranges;       ///< m, at least min_range; +Inf: nothing within max_range (REP 117)
+  std::vector<float> intensities;  ///< laser_retro of the visual that was hit; 0: no hit
+};
+
+/// Metres, in the sensor's frame.
+using Point = std::array<float, 3>;
+
+/// Returns the points that the rays of a lidar hit, ring by ring; rays without a hit are left out.
+std::vector<Point> to_point_cloud(const LidarScan& scan);
+
+/// A pinhole camera that looks along x, with y to the left and z up.
+struct CameraDescription {
+  int width = 320;                ///< pixels
+  int height = 240;               ///< pixels
+  double horizontal_fov = 1.047;  ///< rad
+  double near = 0.1;              ///< m along the axis
+  double far = 100;               ///< m along the axis
+  bool color = true;              ///< false: depth camera
+  bool antialias = false;         ///< four rays per pixel
+  NoiseDescription noise;         ///< of each colour value (0 to 1), or of the depth in m when color is false
+};
+
+/// Image of a camera, row by row from the top, each row from left to right.
+struct CameraImage {
+  static constexpr std::string_view kName = "camera";
+
+  int width = 0;
+  int height = 0;
+  double horizontal_fov = 0;      ///< rad
+  double near = 0;                ///< m along the axis
+  double far = 0;                 ///< m along the axis
+  std::vector<std::uint8_t> rgb;  ///< three bytes per pixel; empty for a depth camera
+  std::vector<float> depth;       ///< m along the axis, at least `near`; +Inf beyond `far` (REP 117)
+  std::vector<ObjectId> objects;  ///< visible link, or kNoObject
+};
+
+/// An inertial measurement unit; noise along x, y, z.
+struct ImuDescription {
+  std::array<NoiseDescription, 3> angular_velocity_noise;     ///< rad/s
+  std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
+};
+
+/// Measurement of an inertial measurement unit, in the sensor's frame (REP 145).
+struct ImuReading {
+  static constexpr std::string_view kName = "IMU";
+
+  Quaternion orientation;       ///< of the sensor in the world, without noise
+  Vector3 angular_velocity;     ///< rad/s
+  Vector3 linear_acceleration;  ///< m/s^2, mean over the last step, with the reaction to gravity: +g at rest
+};
+
+/// A satellite navigation (GPS) receiver.
+struct NavSatDescription {
+  NoiseDescription horizontal_position_noise;  ///< m, east and north
+  NoiseDescription vertical_position_noise;    ///< m
+  NoiseDescription horizontal_velocity_noise;  ///< m/s, east and north
+  NoiseDescription vertical_velocity_noise;    ///< m/s
+};
+
+/// Measurement of a satellite navigation receiver.
+struct NavSatReading {
+  static constexpr std::string_view kName = "GPS receiver";
+
+  double latitude = 0;   ///< degrees
+  double longitude = 0;  ///< degrees
+  double altitude = 0;   ///< m above the WGS84 ellipsoid
+  Vector3 velocity;      ///< m/s, east, north, up
+};
+
+/// Measures the height above its start position.
+struct AltimeterDescription {
+  NoiseDescription position_noise;  ///< m
+  NoiseDescription velocity_noise;  ///< m/s
+};
+
+/// Measurement of an altimeter.
+struct AltimeterReading {
+  static constexpr std::string_view kName = "altimeter";
+
+  double height = 0;    ///< m above its initial position
+  double velocity = 0;  ///< m/s upwards
+};
+
+/// Measures the magnetic field; noise along x, y, z.
+struct MagnetometerDescription {
+  std::array<NoiseDescription, 3> field_noise;  ///< T
+};
+
+/// Measurement of a magnetometer, in the sensor's frame.
+struct MagnetometerReading {
+  static constexpr std::string_view kName = "magnetometer";
+
+  Vector3 field;  ///< T
+};
+
+/// Measures the contacts of its link.
+struct ContactDescription {
+  std::vector<std::string> collisions;  ///< names of collisions of the link; empty: all
+};
+
+inline bool watches(const ContactDescription& sensor, const std::string& collision) {
+  return sensor.collisions.empty() ||
+         std::find(sensor.collisions.begin(), sensor.collisions.end(), collision) != sensor.collisions.end();
+}
+
+/// A contact point of two shapes; world axes.
+struct ContactPoint {
+  Vector3 position;  ///< m
+  Vector3 normal;    ///< direction in which the other shape pushes
+  double depth = 0;  ///< m
+  Vector3 force;     ///< N, in the last physics substep with contact
+};
+
+/// A contact between a shape of a link and another shape during the last step.
+struct Contact {
+  std::string collision;
+  ObjectId other_link = kNoObject;
+  std::string other_collision;
+  Vector3 force;                     ///< N on the link, mean over the step
+  std::vector<ContactPoint> points;  ///< of the last physics substep with contact
+};
+
+/// Contacts of a link.
+struct ContactReading {
+  static constexpr std::string_view kName = "contact sensor";
+
+  std::vector<Contact> contacts;
+};
+
+/// Measures the force and torque that a joint transmits.
+struct ForceTorqueDescription {
+  enum class Frame { kChild, kParent, kSensor };
+
+  Frame frame = Frame::kChild;  ///< axes of the readings
+  bool of_child = true;         ///< true: wrench of the child on the parent; false: of the parent on the child
+  std::array<NoiseDescription, 3> force_noise;   ///< N
+  std::array<NoiseDescription, 3> torque_noise;  ///< N m
+};
+
+/// Force and torque that a joint transmits, with the axes and sign of the description; torque about the sensor's
+/// origin.
+struct ForceTorqueReading {
+  static constexpr std::string_view kName = "force-torque sensor";
+
+  Vector3 force;   ///< N, mean over the last step
+  Vector3 torque;  ///< N m, mean over the last step
+};
+
+using SensorKind =
+    std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
+                 AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>;
+
+using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, AltimeterReading,
+                                 MagnetometerReading, ContactReading, ForceTorqueReading>;
+
+/// The kName of the measurement's kind.
+inline std::string_view kind_name(const Measurement& measurement) {
+  return std::visit([](const auto& kind) { return kind.kName; }, measurement);
+}
+
+}  // namespace bubblesim
