@@ -16,7 +16,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--long", action="store_true", help="run the tests marked long, too")
 
 
+# These files take minutes: the tests start with them, so that no process waits for another one at the end.
+START_WITH = ["meta/test_workspace.py", "test_benchmarks.py", "test_docs.py", "services/test_stuck_scripts.py"]
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    items.sort(key=lambda item: not str(item.path).endswith(tuple(START_WITH)))
     if config.getoption("--long"):
         return
     for item in items:

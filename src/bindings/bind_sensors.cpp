@@ -11,6 +11,7 @@
 #include "bubblesim/simulation.hpp"
 #include "guarded.hpp"
 #include "held_readings.hpp"
+#include "numpy_values.hpp"
 #include "object_view.hpp"
 
 namespace bubblesim::bindings {
@@ -35,8 +36,6 @@ struct ToPython {
     return py::cast(Held<Kind>{reading});
   }
 };
-
-std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
 
 py::tuple proximity_tuple(const ProximityReading& r) {
   return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));

@@ -9,6 +9,7 @@
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/world.hpp"
 #include "guarded.hpp"
+#include "numpy_values.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -23,8 +24,6 @@ Pose7 to_list(const Pose& pose) {
 }
 
 Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quaternion(p[6], p[3], p[4], p[5])}; }
-
-std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
 
 Vector3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 

@@ -24,6 +24,8 @@ inline NumpyArray to_numpy(const Quaternion& q) {
   return NumpyArray(values.size(), values.data());
 }
 
+inline std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
+
 /// Checks that `values` is a flat array of `size` numbers; `what` names it in the error.
 inline const double* checked(const NumpyArray& values, pybind11::ssize_t size, const char* what) {
   if (values.ndim() == 1 && values.shape(0) == size) return values.data();

@@ -61,8 +61,8 @@ def test_scenes_are_listed() -> None:
         (["/none/such.sdf", "--no-ros"], "/none/such.sdf"),
         (["dd.py", "--no-ros"], "dd.py: is a script, not a scene: give the .sdf file"),
         (["my/robot.lua", "--no-ros"], "my/robot.lua: is a script, not a scene: give the .sdf file"),
-        (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: is a file of CoppeliaSim"),
-        (["a/room.simscene.xml", "--no-ros"], "a/room.simscene.xml: is a file of CoppeliaSim"),
+        (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: is a CoppeliaSim file"),
+        (["a/room.simscene.xml", "--no-ros"], "a/room.simscene.xml: is a CoppeliaSim file"),
     ],
     ids=" ".join,
 )

@@ -110,7 +110,7 @@ def test_a_list_that_empties_itself_is_refused() -> None:
             return 1.0
 
     values.extend([Clearing(), 2.0, 3.0])
-    with pytest.raises(codec.MessageError, match="shorter while it was read"):
+    with pytest.raises(codec.MessageError, match="shortened while it was read"):
         codec.encode("std_msgs/Float64MultiArray", {"data": values})
 
 

@@ -146,7 +146,7 @@ def test_bad_lines_of_a_definition_are_told_with_their_place(package: Package) -
 def test_a_missing_nested_type_is_told_with_its_place(package: Package) -> None:
     folder = package("unlisted_gap", {"msg/Cell.msg": "int8 a\nstd_msgs/Hedder[] b\n"})
     assert error("unlisted_gap/Cell") == (
-        f"std_msgs/Hedder, which unlisted_gap/Cell contains ({folder}/msg/Cell.msg:2), is not found; "
+        f"std_msgs/Hedder, used in unlisted_gap/Cell ({folder}/msg/Cell.msg:2), is not found; "
         "did you mean std_msgs/Header?"
     )
 

@@ -39,12 +39,12 @@ def axis(direction: str, motor: str, limits: str = "", *, number: str = "") -> s
     return f"<axis{number}><xyz>{direction}</xyz><limit>{limits}</limit>{driven}</axis{number}>"
 
 
-def motor_effort(file: Path, *, passes: int = 40, axis: int = 0, target_velocity: float = 0.0) -> float:
+def motor_effort(file: Path, *, steps: int = 40, axis: int = 0, target_velocity: float = 0.0) -> float:
     simulation = bubblesim.Simulation(str(file))
     joint = simulation.object("/joint").handle
     simulation.world.set_target_velocity(joint, target_velocity, axis)
     assert simulation.world.motor_effort(joint, axis) == 0
-    simulation.step(passes)
+    simulation.step(steps)
     return float(simulation.world.motor_effort(joint, axis))
 
 
@@ -63,7 +63,7 @@ def test_a_lift_is_held_by_its_weight(tmp_path: Path) -> None:
 def test_a_motor_at_its_limit_does_what_it_may(tmp_path: Path) -> None:
     axis_ = axis("0 0 1", "velocity", "<effort>0.3</effort>")
     file = arm(tmp_path, "revolute", axis_)
-    assert motor_effort(file, passes=5, target_velocity=100) == pytest.approx(0.3, rel=1e-5)
+    assert motor_effort(file, steps=5, target_velocity=100) == pytest.approx(0.3, rel=1e-5)
 
 
 def test_what_accelerates_takes_its_inertia(tmp_path: Path) -> None:

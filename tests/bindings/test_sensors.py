@@ -94,7 +94,7 @@ def test_noise_follows_from_the_seed() -> None:
 
 
 def test_what_is_no_sensor_has_no_reading(room: bubblesim.Simulation) -> None:
-    with pytest.raises(bubblesim.NoSuchObject, match="/Mast is a model, not a sensor"):
+    with pytest.raises(bubblesim.WrongObject, match="/Mast is a model, not a sensor"):
         _ = room.object("/Mast").reading
 
 

@@ -129,7 +129,7 @@ def test_what_urdf_cannot_tell_is_an_error() -> None:
     simulation.add_model(ARM.replace('"prismatic"', '"ball"'))
     with pytest.raises(ValueError, match="/Arm/rail: URDF has no joints of type ball"):
         _ = simulation.object("/Arm").urdf
-    with pytest.raises(ValueError, match="/Room has 2 links that no joint carries"):
+    with pytest.raises(ValueError, match="/Room has 2 root links"):
         _ = bubblesim.Simulation("tricycle").object("/Room").urdf
 
 

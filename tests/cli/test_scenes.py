@@ -12,7 +12,7 @@ def test_every_scene_is_listed_with_what_it_is() -> None:
     assert (run.returncode, run.stderr) == (0, "")
     lines = dict(line.split(maxsplit=1) for line in run.stdout.splitlines())
     assert list(lines) == run_sim("--list-scenes").stdout.split()
-    assert lines["ball"].startswith("A single ball that rolls down a ramp")
+    assert lines["ball"].startswith("A ball that rolls down a ramp")
     assert all(not summary.startswith("<") for summary in lines.values())
 
 

@@ -18,6 +18,7 @@ PACKAGES = {
 PROJECT = """cmake_minimum_required(VERSION 3.18)
 project(bubblesim LANGUAGES CXX)
 find_package(catkin REQUIRED)
+set(BUBBLESIM_BUILD_NODES ON)
 add_subdirectory(compat)
 catkin_package()
 """

@@ -88,5 +88,5 @@ def test_parameters_that_cannot_be_are_told(roscore: RosCore, argument: str) -> 
         [*NODE, argument], env=roscore.env, capture_output=True, text=True, timeout=3 * DEADLINE, check=False
     )
     assert run.returncode == 2
-    assert "cannot be used" in run.stdout + run.stderr
+    assert "invalid parameter of" in run.stdout + run.stderr
     assert "Traceback" not in run.stderr

@@ -85,4 +85,4 @@ def test_without_a_terminal_it_says_so(roscore: RosCore) -> None:
         NODE, env=roscore.env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False
     )
     assert run.returncode == 2
-    assert "stdin is none" in run.stderr
+    assert "stdin is not a terminal" in run.stderr

@@ -43,7 +43,7 @@ MODEL = """\
         (
             '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'
             "<jointName>weel_joint</jointName></plugin>",
-            "error: {file}:11: plugin 'joints': <jointName> names no joint of /robot: it has no 'weel_joint'; did you "
+            "error: {file}:11: plugin 'joints': <jointName> is 'weel_joint', which is not a joint of /robot; did you "
             "mean wheel_joint?",
         ),
         (

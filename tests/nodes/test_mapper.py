@@ -58,7 +58,7 @@ def place_at(seconds):
 
 start = 1000.0
 look(start)
-wait_until(lambda: place_at(start + 5.0) is not None, "the last place")
+wait_until(lambda: abs((place_at(start + 5.0) or 0) + 0.2) < 0.02, "the correction of the last scan")
 answer = {"correction": place_at(start + 5.0)}
 answer["frame"] = buffer.lookup_transform("map", "base_link", rospy.Time.from_sec(start + 5.0)).header.frame_id
 answer["saved"] = rospy.ServiceProxy("mapper/save_map", Trigger)().success

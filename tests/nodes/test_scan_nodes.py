@@ -99,5 +99,5 @@ def test_parameters_that_cannot_be_are_told(node: Start, program: str, argument:
     run = node(program, argument, "__ns:=/wrong", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output, _ = run.communicate(timeout=60)
     assert run.returncode == 2
-    assert "cannot be used" in output
+    assert "invalid parameter of" in output
     assert named in output

@@ -26,7 +26,7 @@ def test_hints_are_read(given: Any, read: TransportHints) -> None:
     [
         ("tcp", "transport hints must be a table, found str 'tcp'"),
         ({"tcpNodelay": True}, "have no 'tcpNodelay'; valid keys: transports, tcpNoDelay, maxDatagramSize"),
-        ({"tcpNoDelay": "yes"}, "tcpNoDelay is true or false, found str 'yes'"),
+        ({"tcpNoDelay": "yes"}, "tcpNoDelay must be true or false, found str 'yes'"),
         ({"transports": 5}, "transports must be a list, found int 5"),
         (
             {"transports": ["carrier pigeon"]},

@@ -110,7 +110,7 @@ BAD_REQUESTS: list[tuple[dict[str, Any], str]] = [
     ({"sdf": BALL.replace("<mass>1", "<mass>1e300")}, "/Ball/link: the mass is 1e+300 kg"),
     ({"sdf": BALL.replace("<ixx>0.1", "<ixx>1e300")}, "inertia"),
     ({"sdf": BALL.replace("<radius>0.1", "<radius>-1")}, "radius"),
-    ({"sdf": BALL.replace("<radius>0.1", "<radius>x")}, "<radius> is 'x'"),
+    ({"sdf": BALL.replace("<radius>0.1", "<radius>x")}, "<radius> has the invalid value 'x'"),
     ({"sdf": BALL.replace('name="Ball"', 'name=""')}, "name"),
     ({"name": "Platform"}, "/Platform: a model with this name exists already"),
     ({"name": "a/b"}, "the name contains '/'"),
@@ -130,7 +130,8 @@ def test_a_bad_model_is_refused_with_a_reason(simulator: Simulator, change: dict
 
 
 def test_what_cannot_be_removed_stays(simulator: Simulator) -> None:
-    for path, message in (("/Platfrom", "/Platform"), ("/Platform/link", "belongs to its model"), ("", "no object")):
+    reasons = {"/Platfrom": "/Platform", "/Platform/link": "cannot be removed on its own", "": "no object"}
+    for path, message in reasons.items():
         answer = simulator.call("delete_object", object=path)
         assert answer["success"] is False
         assert message in answer["status_message"]

@@ -171,7 +171,7 @@ def test_a_scene_that_is_not_there_is_told(sim: StartSimulator) -> None:
 
 
 def test_a_controller_that_is_not_there_is_told(controller: StartController) -> None:
-    with pytest.raises(RunError, match="cannot start the controller: no_such_program"):
+    with pytest.raises(RunError, match="cannot start the controller no_such_program"):
         controller("no_such_program")
 
 

@@ -35,7 +35,7 @@ def run_node(
     try:
         node = make()
     except (TypeError, ValueError, ZeroDivisionError) as error:
-        rospy.logfatal(f"a parameter of {rospy.get_name()} cannot be used: {error}")
+        rospy.logfatal(f"invalid parameter of {rospy.get_name()}: {error}")
         return 2
     run(node)
     return 0

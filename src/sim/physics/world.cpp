@@ -149,7 +149,6 @@ std::uint64_t World::state_hash() const {
       hash.add(dBodyGetAngularVel(body), 3);
       hash.add(static_cast<std::uint64_t>(dBodyIsEnabled(body)));
     }
-    hash.add(static_cast<std::uint64_t>(id));
     add_planar_motor(hash, model.planar_motor);
   }
   for (const auto& [id, model] : state_->models) {

@@ -298,7 +298,7 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {"<sdf version='1.9'/>", "<data-string>"},
       {"<sdf version='1.9'><world name='w'/></sdf>", "contains a <world>: expected a <model>"},
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
-      {sphere_model("heavy"), "<data-string>:3: /Ball/l: <mass> is 'heavy'"},
+      {sphere_model("heavy"), "<data-string>:3: /Ball/l: <mass> has the invalid value 'heavy'"},
       {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
       {"<robot name='r'><link name='world'/></robot>", "contains no <link> except the world"},
       {"<robot/>", "<data-string>: No name given for the robot."},

@@ -176,7 +176,7 @@ TEST(FixedJoint, HoldsALinkInTheWorld) {
 TEST(JointWithoutAxes, HasNoPosition) {
   for (const char* type : {"fixed", "ball"}) {
     const Jointed pair(joint(type, {}));
-    EXPECT_THROW(pair.world.joint_position(pair.joint), NoSuchObject) << type;
+    EXPECT_THROW(pair.world.joint_position(pair.joint), WrongObject) << type;
   }
 }
 

@@ -176,7 +176,7 @@ TEST(RemovingAnObject, ThatIsNoModelIsRefused) {
   const std::uint64_t before = simulation.state_hash();
   for (const char* path : {"/Robot/arm", "/Robot/joint", "/Robot/Sonar"}) {
     const ObjectId id = simulation.world().tree().find(path);
-    EXPECT_NE(error_of<InvalidInput>([&] { simulation.remove_model(id); }).find("belongs to its model"),
+    EXPECT_NE(error_of<WrongObject>([&] { simulation.remove_model(id); }).find("cannot be removed on its own"),
               std::string::npos);
   }
   EXPECT_EQ(simulation.state_hash(), before);

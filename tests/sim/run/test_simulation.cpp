@@ -195,7 +195,7 @@ TEST(Reading, OfNothingIsEmpty) {
 TEST(Reading, OfWhatIsNoSensorIsRefused) {
   Approach approach(0);
   const ObjectId ball = approach.simulation.world().tree().find("/Ball");
-  EXPECT_THROW(approach.simulation.read_proximity(ball), NoSuchObject);
+  EXPECT_THROW(approach.simulation.read_proximity(ball), WrongObject);
   EXPECT_THROW(approach.simulation.measure_proximity(kNoObject), NoSuchObject);
 }
 

@@ -223,7 +223,7 @@ TEST(Reading, StaysAsItIsWhileSomebodyHoldsIt) {
 
 TEST(Reading, OfALidarIsNoProximity) {
   Simulation simulation(inside_a_well());
-  EXPECT_THROW(simulation.read_proximity(simulation.world().tree().find("/Lidar")), NoSuchObject);
+  EXPECT_THROW(simulation.read_proximity(simulation.world().tree().find("/Lidar")), WrongObject);
 }
 
 }  // namespace
