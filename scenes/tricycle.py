@@ -28,7 +28,7 @@ def find_parts():
     self.sonar = sim.getObject('/FrontSonar')
     self.camera = sim.getObject('/Camera')
     self.gps = sim.getObject('/Gps')
-    self.told = {}  # time of the last published measurement of camera and GPS receiver
+    self.published = {}  # time of the last published measurement of camera and GPS receiver
     start_odometry()
     if simROS:
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
@@ -116,5 +116,5 @@ def publish_fix(now):
 
 
 def is_new(sensor):
-    before, self.told[sensor] = self.told.get(sensor), sim.getReadingTime(sensor)
-    return before != self.told[sensor]
+    before, self.published[sensor] = self.published.get(sensor), sim.getReadingTime(sensor)
+    return before != self.published[sensor]

@@ -22,10 +22,10 @@ class LazyScans {
 
  private:
   void follow_listeners() {
-    const bool heard = publisher_.getNumSubscribers() > 0;
-    if (heard == running_) return;
-    running_ = heard;
-    heard ? start_() : stop_();
+    const bool subscribed = publisher_.getNumSubscribers() > 0;
+    if (subscribed == running_) return;
+    running_ = subscribed;
+    subscribed ? start_() : stop_();
   }
 
   std::function<void()> start_;

@@ -10,14 +10,13 @@ import subprocess
 import xmlrpc.client
 from collections.abc import Iterator
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
 
-from node_support import write
-from ros_support import RosCore, built, start, stop, wait_until
+from node_support import Background, write
+from ros_support import RosCore, built, start, wait_until
 
 NODES: dict[str, list[str]] = {"sim": ["tricycle"], "pointcloud_to_laserscan": []}
 ANY_ADDRESS = "00000000"
@@ -33,7 +32,7 @@ MULTICALL = GET_PID.replace("getPid", "system.multicall")
 numbers = itertools.count()
 
 
-class Node:
+class Node(Background):
     """One of our nodes with its name, log, and listening addresses."""
 
     def __init__(self, program: str, env: dict[str, str], folder: Path, *arguments: str) -> None:
@@ -45,14 +44,6 @@ class Node:
         master: Any = xmlrpc.client.ServerProxy(env["ROS_MASTER_URI"])
         wait_until(lambda: master.lookupNode("/test", f"/{name}")[0] == 1, "the node to be listed")
         self.port: int = urlsplit(master.lookupNode("/test", f"/{name}")[2]).port or 0
-
-    def __enter__(self) -> "Node":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        stop(self.process)
 
     @property
     def output(self) -> str:

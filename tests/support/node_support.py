@@ -10,7 +10,7 @@ import textwrap
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 from ros_support import DEADLINE, RosCore, built, start, stop, wait_until
 
@@ -94,7 +94,21 @@ def endless_fall(folder: Path) -> Path:
     )
 
 
-class Node:
+class Background:
+    """A process in the background, which ends with the block."""
+
+    process: "subprocess.Popen[str]"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        stop(self.process)
+
+
+class Node(Background):
     """The node in the background; it ends with the block, and `output` holds what it wrote."""
 
     def __init__(self, env: dict[str, str], log: Path, *arguments: object) -> None:
@@ -118,14 +132,6 @@ class Node:
         """Send a signal to the node only and return its exit code."""
         self.process.send_signal(number)
         return self.process.wait(timeout=DEADLINE)
-
-    def __enter__(self) -> "Node":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        stop(self.process)
 
 
 def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:

@@ -234,10 +234,10 @@ bool MasterThread::run(Job job, std::chrono::milliseconds deadline) {
   for (;;) {
     const std::uint64_t before = shared_->answers;  // a slow machine does not mean an absent master
     const auto is_over = [&] { return *done || shared_->stopping || is_absent() || shared_->answers != before; };
-    const bool heard = shared_->changed.wait_for(lock, deadline, is_over);
+    const bool answered = shared_->changed.wait_for(lock, deadline, is_over);
     if (*done) return true;
-    if (!heard) shared_->silent_after = before;
-    if (!heard || shared_->stopping || is_absent()) return false;
+    if (!answered) shared_->silent_after = before;
+    if (!answered || shared_->stopping || is_absent()) return false;
   }
 }
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 
 import math
 
+from bubblesim.gazebo_plugins.drives.ackermann_plugin import AckermannPlugin
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
-class AckermannDrive(Plugin):
+class AckermannDrive(AckermannPlugin):
     """Parameters and defaults are those of gazebo_ros_pkgs in ROS 2; joint motors replace its PID controllers.
 
     As in Gazebo, a Twist's linear.x is the speed (m/s), its angular.z the steering angle (rad), to the left when
@@ -66,20 +67,4 @@ class AckermannDrive(Plugin):
     def _command(self, twist: Message) -> None:
         speed, angle = twist["linear"]["x"], twist["angular"]["z"]
         if self.usable("Twist", (speed, angle)):
-            self._wheels.speed = max(-self._max_speed, min(speed, self._max_speed))
-            angle = math.copysign(1.0, speed) * angle
-            self._wheels.angle = max(-self._max_steering, min(angle, self._max_steering))
-
-    def reset(self) -> None:
-        """Stop and steer straight ahead."""
-        self._wheels.reset()
-        self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._wheels.command()
-
-    def publish(self) -> None:
-        """Publish the odometry."""
-        if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.context.model))
+            self.steer(speed, math.copysign(1.0, speed) * angle)

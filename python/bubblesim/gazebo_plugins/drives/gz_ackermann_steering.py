@@ -5,16 +5,16 @@ from __future__ import annotations
 
 import math
 
+from bubblesim.gazebo_plugins.drives.ackermann_plugin import AckermannPlugin
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
-from bubblesim.gazebo_plugins.drives.odometry import motion_in_world
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 SIDES = ("left", "right")
 
 
-class GzAckermannSteering(Plugin):
+class GzAckermannSteering(AckermannPlugin):
     """A Twist's angular.z is the rate of turn (rad/s). The odometry is exact; its transform goes to /tf."""
 
     def __init__(self, context: PluginContext) -> None:
@@ -46,20 +46,5 @@ class GzAckermannSteering(Plugin):
         speed, turning = twist["linear"]["x"], twist["angular"]["z"]
         if not self.usable("Twist", (speed, turning)):
             return
-        self._wheels.speed = max(-self._max_speed, min(speed, self._max_speed))
         angle = math.atan2(self._wheelbase * turning * math.copysign(1.0, speed), abs(speed)) if turning else 0.0
-        self._wheels.angle = max(-self._max_steering, min(angle, self._max_steering))
-
-    def reset(self) -> None:
-        """Stop and steer straight ahead."""
-        self._wheels.reset()
-        self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._wheels.command()
-
-    def publish(self) -> None:
-        """Publish the odometry."""
-        if self._rate.due(self.simulation.time):
-            self._odometry.publish(motion_in_world(self.world, self.context.model))
+        self.steer(speed, angle)
