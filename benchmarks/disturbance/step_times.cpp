@@ -46,7 +46,9 @@ int main(int argc, char** argv) {
   simulation.add(ros);
   ScriptOptions script;
   script.replacements = {{"/Tricycle", argv[1]}};
-  ChildScripts scripts(simulation, &bridge, script);
+  Runner runner(simulation);
+  PythonEngine python(runner, &bridge);
+  ChildScripts scripts(python, script);
   simulation.add(scripts);
 
   std::vector<double> took;

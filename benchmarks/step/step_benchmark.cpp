@@ -62,7 +62,9 @@ int main(int argc, char** argv) {
   Simulation scripted(tricycle_without_script());
   ScriptOptions options;
   options.replacements = {{"/Tricycle", FIVE_CALLS_SCRIPT}};
-  ChildScripts scripts(scripted, nullptr, options);
+  Runner runner(scripted);
+  PythonEngine python(runner, nullptr);
+  ChildScripts scripts(python, options);
   scripted.add(scripts);
 
   // Both must simulate the same motion.

@@ -46,9 +46,30 @@ class AccessLock {
     AccessLock* lock_;
   };
 
+  /// Holds the lock during its lifetime and refuses it to other threads: they get std::logic_error instead of waiting.
+  class Claim {
+   public:
+    explicit Claim(AccessLock& lock) : lock_(lock) {
+      lock_.claimed_by_ = std::this_thread::get_id();  // first, so that only threads that wait already are let through
+      lock_.take();
+    }
+    ~Claim() {
+      lock_.claimed_by_ = std::thread::id();
+      lock_.release();
+    }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+
+   private:
+    AccessLock& lock_;
+  };
+
   bool is_mine() const { return owner_ == std::this_thread::get_id(); }
+  /// Throws std::logic_error while another thread has claimed the lock.
   void take();
-  /// Takes the lock if no thread holds it or waits for it.
+  /// Throws like take().
+  void check_not_claimed() const;
+  /// Takes the lock if no thread holds it or waits for it. Throws like take().
   bool try_take();
   void release();
 
@@ -57,6 +78,7 @@ class AccessLock {
   std::atomic<std::uint64_t> next_{0};
   std::atomic<std::uint64_t> served_{0};
   std::atomic<std::thread::id> owner_{};
+  std::atomic<std::thread::id> claimed_by_{};
   std::mutex mutex_;
   std::condition_variable changed_;
 };

@@ -4,13 +4,11 @@
 
 #include <atomic>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bubblesim/messages/bridge.hpp"
-#include "bubblesim/simulation.hpp"
+#include "bubblesim/python_system.hpp"
 
 namespace bubblesim {
 
@@ -23,39 +21,22 @@ struct ScriptOptions {
   bool lua_unsafe = false;
   /// Programs (names or paths) and folders of programs that Lua scripts may start, besides those of ROS packages.
   std::vector<std::string> allowed_programs;
-  /// Advertises Gazebo's services and topics besides the node's own.
-  bool gazebo_compat = false;
   /// Reloads a script when its file changes.
   bool watch = false;
-  /// Bag file for the messages that scripts publish and receive; empty: none.
-  std::filesystem::path record;
-  /// Lockstep: each step waits for one message on each of these topics.
-  std::vector<std::string> lockstep;
 };
 
 /// Runs the child scripts of a scene's models. A script that fails is reported on stderr once, with file:line and
 /// object path, and is disabled; the others keep running.
-class ChildScripts : public System {
+class ChildScripts final : public PythonSystem {
  public:
-  /// Starts the interpreter (at most one per process) and loads the scripts. `bridge` may be null; simROS is then false
-  /// in scripts. Throws InvalidInput for files and objects that do not exist.
-  ChildScripts(Simulation& simulation, messages::Bridge* bridge, const ScriptOptions& options);
+  /// Loads the scripts. Without a bridge, simROS is false in scripts. Throws InvalidInput for files and objects that do
+  /// not exist.
+  ChildScripts(PythonEngine& engine, const ScriptOptions& options);
+  /// Calls finish().
   ~ChildScripts() override;
 
-  void process_input() override;
-  void actuate(World& world, double time) override;
-  void sense(const World& world, double time) override;
-  void publish(const World& world, double time) override;
-  /// Calls finish() and unloads the scripts.
-  void stop() override;
-  /// Reloads the scripts from their files.
-  void start() override;
-  /// Calls sysCall_reset of all scripts.
-  void reset() override;
   /// Loads the model's script, if it has one. The script runs from the next actuation on.
   void model_added(World& world, ObjectId model) override;
-  /// Calls sysCall_cleanup of the model's scripts and ends the programs they started.
-  void model_removing(World& world, ObjectId model) override;
   /// Calls sysCall_cleanup of all scripts and ends the programs they started.
   void finish();
 
@@ -67,14 +48,11 @@ class ChildScripts : public System {
   bool output_lost() const { return output_lost_; }
 
  private:
-  friend class GazeboPlugins;  // uses the same interpreter and bridge
-  struct Python;
+  friend class NodeServices;
 
-  template <class Action>
-  void with_host(Action action);
+  void after_call() override;
 
-  Simulation& simulation_;
-  std::unique_ptr<Python> python_;
+  bool finished_ = false;
   std::atomic<int> failures_{0};
   std::atomic<int> disabled_{0};
   bool output_lost_ = false;

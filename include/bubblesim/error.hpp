@@ -45,4 +45,9 @@ struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A command to a Runner was not carried out; the text says why and what to do.
+struct NotCarriedOut : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace bubblesim

@@ -2,33 +2,17 @@
 // Gazebo plugins of robot models, as a system of a simulation.
 #pragma once
 
-#include <memory>
-
-#include "bubblesim/child_scripts.hpp"
-#include "bubblesim/simulation.hpp"
+#include "bubblesim/python_system.hpp"
 
 namespace bubblesim {
 
 /// Implements the Gazebo plugins that are named in <plugin> elements: drives models and publishes their sensors. An
-/// unknown plugin, or one with wrong parameters, is reported on stderr; its model runs without it.
-class GazeboPlugins final : public System {
+/// unknown plugin, or one with wrong parameters, is reported on stderr; its model runs without it. Without a bridge it
+/// only reports. Add it before the scripts: scripts may then override the plugins' commands, and receive their messages
+/// in the same step.
+class GazeboPlugins final : public PythonSystem {
  public:
-  /// Uses the interpreter and bridge of the scripts. The bridge must not be null, and the scripts must outlive this
-  /// object. Add it before the scripts: scripts may then override the plugins' commands, and receive their messages in
-  /// the same step.
-  GazeboPlugins(Simulation& simulation, const ChildScripts& scripts);
-  ~GazeboPlugins() override;
-
-  void actuate(World& world, double time) override;
-  void publish(const World& world, double time) override;
-  void reset() override;
-  void model_added(World& world, ObjectId model) override;
-  void model_removing(World& world, ObjectId model) override;
-
- private:
-  struct Python;
-  Simulation& simulation_;
-  std::unique_ptr<Python> python_;
+  explicit GazeboPlugins(PythonEngine& engine);
 };
 
 }  // namespace bubblesim

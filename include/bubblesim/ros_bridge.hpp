@@ -2,6 +2,7 @@
 // The simulator as a ROS 1 node: transfers the messages of child scripts, publishes /clock, provides ROS time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,12 +12,22 @@
 
 namespace bubblesim {
 
+struct StepAnswer {
+  std::string problem;  ///< why not all steps were run; empty if they were
+  double time = 0;      ///< s, simulation time after the last step
+};
+
 struct RosBridgeOptions {
   /// Name of the node, unless the command line has `__name:=other`.
   std::string node_name = "sim_ros_interface";
   /// Called from process_input(): with true when the service ~pause is called, with false for ~unpause (both
   /// std_srvs/Empty). If empty, the services are not advertised.
   std::function<void(bool paused)> on_pause;
+  /// Called on another thread when the service ~step (bubblesim_msgs/Step) is called; returns when the steps are done.
+  /// If empty, the service is not advertised.
+  std::function<StepAnswer(std::uint32_t steps)> on_step;
+  /// Called on another thread when process_input() has something to deliver.
+  std::function<void()> on_arrival;
   /// If another node on the master has the same name, take over the name, which ends that node. If false, such a name
   /// is an error.
   bool replace = false;
@@ -81,9 +92,6 @@ class RosBridge final : public messages::Bridge {
   void process_input() override;
   messages::BridgeTime now() const override;
   bool clock_reaches_others() const override;
-
-  /// Waits until process_input() has something to deliver, or for `timeout` seconds.
-  void wait_for_arrival(double timeout);
 
   /// Call once per step. Publishes the simulation time [s] on /clock and makes now() return it under /use_sim_time.
   /// While a script advertises /clock itself, does not publish.

@@ -2,10 +2,8 @@
 // A running scene: the world, its sensors, the clock, and the simulation step.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -40,8 +38,6 @@ class System {
   virtual void model_removing(World& world, ObjectId model);
 };
 
-enum class RunState { kStopped, kPaused, kRunning, kStopping };  // stopping: in the last step
-
 /// A thread that uses a simulation while another thread steps it must hold world().access(). step() holds it except
 /// during process_input(). The functions that change what is simulated take it themselves; the others do not.
 class Simulation {
@@ -53,7 +49,7 @@ class Simulation {
   void add(System& system);
 
   /// Runs one step of time_step() seconds. On divergence, the last states are written to a file and the scene's
-  /// on_divergence is applied; pausing throws Diverged. Models that fell below the scene are removed. Threads that step
+  /// on_divergence is applied; kPause throws Diverged. Models that fell below the scene are removed. Threads that step
   /// take turns. Throws std::logic_error when a system calls it.
   void step();
   /// Runs the part of a step that also runs while paused.
@@ -84,33 +80,9 @@ class Simulation {
   const SceneDescription& scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Requests to the thread that runs the steps, which executes them in order in carry_out_requests(); step() ignores
-  /// them. Thread-safe. A request that does not fit the state, such as a pause of a stopped simulation, does nothing.
-  void start();  ///< from the start of the scene; after a pause: continues
-  void pause();
-  void stop();  ///< one more step, then resets world and time
-  void end() { ending_ = true; }
-  /// In synchronous mode each step waits for one trigger. Early triggers are kept until a stop. step() does not wait
-  /// for triggers. Thread-safe.
-  void set_synchronous(bool synchronous);
-  void trigger_step();
-  /// From now on a stop ends the simulation: the world is not reset after the last step.
-  void end_at_stop() { ends_at_stop_ = true; }
-  bool ends_at_a_stop() const { return ends_at_stop_; }
-
-  /// Executes the requests; call it between steps. Throws like step().
-  void carry_out_requests();
-  bool has_requests() const;
-  /// Whether a requested stop is still pending. Thread-safe.
-  bool stop_is_due() const;
-  /// Whether the thread that runs the steps should run one now.
-  bool step_is_due() const;
-  /// Runs step() and uses up a trigger.
-  void run_step();
-  /// Initially kRunning.
-  RunState state() const { return state_; }
-  /// Whether the thread that runs the steps should end.
-  bool ending() const { return ending_; }
+  /// Call stop() and start() of the systems; for a Runner.
+  void stop_systems();
+  void start_systems();
 
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -141,12 +113,6 @@ class Simulation {
 
  private:
   struct SensorSlot;
-  enum class Request { kStart, kPause, kStop };
-
-  void request(Request wanted);
-  void carry_out(Request wanted);
-  void forget_triggers();
-
   void advance_physics(double substep);
   void handle(const Diverged& divergence);
   void remove_model_now(ObjectId model);
@@ -172,13 +138,6 @@ class Simulation {
   double time_before_ = 0;  // s
   AccessLock stepping_;     // held by step()
   bool in_step_ = false;    // after its process_input(); guarded by world_.access()
-  std::atomic<RunState> state_{RunState::kRunning};
-  std::atomic<bool> ending_{false};
-  bool ends_at_stop_ = false;
-  mutable std::mutex requests_mutex_;  // guards the members below
-  std::vector<Request> requests_;
-  bool synchronous_ = false;
-  std::uint64_t triggers_ = 0;  // not used yet
 };
 
 }  // namespace bubblesim

@@ -55,6 +55,9 @@ class World {
   /// The tree of the current objects. A reset invalidates the reference; handles remain valid.
   const SceneTree& tree() const;
 
+  /// Another number after each addition and removal of a model.
+  std::uint64_t revision() const { return revision_; }
+
   /// Adds a model at the pose of its description. Throws SceneError with all problems of the model, also when its name
   /// is taken, and Diverged after a divergence.
   ObjectId add_model(ModelDescription model);
@@ -157,6 +160,7 @@ class World {
 
   std::unique_ptr<State, Discard> state_;
   mutable AccessLock access_;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace bubblesim

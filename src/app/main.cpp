@@ -4,31 +4,31 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cinttypes>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <memory>
-#include <thread>
+#include <mutex>
+#include <utility>
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/gazebo_plugins.hpp"
+#include "bubblesim/node_services.hpp"
+#include "bubblesim/observers.hpp"
 #include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_system.hpp"
+#include "bubblesim/runner.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "options.hpp"
 #include "output.hpp"
-#include "pacer.hpp"
-#include "run_meter.hpp"
 #include "stop_signal.hpp"
 
 namespace bubblesim::app {
 namespace {
-
-constexpr double kIdlePeriod = 0.02;  // s, longest wait for input
 
 /// Every step allocates and frees images and point clouds. Keep that memory in the process: getting it from the kernel
 /// page by page costs more than copying the message.
@@ -38,45 +38,9 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 * kMegabyte);
 }
 
-bool time_is_up(const Options& options, const Simulation& simulation) {
-  // The tolerance keeps rounding from adding a step.
-  return options.until && simulation.time() > *options.until - 1e-6 * simulation.time_step();
-}
-
-void wait(RosBridge* bridge) {
-  if (bridge != nullptr) return bridge->wait_for_arrival(kIdlePeriod);
-  std::this_thread::sleep_for(std::chrono::duration<double>(kIdlePeriod));
-}
-
 /// For people who watch the run; programs use /diagnostics.
-void summarize(RunMeter& meter) {
-  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s\n", meter.summary().c_str());
-}
-
-void run(const Options& options, Simulation& simulation, RosBridge* bridge, const ChildScripts& scripts,
-         RunMeter& meter) {
-  Pacer pacer(options.speed);
-  while (!stop_requested() && !time_is_up(options, simulation)) {
-    simulation.carry_out_requests();
-    meter.note(simulation, scripts);
-    if (simulation.ending()) break;
-    if (simulation.state() != RunState::kRunning) pacer.restart();
-    if (!simulation.step_is_due()) {
-      simulation.process_input();
-      if (!simulation.step_is_due() && !simulation.has_requests()) wait(bridge);
-    } else if (pacer.wait_for(simulation.time())) {
-      try {
-        meter.run_step(simulation);
-      } catch (const Diverged& error) {
-        if (simulation.ends_at_a_stop()) throw;  // nothing can reset it
-        std::fprintf(stderr, "error: %s; paused until reset or stopped\n", error.what());
-        meter.fail(error.what());
-      }
-    } else {
-      simulation.process_input();  // also in a slow simulation
-    }
-    if (options.strict && scripts.failures() > 0) return;
-  }
+void summarize(Runner& runner) {
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s\n", runner.summary().c_str());
 }
 
 bool has_plugins(const SceneDescription& scene) {
@@ -91,54 +55,129 @@ bool has_plugins(const SceneDescription& scene) {
          });
 }
 
+/// Calls a function at the end of its scope.
+class Finally {
+ public:
+  explicit Finally(std::function<void()> action) : action_(std::move(action)) {}
+  ~Finally() { action_(); }
+  Finally(const Finally&) = delete;
+  Finally& operator=(const Finally&) = delete;
+
+ private:
+  const std::function<void()> action_;
+};
+
+/// The numbers of failed scripts, for threads that may outlive the scripts.
+class ScriptCounts {
+ public:
+  void watch(const ChildScripts* scripts) {
+    const std::lock_guard lock(mutex_);
+    scripts_ = scripts;
+  }
+  int failures() const {
+    const std::lock_guard lock(mutex_);
+    return scripts_ != nullptr ? scripts_->failures() : 0;
+  }
+  int disabled() const {
+    const std::lock_guard lock(mutex_);
+    return scripts_ != nullptr ? scripts_->disabled() : 0;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  const ChildScripts* scripts_ = nullptr;
+};
+
+RunnerOptions runner_options(const Options& options, const ScriptCounts& counts) {
+  RunnerOptions how;
+  how.speed = options.speed;
+  how.initial = options.paused ? RunState::kPaused : RunState::kRunning;
+  if (options.until) how.until = *options.until;
+  how.ends_at_stop = !options.ros || options.until;  // nothing can or should start it again
+  how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
+  how.on_divergence = [](const std::string& why) {
+    std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
+  };
+  return how;
+}
+
+RosBridgeOptions ros_options(const Options& options, Runner& runner, const ScriptCounts& counts) {
+  RosBridgeOptions how;
+  how.on_pause = [&runner](bool paused) { paused ? runner.pause() : runner.start(); };
+  how.on_step = [&runner](std::uint32_t steps) -> StepAnswer {
+    try {
+      return {"", runner.step(steps).get()};
+    } catch (const std::exception& error) {
+      return {error.what(), runner.frame()->time};
+    }
+  };
+  how.on_arrival = [&runner] { runner.wake(); };
+  how.is_ending = stop_requested;
+  how.replace = options.replace;
+  how.on_shutdown = [](const std::string& why) {
+    std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
+    request_stop();
+  };
+  how.take_report = [&runner, &counts] {
+    RunReport report = runner.take_report();
+    report.script_errors = counts.failures();
+    report.disabled_scripts = counts.disabled();
+    return report;
+  };
+  return how;
+}
+
 int run_scene(const Options& options, int& argc, char** argv) {
   Simulation simulation(load_scene(options.scene, options.arguments), options.seed);
   watch_stop_signals();  // before this there is nothing to shut down
-  if (options.paused) simulation.pause();
-  if (!options.ros || options.until) simulation.end_at_stop();  // nothing can or should start it again
+  ScriptCounts counts;
+  Runner runner(simulation, runner_options(options, counts));
 
-  const auto meter = std::make_shared<RunMeter>(simulation, options.speed);
   std::unique_ptr<RosBridge> bridge;
   std::unique_ptr<RosSystem> ros;
   if (options.ros) {
-    RosBridgeOptions ros_options;
-    ros_options.on_pause = [&simulation](bool paused) { paused ? simulation.pause() : simulation.start(); };
-    ros_options.is_ending = stop_requested;
-    ros_options.replace = options.replace;
-    ros_options.on_shutdown = [](const std::string& why) {
-      std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
-      request_stop();
-    };
-    ros_options.take_report = [meter] { return meter->take(); };
-    bridge = std::make_unique<RosBridge>(argc, argv, ros_options);
+    bridge = std::make_unique<RosBridge>(argc, argv, ros_options(options, runner, counts));
     ros = std::make_unique<RosSystem>(*bridge, simulation);
     simulation.add(*ros);
   }
+  const Finally end_of_commands([&runner] { runner.finish(); });  // before the bridge, whose threads wait for them
   if (stop_requested()) return kFine;
   auto guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge] {
     if (bridge) bridge->leave();
   });
-  ChildScripts scripts(simulation, bridge.get(),
-                       {options.child_scripts, options.script_paths, options.lua_unsafe, options.allowed_programs,
-                        options.gazebo_compat, options.watch, options.record, options.lockstep});
-  std::unique_ptr<GazeboPlugins> devices;
-  if (bridge || has_plugins(simulation.scene())) {  // without ROS, the skipped plugins are reported
-    devices = std::make_unique<GazeboPlugins>(simulation, scripts);
-    simulation.add(*devices);
+  PythonEngine python(runner, bridge.get());
+  std::unique_ptr<Observers> observers;
+  if (bridge && (!options.record.empty() || !options.lockstep.empty())) {
+    observers = std::make_unique<Observers>(python, ObserverOptions{options.record, options.lockstep});
   }
+  std::unique_ptr<GazeboPlugins> plugins;
+  if (bridge || has_plugins(simulation.scene())) {  // without ROS, the skipped plugins are reported
+    plugins = std::make_unique<GazeboPlugins>(python);
+    simulation.add(*plugins);
+  }
+  ChildScripts scripts(python, {options.child_scripts, options.script_paths, options.lua_unsafe,
+                                options.allowed_programs, options.watch});
   simulation.add(scripts);
+  std::unique_ptr<NodeServices> services;
+  if (bridge) {
+    services = std::make_unique<NodeServices>(python, scripts, options.gazebo_compat);
+    simulation.add(*services);
+  }
+  if (observers) simulation.add(*observers);
+  counts.watch(&scripts);
+  const Finally end_of_scripts([&counts] { counts.watch(nullptr); });
 
   try {
-    run(options, simulation, bridge.get(), scripts, *meter);
+    runner.run();
   } catch (const Diverged& error) {
-    meter->fail(error.what());
+    runner.report_failure(error.what());
     if (bridge) bridge->publish_diagnostics();
-    summarize(*meter);
+    summarize(runner);
     throw;
   }
   scripts.finish();
   guard.reset();
-  summarize(*meter);
+  summarize(runner);
   if (options.state_hash) std::printf("%016" PRIx64 "\n", simulation.state_hash());
   // With --watch, a script that was repaired does not count as failed.
   if ((options.watch ? scripts.disabled() : scripts.failures()) > 0) return kScriptFailed;

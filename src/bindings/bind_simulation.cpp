@@ -138,8 +138,9 @@ void bind_errors(py::module_& module) {
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
   static py::exception<WrongObject> wrong_object(module, "WrongObject", PyExc_ValueError);
   static py::exception<Diverged> diverged(module, "Diverged", PyExc_RuntimeError);
-  for (const py::handle error :
-       {py::handle(scene_error), py::handle(no_such_object), py::handle(wrong_object), py::handle(diverged)}) {
+  static py::exception<NotCarriedOut> not_carried_out(module, "NotCarriedOut", PyExc_RuntimeError);
+  for (const py::handle error : {py::handle(scene_error), py::handle(no_such_object), py::handle(wrong_object),
+                                 py::handle(diverged), py::handle(not_carried_out)}) {
     error.attr("__module__") = "bubblesim";  // where users import it from
   }
   // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 requires this signature
@@ -154,6 +155,8 @@ void bind_errors(py::module_& module) {
       wrong_object(error.what());
     } catch (const Diverged& error) {
       diverged(error.what());
+    } catch (const NotCarriedOut& error) {
+      not_carried_out(error.what());
     }
   });
 }
@@ -175,12 +178,6 @@ void bind_simulation(py::module_& module) {
       .def_property_readonly(
           "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
       .def_readonly("is_static", &CollisionShape::is_static);
-
-  py::enum_<RunState>(module, "RunState", "Run state of a simulation.")
-      .value("STOPPED", RunState::kStopped)
-      .value("PAUSED", RunState::kPaused)
-      .value("RUNNING", RunState::kRunning)
-      .value("STOPPING", RunState::kStopping, "In the last step.");
 
   py::class_<Simulation> simulation(module, "Simulation", R"(A running scene.
 
@@ -233,16 +230,6 @@ Equal seeds and equal commands give bitwise equal states in every process.
           "is_model_file", [](const Simulation& s) { return s.scene().is_model_file; },
           "Whether the scene is a single model, placed on a ground plane.")
       .def_property_readonly("scene_file", [](const Simulation& s) { return s.scene().file; })
-      .def("start", &Simulation::start, "Request to start, or to resume after a pause.")
-      .def("pause", &Simulation::pause, "Request to pause.")
-      .def("stop", &Simulation::stop, "Request to stop and go back to the start of the scene.")
-      .def("end", &Simulation::end, "Request to end the simulation.")
-      .def("set_synchronous", &Simulation::set_synchronous, py::arg("synchronous"),
-           "Request to run one step per trigger_step(), and no others.")
-      .def("trigger_step", &Simulation::trigger_step)
-      .def_property_readonly("state", &Simulation::state)
-      .def_property_readonly("has_requests", &Simulation::has_requests, "Whether there are pending requests.")
-      .def_property_readonly("stop_is_due", &Simulation::stop_is_due, "Whether a requested stop is pending.")
       .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
                              "The same objects by handle, as child scripts use them.");
   Guarded(simulation)

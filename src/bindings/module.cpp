@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, core) {
   bind_sensors(core);
   bind_objects(core);
   bind_simulation(core);
+  bind_runner(core);
 }

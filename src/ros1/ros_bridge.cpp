@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bubblesim/messages/registry.hpp"
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
 #include "master/node_name.hpp"
@@ -25,6 +26,7 @@
 #include "peers/refused_peers.hpp"
 #include "ros_clock.hpp"
 #include "services/services.hpp"
+#include "services/step_service.hpp"
 #include "status/counting_queue.hpp"
 #include "status/diagnostics.hpp"
 #include "status/say.hpp"
@@ -53,11 +55,12 @@ struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
   void offer_pause_service(const std::string& name, bool paused);
+  void offer_step_service();
   std::string refusal();
   void on_connected();
 
   const RosBridgeOptions options;
-  const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>();
+  const std::shared_ptr<Arrivals> arrivals = std::make_shared<Arrivals>(options.on_arrival);
   NotifyingQueue queue{arrivals};
   CallbackGuard guard;
   bool processing_input = false;
@@ -78,6 +81,7 @@ struct RosBridge::Impl {
   Topics topics{master, publisher_check, queue, guard};
   Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
+  std::unique_ptr<StepService> step_service;
   Parameters parameters{master};
 
   mutable std::mutex urgent_mutex;  // guards urgent
@@ -104,6 +108,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
   }
+  if (options.on_step) offer_step_service();
   master.start();
 }
 
@@ -126,6 +131,15 @@ void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) 
   }));
 }
 
+void RosBridge::Impl::offer_step_service() {
+  const ServiceType* type = messages::find_service("bubblesim_msgs/Step");
+  if (type == nullptr) return;  // it was taken off meta/services.txt
+  step_service = std::make_unique<StepService>(options.on_step);
+  own_servers.push_back(services.add_server_of(
+      step_service->queue(), next_id++, "~step", *type,
+      [service = step_service.get()](messages::WireView request) { return service->answer(request); }));
+}
+
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
   init_node(argc, argv, options.node_name);
   impl_ = std::make_unique<Impl>(std::move(options));
@@ -135,6 +149,8 @@ RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
 }
 
 RosBridge::~RosBridge() {
+  impl_->arrivals->silence();
+  if (impl_->step_service) impl_->step_service->stop();
   // Here, not where roscpp releases them: callbacks of scripts must be destroyed on the simulation thread.
   impl_->topics.silence();
   impl_->services.silence();
@@ -240,8 +256,6 @@ void RosBridge::process_input() {
   impl_->services.serve();
   impl_->guard.rethrow();
 }
-
-void RosBridge::wait_for_arrival(double timeout) { impl_->arrivals->wait(std::chrono::duration<double>(timeout)); }
 
 BridgeTime RosBridge::now() const { return impl_->clock.now(); }
 

@@ -18,7 +18,7 @@ from bubblesim.output import write_line
 
 
 class GazeboPlugins:
-    """Created by the simulator's node, which calls ``actuate`` and ``publish`` in each step and reports new models."""
+    """Created by the simulator's node, which calls ``actuate`` and ``publish`` in each step and reports models."""
 
     def __init__(self, simulation: Any, bridge: Any) -> None:
         """Create the plugins of the models in the world."""
@@ -34,9 +34,9 @@ class GazeboPlugins:
         # A robot file loaded without a world is treated as gazebo_ros spawns it, with topics at the root.
         namespace = "" if simulation.is_model_file else None
         for model in simulation.world.models:
-            self.add_model(model, namespace)
+            self.model_added(model, namespace)
 
-    def add_model(self, model: int, namespace: str | None = None) -> None:
+    def model_added(self, model: int, namespace: str | None = None) -> None:
         """Create the plugins of a model added to the world; ``namespace`` is the default of their namespaces.
 
         Without a bridge none are created, but unsupported plugins are still reported.
@@ -57,7 +57,7 @@ class GazeboPlugins:
             elif sensor not in with_plugin and publishes_as_gz(world, sensor, systems):
                 self._make(GzSensor, NoPlugin(world.path(sensor), "topic"), sensor, model, namespace)
 
-    def remove_model(self, model: int) -> None:
+    def model_removing(self, model: int) -> None:
         """Close the plugins of a model that is about to be removed."""
         leaving = [plugin for plugin in self._plugins if plugin.context.model == model]
         self._plugins = [plugin for plugin in self._plugins if plugin.context.model != model]

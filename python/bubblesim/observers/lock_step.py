@@ -17,7 +17,6 @@ _SETTLING_TIME = 0.4
 # A node on simulated time also subscribes to /clock, and may detect a timeout if its first clock message is late.
 # Without a subscriber of /clock, wait longer for one.
 _SETTLING_TIME_WITHOUT_CLOCK = 2.0
-_POLL = 0.0002  # s
 
 
 class LockStep:
@@ -27,21 +26,21 @@ class LockStep:
     subscriber of a topic that scripts publish, and one of /clock.
     """
 
-    def __init__(self, topics: list[str], bridge: Any, simulation: Any) -> None:
-        """Switch the simulation to triggered steps."""
+    def __init__(self, topics: list[str], bridge: Any, runner: Any) -> None:
+        """Make the steps of the runner wait."""
         self._topics = {topic if topic.startswith("/") else f"/{topic}" for topic in topics}
         self._bridge = bridge
-        self._simulation = simulation
+        self._runner = runner
+        self._simulation = runner.simulation
         self._subscribers: dict[str, int] = {}  # by topic
         self._publishers: list[int] = []  # of all topics
         self._started = False
         self._pending: set[str] = set()
         self._since = time.monotonic()
-        self._triggered = False
         self._warned = False
         self._connections: object = None
         self._settled_at = 0.0
-        simulation.set_synchronous(True)
+        runner.set_gate(self.is_ready, self.timeout_reason)
 
     def advertised(self, publisher: int) -> None:
         """Store the publisher, whose subscribers are checked before the second step."""
@@ -61,13 +60,10 @@ class LockStep:
         self._pending.discard(topic)
 
     def input_processed(self) -> None:
-        """Trigger the next step if it may start; warn once if it waits for too long."""
-        if self._simulation.state != RunState.RUNNING or self._triggered:
+        """Warn once if the next step waits for too long."""
+        if self._warned or self._runner.state != RunState.RUNNING or time.monotonic() - self._since <= _TIMEOUT:
             return
-        if self.is_ready():
-            self._triggered = True
-            self._simulation.trigger_step()
-        elif not self._warned and time.monotonic() - self._since > _TIMEOUT:
+        if not self.is_ready():
             self._warned = True
             write_line(sys.stderr, f"warning: {self.timeout_reason()}")
 
@@ -85,16 +81,6 @@ class LockStep:
         if not self._started:
             return self._connected()
         return not self._pending
-
-    def wait(self) -> str:
-        """Wait for the messages; return the reason of a timeout, or "". Call it only where input is processed."""
-        end = time.monotonic() + _TIMEOUT
-        while not self.is_ready():
-            if time.monotonic() > end:
-                return self.timeout_reason()
-            time.sleep(_POLL)
-            self._bridge.process_input()
-        return ""
 
     def timeout_reason(self) -> str:
         """Return which messages are missing, and the likely reason."""
@@ -117,7 +103,7 @@ class LockStep:
         self._started = started
         self._pending = set(self._topics)
         self._since = time.monotonic()
-        self._triggered = self._warned = False
+        self._warned = False
 
     def _connected(self) -> bool:
         received = {topic: self._bridge.has_publisher(id_) for topic, id_ in self._subscribers.items()}

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, Protocol
 
 
@@ -79,20 +78,3 @@ class ObservedBridge:
         for observer in self.observers:
             observer.subscribed(topic, subscriber)
         return subscriber
-
-
-def observed(bridge: Any, simulation: Any, record: str, lockstep: list[str]) -> ObservedBridge:
-    """Return the bridge with the observers given by the node's options.
-
-    :param record: file of the bag to write, empty for none.
-    :param lockstep: topics that each step waits for; see LockStep.
-    """
-    from bubblesim.observers.bag_recorder import BagRecorder
-    from bubblesim.observers.lock_step import LockStep
-
-    observers: list[Observer] = []
-    if record:
-        observers.append(BagRecorder(Path(record), bridge))
-    if lockstep:
-        observers.append(LockStep(lockstep, bridge, simulation))
-    return ObservedBridge(bridge, observers, keeps_all=bool(record))

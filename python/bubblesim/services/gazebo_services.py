@@ -28,8 +28,8 @@ class GazeboServices:
         self._bridge = host.bridge
         self._simulation = host.simulation
         self._world = host.simulation.world
-        self._advertise("pause_physics", "std_srvs/Empty", answering_empty(self._simulation.pause))
-        self._advertise("unpause_physics", "std_srvs/Empty", answering_empty(self._simulation.start))
+        self._advertise("pause_physics", "std_srvs/Empty", answering_empty(lambda: host.runner.pause(wait=False)))
+        self._advertise("unpause_physics", "std_srvs/Empty", answering_empty(lambda: host.runner.start(wait=False)))
         for name, action in (("reset_world", self._simulation.reset_world), ("reset_simulation", host.restart)):
             self._bridge.set_priority(self._advertise(name, "std_srvs/Empty", answering_empty(action)))
         for name, kind, answer in (

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from bubblesim.observers.lock_step import LockStep
-from bubblesim.observers.observed_bridge import ObservedBridge, Observer
 from bubblesim.scripting.host.host import ScriptHost
 from bubblesim.services.gazebo_services import GazeboServices
 from bubblesim.services.gazebo_topics import GazeboTopics
@@ -12,10 +10,9 @@ from bubblesim.services.model_services import ModelServices
 from bubblesim.services.object_services import ObjectServices
 from bubblesim.services.reset_services import advertise_reset_services
 from bubblesim.services.simulation_topics import SimulationTopics
-from bubblesim.services.step_service import advertise_step_service
 
 
-class Control:
+class NodeServices:
     """Created by the simulator's node, which calls ``process_input`` and ``publish`` in each step."""
 
     def __init__(self, host: ScriptHost, *, gazebo_compat: bool) -> None:
@@ -23,30 +20,18 @@ class Control:
         ObjectServices(host.simulation, host.bridge)  # referenced by its callbacks
         ModelServices(host)
         advertise_reset_services(host.bridge, host)
-        self._observers: list[Observer] = host.bridge.observers if isinstance(host.bridge, ObservedBridge) else []
-        lock_step = next((observer for observer in self._observers if isinstance(observer, LockStep)), None)
-        advertise_step_service(host.bridge, host.simulation, lock_step)
-        self._topics = SimulationTopics(host.bridge, host.simulation)
+        self._topics = SimulationTopics(host.bridge, host.runner)
         self._gazebo: GazeboTopics | None = None
         if gazebo_compat:
             GazeboServices(host)
             self._gazebo = GazeboTopics(host.bridge, host.simulation.world)
 
     def process_input(self) -> None:
-        """Publish the state and notify the observers after input was processed."""
+        """Publish the state after input was processed."""
         self._topics.publish_state()
-        for observer in self._observers:
-            observer.input_processed()
 
     def publish(self) -> None:
         """Publish at the end of a step, after all other messages of the step."""
         if self._gazebo is not None:
             self._gazebo.publish()
         self._topics.publish_step_done()
-        for observer in self._observers:
-            observer.step_done()
-
-    def close(self) -> None:
-        """Close the observers after all scripts have ended."""
-        for observer in self._observers:
-            observer.close()

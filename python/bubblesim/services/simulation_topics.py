@@ -21,15 +21,15 @@ _STATES = {RunState.STOPPED: 0, RunState.RUNNING: 1, RunState.STOPPING: 1, RunSt
 class SimulationTopics:
     """Advertised during the lifetime of the bridge."""
 
-    def __init__(self, bridge: Any, simulation: Any) -> None:
+    def __init__(self, bridge: Any, runner: Any) -> None:
         """Subscribe and advertise."""
         self._bridge = bridge
-        self._simulation = simulation
-        self._subscribe("/startSimulation", lambda _: simulation.start())
-        self._subscribe("/pauseSimulation", lambda _: simulation.pause())
-        self._bridge.set_priority(self._subscribe("/stopSimulation", lambda _: simulation.stop()))
-        self._subscribe("/enableSyncMode", simulation.set_synchronous)
-        self._subscribe("/triggerNextStep", lambda _: simulation.trigger_step(), _UNLIMITED)
+        self._runner = runner
+        self._subscribe("/startSimulation", lambda _: runner.start(wait=False))
+        self._subscribe("/pauseSimulation", lambda _: runner.pause(wait=False))
+        self._bridge.set_priority(self._subscribe("/stopSimulation", lambda _: runner.stop(wait=False)))
+        self._subscribe("/enableSyncMode", lambda enable: runner.set_synchronous(enable, wait=False))
+        self._subscribe("/triggerNextStep", lambda _: runner.trigger_step(wait=False), _UNLIMITED)
         self._state = self._advertise("/simulationState", "std_msgs/Int32", _QUEUE)
         self._time = self._advertise("/simulationTime", "std_msgs/Float32", _QUEUE_OF_STEPS)
         self._step_done = self._advertise("/simulationStepDone", "std_msgs/Bool", _QUEUE_OF_STEPS)
@@ -49,11 +49,11 @@ class SimulationTopics:
     def publish_state(self) -> None:
         """Publish the state; called before each step, and regularly without steps."""
         if self._bridge.wants_messages(self._state):
-            self._bridge.publish(self._state, {"data": _STATES[self._simulation.state]})
+            self._bridge.publish(self._state, {"data": _STATES[self._runner.state]})
 
     def publish_step_done(self) -> None:
         """Publish time and step done; called at the end of a step, after all other messages of the step."""
         if self._bridge.wants_messages(self._time):
-            self._bridge.publish(self._time, {"data": self._simulation.time})
+            self._bridge.publish(self._time, {"data": self._runner.simulation.time})
         if self._bridge.wants_messages(self._step_done):
             self._bridge.publish(self._step_done, {"data": True})

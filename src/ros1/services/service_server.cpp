@@ -5,6 +5,7 @@
 #include <ros/service_manager.h>
 #include <ros/service_publication.h>
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -79,11 +80,11 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
  private:
   std::shared_ptr<ServiceCallback> callback_;
   CallbackGuard& guard_;
-  int answering_ = 0;  // answers in progress: more than one if a service calls itself
+  std::atomic<int> answering_{0};  // answers in progress: more than one if a service calls itself
 };
 
 ServiceServer::ServiceServer(std::string name, const messages::ServiceType& type, ServiceCallback callback,
-                             RequestQueue& queue, CallbackGuard& guard)
+                             ros::CallbackQueueInterface& queue, CallbackGuard& guard)
     : name_(std::move(name)),
       type_(type),
       responder_(boost::make_shared<Responder>(std::move(callback), queue, guard)) {}

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "services/request_queue.hpp"
 #include "status/counting_queue.hpp"
 #include "topics/callback_guard.hpp"
 
@@ -19,7 +18,7 @@ class ServiceServer {
  public:
   /// Callbacks run when `queue` is served; `guard` keeps their exceptions except ServiceError.
   ServiceServer(std::string name, const messages::ServiceType& type, messages::ServiceCallback callback,
-                RequestQueue& queue, CallbackGuard& guard);
+                ros::CallbackQueueInterface& queue, CallbackGuard& guard);
 
   const std::string& name() const { return name_; }
   const messages::ServiceType& type() const { return type_; }

@@ -59,12 +59,19 @@ Services::~Services() { retired_.clear(); }
 
 std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
                                                     messages::ServiceCallback callback) {
+  return add_server_of(*queue_, id, name, type, std::move(callback));
+}
+
+std::shared_ptr<ServiceServer> Services::add_server_of(ros::CallbackQueueInterface& queue, EndpointId id,
+                                                       const std::string& name, const ServiceType& type,
+                                                       messages::ServiceCallback callback) {
   const std::string resolved = resolve_name(name, "service");
   if (find_own(resolved)) {
     throw std::invalid_argument("service '" + resolved + "' is already advertised by this node");
   }
   take_off_leaving();  // before a service of the same name is registered
-  auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), *queue_, guard_);
+  auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), queue, guard_);
+  if (&queue != queue_.get()) answered_elsewhere_.insert(resolved);
   servers_.emplace(id, server);
   return server;
 }
@@ -124,6 +131,10 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
   const auto [name, type] = *find_endpoint(clients_, client, "service client")->second;
   if (!(timeout > 0)) throw std::invalid_argument("the timeout of a service call must be positive");
   if (const std::shared_ptr<ServiceServer> own = find_own(name)) {
+    if (answered_elsewhere_.count(name) > 0) {
+      throw ServiceError("service '" + name +
+                         "' is for other nodes: its answer would wait for the step of this script");
+    }
     if (own->type().md5 != type.md5) throw other_type(name, own->type().name, own->type().md5, type);
     try {
       return own->answer(WireView(request.data(), request.size()));

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -33,6 +34,10 @@ class Services {
   /// Throws for a name that is already advertised. The new server is not registered yet.
   std::shared_ptr<ServiceServer> add_server(messages::EndpointId id, const std::string& name,
                                             const messages::ServiceType& type, messages::ServiceCallback callback);
+  /// Adds a server whose requests are answered by another thread, which serves `queue`. Scripts cannot call it.
+  std::shared_ptr<ServiceServer> add_server_of(ros::CallbackQueueInterface& queue, messages::EndpointId id,
+                                               const std::string& name, const messages::ServiceType& type,
+                                               messages::ServiceCallback callback);
   /// On the master thread.
   void register_server(ServiceServer& server);
   void add_client(messages::EndpointId id, const std::string& name, const messages::ServiceType& type);
@@ -69,6 +74,7 @@ class Services {
   const std::shared_ptr<std::atomic<int>> calls_ = std::make_shared<std::atomic<int>>(0);  // running threads
   int nested_ = 0;  // waiting calls, nested in each other
   EndpointTable<ServiceServer> servers_;
+  std::set<std::string> answered_elsewhere_;  // names of servers of other threads
   EndpointTable<Client> clients_;
   std::vector<std::shared_ptr<ServiceServer>> leaving_;  // removed in their own callbacks, which have not returned yet
   std::deque<ros::ServicePublicationPtr> retired_;  // of the master thread; see ServiceServer::unregister_from_master()

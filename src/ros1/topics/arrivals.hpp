@@ -3,37 +3,31 @@
 
 #include <ros/callback_queue.h>
 
-#include <chrono>
-#include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
 
 namespace bubblesim {
 
-/// Lets the simulation thread sleep until input arrives.
+/// Tells the simulation thread that input has arrived. Thread-safe.
 class Arrivals {
  public:
-  /// Thread-safe.
-  void note() {
-    {
-      const std::lock_guard lock(mutex_);
-      some_ = true;
-    }
-    changed_.notify_all();
-  }
+  explicit Arrivals(std::function<void()> on_arrival) : on_arrival_(std::move(on_arrival)) {}
 
-  /// Returns after a call of note() since the last call, or at `timeout`.
-  void wait(std::chrono::duration<double> timeout) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, timeout, [this] { return some_; });
-    some_ = false;
+  void note() {
+    const std::lock_guard lock(mutex_);
+    if (on_arrival_) on_arrival_();
+  }
+  /// From here on, note() does nothing: roscpp's threads may outlive the simulation.
+  void silence() {
+    const std::lock_guard lock(mutex_);
+    on_arrival_ = nullptr;
   }
 
  private:
   std::mutex mutex_;
-  std::condition_variable changed_;
-  bool some_ = false;
+  std::function<void()> on_arrival_;
 };
 
 /// A queue that calls note() for each new callback.

@@ -71,6 +71,7 @@ ObjectId World::add_model(ModelDescription model) {
   }
   if (is_static) gather_statics(*state_);
   list_moving(*state_);
+  ++revision_;
   return id;
 }
 
@@ -95,6 +96,7 @@ void World::remove_model(ObjectId model) {
   if (lost.empty()) state_->diverged = state_->interrupted;
   list_moving(*state_);
   wake(*state_);
+  ++revision_;
 }
 
 const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/access_lock.hpp"
 
+#include <stdexcept>
+
 namespace bubblesim {
 
+void AccessLock::check_not_claimed() const {
+  const std::thread::id claimed_by = claimed_by_;
+  if (claimed_by == std::thread::id() || claimed_by == std::this_thread::get_id()) return;
+  throw std::logic_error(
+      "a Runner runs this simulation in another thread: use the runner's commands, its call() or its frames, or end it "
+      "first");
+}
+
 void AccessLock::take() {
+  check_not_claimed();
   const std::uint64_t number = next_++;
   if (served_ != number) {
     std::unique_lock lock(mutex_);
@@ -13,6 +24,7 @@ void AccessLock::take() {
 }
 
 bool AccessLock::try_take() {
+  check_not_claimed();
   std::uint64_t number = served_;
   if (!next_.compare_exchange_strong(number, number + 1)) return false;
   owner_ = std::this_thread::get_id();

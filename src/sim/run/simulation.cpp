@@ -72,7 +72,16 @@ Simulation::~Simulation() = default;
 
 void Simulation::add(System& system) { systems_.push_back(&system); }
 
+void Simulation::stop_systems() {
+  for (System* system : systems_) system->stop();
+}
+
+void Simulation::start_systems() {
+  for (System* system : systems_) system->start();
+}
+
 void Simulation::process_input() {
+  world_.access().check_not_claimed();
   for (System* system : systems_) system->process_input();
 }
 

@@ -56,7 +56,6 @@ void Simulation::handle(const Diverged& divergence) {
       remove_model_now(model);
     }
   } else {
-    if (state_ == RunState::kRunning) state_ = RunState::kPaused;
     throw Diverged(what);
   }
 }

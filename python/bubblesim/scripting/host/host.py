@@ -7,7 +7,7 @@ import gc
 import math
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ class ScriptHost:
 
     def __init__(
         self,
-        simulation: Any,
+        runner: Any,
         bridge: Any | None,
         scripts: list[tuple[str, Path]],
         search_paths: list[Path],
@@ -42,7 +42,7 @@ class ScriptHost:
     ) -> None:
         """Store the scripts; ``start`` loads them.
 
-        :param simulation: a ``bubblesim.Simulation``.
+        :param runner: the ``bubblesim.Runner`` of the simulation.
         :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is a ``NoRos`` in scripts.
         :param scripts: pairs of object path and file.
         :param search_paths: folders for ``include``, searched after the script's folder.
@@ -51,7 +51,8 @@ class ScriptHost:
             ROS packages.
         :param watch: reload a script when its file changes.
         """
-        self.simulation = simulation
+        self.runner = runner
+        self.simulation = runner.simulation
         self.bridge = bridge
         self.search_paths = search_paths
         self.lua_unsafe = lua_unsafe
@@ -61,10 +62,9 @@ class ScriptHost:
         self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
         self.shared = SharedData(has_ros=bridge is not None)
-        self._placed = [(path, simulation.object(path).handle, Path(file)) for path, file in scripts]
+        self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
-        self.after_input: Callable[[], None] | None = None
         self._paused = False  # the state last reported to scripts
         self._next_check = 0.0 if watch else math.inf  # time of the next check of the files, by time.monotonic()
         script_sockets.install()
@@ -97,12 +97,12 @@ class ScriptHost:
         handle = self.simulation.object(path).handle
         self._placed.append((path, handle, Path(file)))
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
-        if self.simulation.state == _core.RunState.STOPPED:
+        if self.runner.state == _core.RunState.STOPPED:
             return
         loaded = [*self.scripts, ChildScript(self, path, handle, Path(file))]
         self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
 
-    def end_scripts_of(self, model: int) -> None:
+    def model_removing(self, model: int) -> None:
         """Call sysCall_cleanup of the scripts of a model that is about to be removed, and remove them."""
         ending = self._scripts_of(model)
         _finish(ending)
@@ -122,7 +122,7 @@ class ScriptHost:
 
     def make_modules(self, script: Caller) -> dict[str, Any]:
         """Return the modules in a script's globals."""
-        sim = SimApi(self.simulation, script)
+        sim = SimApi(self.runner, script)
         if self.bridge is None:
             return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
         return {
@@ -132,12 +132,10 @@ class ScriptHost:
         }
 
     def process_input(self) -> None:
-        """Process input; called also while paused. Call the pause callbacks of scripts when the state has changed."""
-        if self.after_input is not None:
-            self.after_input()
+        """Call the pause callbacks of scripts when the state has changed; called also while paused."""
         listening = [script for script in self.scripts if script.follows_pauses]
         if listening:
-            paused = bool(self.simulation.state == _core.RunState.PAUSED)
+            paused = bool(self.runner.state == _core.RunState.PAUSED)
             if paused:
                 hook = "sysCall_suspended" if self._paused else "sysCall_suspend"
             else:
@@ -184,7 +182,7 @@ class ScriptHost:
             raise RuntimeError("a child script cannot restart the simulation that runs it")
         self.stop()
         self.simulation.reset()
-        if self.simulation.state != _core.RunState.STOPPED:
+        if self.runner.state != _core.RunState.STOPPED:
             self.start()
 
     def stop_waits(self) -> bool:
@@ -192,7 +190,7 @@ class ScriptHost:
         if self.bridge is not None and self.bridge.urgent_waits():
             return True
         script = self.running_script  # sysCall_cleanup is part of a stop, and is not interrupted
-        return script is not None and script.activity != "sysCall_cleanup" and bool(self.simulation.stop_is_due)
+        return script is not None and script.activity != "sysCall_cleanup" and bool(self.runner.stop_is_due)
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and release their resources."""

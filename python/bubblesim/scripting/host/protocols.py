@@ -25,6 +25,7 @@ class RunningScript(Protocol):
 class Host(Protocol):
     """The host of all scripts of a simulation."""
 
+    runner: Any
     simulation: Any
     search_paths: list[Path]
     lua_unsafe: bool

@@ -15,10 +15,11 @@ _MAX_HANDLE = 2**31 - 1
 class ApiContext(SimConstants):
     """The simulation and the calling script."""
 
-    def __init__(self, simulation: Any, caller: Caller) -> None:
+    def __init__(self, runner: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
-        self._simulation = simulation
-        self._world = simulation.world
+        self._runner = runner
+        self._simulation = runner.simulation
+        self._world = self._simulation.world
         self._caller = caller
 
     def _with_all_below(self, handle: int) -> list[int]:

@@ -13,10 +13,10 @@ from bubblesim.scripting.caller import Caller
 class RandomFunctions(ApiContext):
     """Random numbers depend only on the random seed and the script's object, so runs are reproducible."""
 
-    def __init__(self, simulation: Any, caller: Caller) -> None:
+    def __init__(self, runner: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
-        super().__init__(simulation, caller)
-        self._random = random.Random(f"{simulation.seed} {caller.object_path}")
+        super().__init__(runner, caller)
+        self._random = random.Random(f"{runner.simulation.seed} {caller.object_path}")
 
     def getRandom(self, seed: int | None = None) -> float:
         """Return a number from 0 to less than 1; a ``seed`` restarts the script's sequence of numbers."""

@@ -78,7 +78,7 @@ class ThreadFunctions(ApiContext):
     @any_time
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step, or the simulation has ended after it."""
-        return self.getThreadExitRequest() or bool(self._simulation.state == RunState.STOPPING)
+        return self.getThreadExitRequest() or bool(self._runner.state == RunState.STOPPING)
 
     def _thread(self, function: str) -> AnyThread:
         thread = current()

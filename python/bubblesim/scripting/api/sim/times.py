@@ -54,20 +54,20 @@ class TimeFunctions(ApiContext):
 
     def getSimulationState(self) -> int:
         """Return sim.simulation_advancing_running, simulation_paused or simulation_advancing_lastbeforestop."""
-        return _STATES[self._simulation.state]
+        return _STATES[self._runner.state]
 
     def pauseSimulation(self) -> None:
         """Pause after this step."""
-        self._simulation.pause()
+        self._runner.pause(wait=False)
 
     def startSimulation(self) -> None:
         """Continue after a pause, or restart a stopped simulation."""
-        self._simulation.start()
+        self._runner.start(wait=False)
 
     def stopSimulation(self) -> None:
         """Stop after one more step and reset the scene; the node ends if nothing can start the simulation again."""
-        self._simulation.stop()
+        self._runner.stop(wait=False)
 
     def quitSimulator(self) -> None:
         """End the node after this step."""
-        self._simulation.end()
+        self._runner.end(wait=False)

@@ -4,27 +4,27 @@
 
 #include <chrono>
 
-namespace bubblesim::app {
+namespace bubblesim {
 
 class Pacer {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// `speed`: simulated seconds per second; infinity never waits.
   explicit Pacer(double speed) : speed_(speed) {}
 
-  /// Waits until `simulated` seconds since the first call are due, but only for a short time, so that the caller can
-  /// check for signals. Returns whether they are due. A simulation that fell far behind continues at its speed instead
-  /// of catching up.
-  bool wait_for(double simulated);
+  /// When `simulated` seconds since the first call are due, at `now`. A simulation that fell far behind continues at
+  /// its speed instead of catching up.
+  Clock::time_point due(double simulated, Clock::time_point now);
   /// Restarts the count at the next call: after a pause.
   void restart() { started_ = false; }
+  double speed() const { return speed_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   double speed_;
   bool started_ = false;
   Clock::time_point start_;
   double simulated_at_start_ = 0;
 };
 
-}  // namespace bubblesim::app
+}  // namespace bubblesim

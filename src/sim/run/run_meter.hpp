@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Measures the steps of a runner.
 #pragma once
 
 #include <chrono>
@@ -7,27 +8,27 @@
 #include <optional>
 #include <string>
 
-#include "bubblesim/child_scripts.hpp"
 #include "bubblesim/run_report.hpp"
+#include "bubblesim/run_state.hpp"
 #include "bubblesim/simulation.hpp"
 
-namespace bubblesim::app {
+namespace bubblesim {
 
-/// Measures the steps of a simulation; another thread may take the reports.
+/// The runner's thread measures; other threads may take the reports.
 class RunMeter {
  public:
-  RunMeter(const Simulation& simulation, double wanted_speed);
+  explicit RunMeter(double wanted_speed) { report_.wanted_speed = wanted_speed; }
 
   /// Runs and measures one step.
   void run_step(Simulation& simulation);
-  /// Call it in each round of the main loop, whether the round runs a step or not.
-  void note(const Simulation& simulation, const ChildScripts& scripts);
+  /// Call it in each round of the loop, whether the round runs a step or not.
+  void note(const Simulation& simulation, RunState state, bool running);
   /// Records that the simulation failed for good.
   void fail(const std::string& why);
 
-  /// Returns the report since the last call. Thread-safe.
+  /// Returns the report since the last call, without what is known of scripts. Thread-safe.
   RunReport take();
-  /// Returns the totals in one line: simulated seconds, real-time factor, steps.
+  /// Returns the totals in one line: simulated seconds, real-time factor, steps. Thread-safe.
   std::string summary();
 
  private:
@@ -41,4 +42,4 @@ class RunMeter {
   std::optional<Clock::time_point> last_end_;  // of a step; empty: the time until the next step is not counted
 };
 
-}  // namespace bubblesim::app
+}  // namespace bubblesim

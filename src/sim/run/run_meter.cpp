@@ -1,40 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_meter.hpp"
+#include "run/run_meter.hpp"
 
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
 #include <utility>
 
-namespace bubblesim::app {
+namespace bubblesim {
 namespace {
 
 double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-const char* name(RunState state) {
-  switch (state) {
-    case RunState::kStopped:
-      return "stopped";
-    case RunState::kPaused:
-      return "paused";
-    case RunState::kRunning:
-      return "running";
-    case RunState::kStopping:
-      return "stopping";
-  }
-  return "unknown";
-}
-
 }  // namespace
-
-RunMeter::RunMeter(const Simulation& simulation, double wanted_speed) {
-  report_.wanted_speed = wanted_speed;
-  report_.state = name(simulation.state());
-}
 
 void RunMeter::run_step(Simulation& simulation) {
   const Clock::time_point begin = Clock::now();
-  simulation.run_step();
+  simulation.step();
   const Clock::time_point end = Clock::now();
   const std::lock_guard lock(mutex_);
   ++report_.steps;
@@ -48,13 +29,11 @@ void RunMeter::run_step(Simulation& simulation) {
   last_end_ = end;
 }
 
-void RunMeter::note(const Simulation& simulation, const ChildScripts& scripts) {
+void RunMeter::note(const Simulation& simulation, RunState state, bool running) {
   const std::lock_guard lock(mutex_);
-  report_.state = name(simulation.state());
-  report_.running = simulation.state() == RunState::kRunning && simulation.step_is_due();
+  report_.state = name(state);
+  report_.running = running;
   report_.simulation_time = simulation.time();
-  report_.disabled_scripts = scripts.disabled();
-  report_.script_errors = scripts.failures();
   report_.measurements = simulation.measurements();
   if (!report_.running) {
     last_end_.reset();
@@ -91,4 +70,4 @@ std::string RunMeter::summary() {
   return text.str();
 }
 
-}  // namespace bubblesim::app
+}  // namespace bubblesim

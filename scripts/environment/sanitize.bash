@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds the core and its tests with GCC's sanitizers and runs them: first threads, then addresses and undefined
+# behaviour. For scripts/test. The core needs neither ROS nor Python.
+#
+#   run_sanitizers ROOT [GTEST_FILTER]
+
+run_sanitizers() {
+  local root=$1 filter=${2:-*} kind build program failed=0
+  local suppressions=$root/tests/sanitizers
+  for kind in thread address,undefined; do
+    build=$root/.ws/sanitize/$kind
+    echo "[sanitize] building with -fsanitize=$kind in $build"
+    cmake -S "$root" -B "$build" -DBUBBLESIM_SANITIZE="$kind" -DBUBBLESIM_WITH_ROS=OFF -DBUBBLESIM_WITH_PYTHON=OFF \
+      -DBUBBLESIM_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1" \
+      -DBUBBLESIM_VIRTUAL_ENV="$root/.ws/venv" > "$build.log" 2>&1 || { cat "$build.log"; return 1; }
+    cmake --build "$build" -j "$(nproc)" >> "$build.log" 2>&1 || { tail -n 50 "$build.log"; return 1; }
+    for program in "$build"/tests/sim/test_*; do
+      [[ -f $program && -x $program ]] || continue
+      echo "[sanitize] $kind: $(basename "$program")"
+      # Without fork from threads and without a personality of the kernel, addresses are not randomised.
+      TSAN_OPTIONS="suppressions=$suppressions/thread.supp halt_on_error=0 exitcode=66" \
+        LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
+        setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
+    done
+  done
+  return $failed
+}

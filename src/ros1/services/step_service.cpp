@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "services/step_service.hpp"
+
+#include <utility>
+
+#include "master/quiet_thread.hpp"
+
+namespace bubblesim {
+namespace {
+
+const ros::WallDuration kBetweenChecks(0.1);
+
+}  // namespace
+
+StepService::StepService(Action action)
+    : action_(std::move(action)), thread_(start_without_signals([this] {
+        while (!ending_) queue_.callAvailable(kBetweenChecks);
+      })) {}
+
+void StepService::stop() {
+  ending_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+/// The fields of bubblesim_msgs/Step.
+messages::WireBuffer StepService::answer(messages::WireView request) const {
+  const StepAnswer answer = action_(request.get<std::uint32_t>());
+  messages::WireBuffer response;
+  response.put<std::uint8_t>(answer.problem.empty() ? 1 : 0);
+  response.put(static_cast<std::uint32_t>(answer.problem.size()));
+  response.put_bytes(answer.problem.data(), answer.problem.size());
+  response.put(answer.time);
+  return response;
+}
+
+}  // namespace bubblesim

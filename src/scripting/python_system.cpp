@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/python_system.hpp"
+
+#include <utility>
+
+#include "python_methods.hpp"
+
+namespace bubblesim {
+
+namespace py = pybind11;
+
+PythonEngine::PythonEngine(Runner& runner, messages::Bridge* bridge)
+    : runner_(runner), has_bridge_(bridge != nullptr), objects_(std::make_unique<Objects>()) {
+  scripting::with_python(runner.simulation(), "the simulator's Python code", [&] {
+    py::module_::import("bubblesim._core");  // knows the classes
+    objects_->runner = py::cast(&runner, py::return_value_policy::reference);
+    objects_->bridge = py::none();
+    if (bridge != nullptr) objects_->bridge = py::cast(bridge, py::return_value_policy::reference);
+  });
+}
+
+PythonEngine::~PythonEngine() {
+  const py::gil_scoped_acquire gil;
+  objects_->runner = objects_->bridge = py::object();
+}
+
+void PythonSystem::Methods::bind(py::object object) {
+  self = std::move(object);
+  const auto method = [this](const char* name) { return py::getattr(self, name, py::object()); };
+  process_input = method("process_input");
+  actuate = method("actuate");
+  sense = method("sense");
+  publish = method("publish");
+  stop = method("stop");
+  start = method("start");
+  reset = method("reset");
+  model_added = method("model_added");
+  model_removing = method("model_removing");
+}
+
+PythonSystem::PythonSystem(PythonEngine& engine, std::string name)
+    : engine_(engine), name_(std::move(name)), methods_(std::make_unique<Methods>()) {}
+
+PythonSystem::~PythonSystem() {
+  const py::gil_scoped_acquire gil;
+  methods_.reset();
+}
+
+void PythonSystem::process_input() {
+  if (methods_->process_input) with_python([&] { methods_->process_input(); });
+}
+
+void PythonSystem::actuate(World&, double) {
+  if (methods_->actuate) with_python([&] { methods_->actuate(); });
+}
+
+void PythonSystem::sense(const World&, double) {
+  if (methods_->sense) with_python([&] { methods_->sense(); });
+}
+
+void PythonSystem::publish(const World&, double) {
+  if (methods_->publish) with_python([&] { methods_->publish(); });
+}
+
+void PythonSystem::stop() {
+  if (methods_->stop) with_python([&] { methods_->stop(); });
+}
+
+void PythonSystem::start() {
+  if (methods_->start) with_python([&] { methods_->start(); });
+}
+
+void PythonSystem::reset() {
+  if (methods_->reset) with_python([&] { methods_->reset(); });
+}
+
+void PythonSystem::model_added(World&, ObjectId model) {
+  if (methods_->model_added) with_python([&] { methods_->model_added(model); });
+}
+
+void PythonSystem::model_removing(World&, ObjectId model) {
+  if (methods_->model_removing) with_python([&] { methods_->model_removing(model); });
+}
+
+}  // namespace bubblesim

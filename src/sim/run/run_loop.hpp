@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop that runs a simulation. All functions are for the thread that runs it, except where stated.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bubblesim/frame.hpp"
+#include "bubblesim/runner.hpp"
+#include "run/inbox.hpp"
+#include "run/pacer.hpp"
+#include "run/run_meter.hpp"
+#include "run/step_order.hpp"
+
+namespace bubblesim {
+
+class RunLoop {
+ public:
+  RunLoop(Simulation& simulation, const RunnerOptions& options);
+
+  /// See Runner::run().
+  void run();
+  /// Refuses what is asked for, from here on.
+  void close();
+  void set_gate(StepGate gate) { gate_ = std::move(gate); }
+
+  // What commands do:
+  RunState start();
+  RunState pause();
+  RunState stop();
+  void step(std::uint64_t count, const StepOrder::Answer& answer);
+  void set_synchronous(bool synchronous);
+  void trigger_step();
+  void end() { ending_ = true; }
+
+  // Thread-safe:
+  Inbox& inbox() { return inbox_; }
+  RunMeter& meter() { return meter_; }
+  RunState state() const { return state_; }
+  std::shared_ptr<const Frame> frame() const { return std::atomic_load(&frame_); }
+
+ private:
+  bool ends() const;
+  void carry_out_commands();
+  bool may_step() const;
+  bool step_is_due() const;
+  void wait_for_input();
+  bool wait_for_time();
+  void run_step();
+  void publish_frame();
+
+  Simulation& simulation_;
+  const RunnerOptions& options_;
+  Inbox inbox_;
+  Pacer pacer_;
+  RunMeter meter_;
+  StepGate gate_;
+  StepOrder order_;
+  std::atomic<RunState> state_;
+  bool ending_ = false;
+  bool synchronous_ = false;
+  std::uint64_t triggers_ = 0;          // not used yet
+  std::shared_ptr<const Frame> frame_;  // swapped as a whole, with std::atomic_store
+};
+
+}  // namespace bubblesim
