@@ -13,6 +13,7 @@ void bind_simulation(pybind11::module_& core);
 void bind_objects(pybind11::module_& core);
 void bind_plugins(pybind11::module_& core);
 void bind_world(pybind11::module_& core);
+void bind_devices(pybind11::module_& core);
 void bind_readings(pybind11::module_& core);
 void bind_sensors(pybind11::module_& core);
 
