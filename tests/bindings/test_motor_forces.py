@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Joint motors, compared with weights, levers and moments of inertia."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -102,14 +103,23 @@ def test_it_is_known_in_the_first_step(tmp_path: Path) -> None:
     assert motor_effort(file, steps=1) == pytest.approx(MASS * G, rel=1e-3)
 
 
-def test_a_motor_switched_off_exerts_nothing(tmp_path: Path) -> None:
+def without_force(joint: bubblesim.Object) -> None:
+    joint.max_force = 0.0
+
+
+def without_mode(joint: bubblesim.Object) -> None:
+    joint.motor_mode = bubblesim.MotorMode.NONE
+
+
+@pytest.mark.parametrize("switch_off", [without_force, without_mode])
+def test_a_motor_switched_off_exerts_nothing(tmp_path: Path, switch_off: Callable[[bubblesim.Object], None]) -> None:
     limited = axis("0 0 1", "velocity", "<lower>-100</lower><upper>100</upper>")
     sensed = limited + '<sensor name="Force" type="force_torque"/>'
     simulation = bubblesim.Simulation(str(arm(tmp_path, "prismatic", sensed)))
     joint = simulation.object("/joint")
     simulation.step(3)
     assert joint.motor_effort == pytest.approx(MASS * G, rel=1e-3)
-    joint.max_force = 0.0
+    switch_off(joint)
     simulation.step()
     assert joint.motor_effort == 0
     assert simulation.object("/Force").reading.force[2] == pytest.approx(0, abs=1e-6), "it falls freely"

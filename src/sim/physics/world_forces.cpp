@@ -84,6 +84,10 @@ std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
   return meter;
 }
 
+void clear_reports(WrenchAccumulator& meter) {
+  for (JointReport& report : meter.reports) report.feedback = {};
+}
+
 void forget_touches(World::State& state) {
   state.touches.clear();
   state.touch_reports.clear();

@@ -203,7 +203,9 @@ void watch_contact(World::State& state, dJointID joint, const Collider& first, c
                    const dContactGeom& contact);
 /// Requests feedback of a joint from now on.
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child);
-/// Clears ODE's feedback at the start of an advance(), and accumulates it after each substep.
+/// Call before each substep: ODE leaves the feedback of a motor unchanged while it has no force.
+void clear_reports(WrenchAccumulator& meter);
+/// Clears the sums at the start of an advance(), and accumulates ODE's feedback after each substep.
 void forget_touches(World::State& state);
 void forget_forces(World::State& state);
 void gather_forces(World::State& state, double step);

@@ -64,6 +64,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
+        if (placed.meter != nullptr) clear_reports(*placed.meter);
         for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
           if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
         }
