@@ -211,6 +211,7 @@ enum class MotorMode {
   kNone,      ///< no motor; friction and damping act
   kVelocity,  ///< holds a target velocity
   kPosition,  ///< moves to a target position and holds it
+  kEffort,    ///< exerts a target effort
 };
 
 /// An axis that follows another axis: position = multiplier * (leader's position - reference) + offset.

@@ -32,11 +32,16 @@ struct PlacedShape {
   Pose pose;  ///< in the world
 };
 
-/// Force and torque of one body on another through a joint, world axes.
+/// Force and torque on a body.
 struct Wrench {
   Vector3 force;   ///< N
-  Vector3 torque;  ///< N m, about the origin of the joint
+  Vector3 torque;  ///< N m
 };
+
+/// The frame of the vectors of a wrench.
+enum class WrenchFrame { kWorld, kObject };
+
+class Device;
 
 /// All setters check their arguments and throw InvalidInput, with object and value, before they change anything: an
 /// invalid value never reaches the physics. A handle of no object throws NoSuchObject, a handle of another kind of
@@ -77,8 +82,8 @@ class World {
 
   /// Simulates `duration` seconds in physics substeps of `step` seconds. Throws Diverged when a body leaves the finite
   /// world (over 1e6 m away or faster than 1e6 m/s); the world cannot be used until it is reset or diverged_models()
-  /// are removed.
-  void advance(double duration, double step);
+  /// are removed. `time` is the simulation time at the start, for devices; by default the time since the last reset.
+  void advance(double duration, double step, std::optional<double> time = {});
   /// The models whose bodies left the finite world; empty when the physics failed as a whole.
   const std::vector<ObjectId>& diverged_models() const;
   /// Models of which all links are more than 1000 m below the lowest point of the world as built.
@@ -106,25 +111,48 @@ class World {
   /// Sets pose and velocity together; on an error neither changes.
   void set_state(ObjectId object, const Pose& pose, const Twist& velocity);
 
+  /// Pushes a link, or the canonical link of a model, during the next advance(): with a force at `point`, by default
+  /// the link's centre of mass, and with a torque. `frame` is that of all three vectors. They are converted now and
+  /// then constant in world axes. Wrenches add up; a sleeping body wakes. A wrench that Device::update() applies acts
+  /// until the device's next update instead.
+  void apply_wrench(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point = {},
+                    WrenchFrame frame = WrenchFrame::kWorld);
+  /// Throws what apply_wrench() would throw.
+  void check_wrench(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point = {}) const;
+  /// Removes the forces or the torques applied so far, or both.
+  void clear_wrench(ObjectId object, bool force = true, bool torque = true);
+
+  /// Calls a device before physics substeps, after those added before it, until it is removed or `model` is; kNoObject
+  /// for the world. `rate` in Hz; 0 for each substep. A rate that the substeps do not divide is kept in the mean.
+  void add_device(std::shared_ptr<Device> device, ObjectId model = kNoObject, double rate = 0);
+  /// Does nothing when the device was removed with its model.
+  void remove_device(const Device& device);
+
   /// `axis` is 0, or 1 for the second axis of a revolute2 joint. Radians or metres. Angles are between -pi and pi,
   /// unless the limits of the joint reach beyond; then full turns are counted.
   double joint_position(ObjectId joint, int axis = 0) const;
   double joint_velocity(ObjectId joint, int axis = 0) const;
-  /// Force or torque of an axis's motor on the child, N along the axis or N m about it, mean over the last advance().
-  /// It is measured from the first call on; that call returns 0, as do calls for an axis without a motor.
-  double motor_effort(ObjectId joint, int axis = 0);
+  /// Force or torque of an axis's motor on the child, N along the axis or N m about it, mean over the last advance();
+  /// 0 for an axis without a motor.
+  double motor_effort(ObjectId joint, int axis = 0) const;
   /// The links that a joint connects, the parent first; kNoObject is the world.
   std::pair<ObjectId, ObjectId> joint_links(ObjectId joint) const;
   /// Number of axes; 0 for a fixed or ball joint and for joints of a static model.
   int joint_axes(ObjectId joint) const;
   double target_position(ObjectId joint, int axis = 0) const;
   double target_velocity(ObjectId joint, int axis = 0) const;
+  double target_effort(ObjectId joint, int axis = 0) const;
   double max_force(ObjectId joint, int axis = 0) const;
-  /// Sets the motor mode until the world is reset. The targets are kept.
+  MotorMode motor_mode(ObjectId joint, int axis = 0) const;
+  /// Sets the motor mode until the world is reset. The targets are kept. Throws WrongObject for a gearbox, which has no
+  /// motor.
   void set_motor_mode(ObjectId joint, MotorMode mode, int axis = 0);
-  /// Targets apply in the motor's mode: a position in a position-controlled joint, a velocity in the others.
+  /// Targets apply in the motor's mode: a position in a position-controlled joint, a velocity in a velocity-controlled
+  /// one, and a force or torque on the child in an effort-controlled one, where the force limit applies and the
+  /// velocity limit does not.
   void set_target_position(ObjectId joint, double position, int axis = 0);
   void set_target_velocity(ObjectId joint, double velocity, int axis = 0);
+  void set_target_effort(ObjectId joint, double effort, int axis = 0);
   void set_max_force(ObjectId joint, double force, int axis = 0);
   /// Moves the links below a revolute, continuous or prismatic joint so that the joint has this position; the joint
   /// velocity is kept. Throws InvalidInput for other joint types and for a joint in a closed chain of links.
@@ -135,8 +163,8 @@ class World {
   /// The contacts of a link during the last advance(). Only links with a contact sensor record them, for the collisions
   /// of the sensor; throws InvalidInput for other links.
   std::vector<Contact> contacts(ObjectId link) const;
-  /// The wrench of a joint's child on its parent, mean over the last advance(). Only joints with a force-torque sensor
-  /// record it; throws InvalidInput for other joints.
+  /// The wrench of a joint's child on its parent in world axes, about the joint's origin, mean over the last advance().
+  /// Only joints with a force-torque sensor record it; throws InvalidInput for other joints.
   Wrench joint_wrench(ObjectId joint) const;
 
   /// The nearest hit of a ray of length `max_distance`; the model `ignored_model` is ignored.
@@ -147,8 +175,8 @@ class World {
   std::vector<Light> link_lights() const;
 
   /// FNV-1a hash of the state: pose and velocity of each body and whether it sleeps, targets and modes of all motors,
-  /// the seed and the state of the iterative solver. Equal histories give equal hashes in every process. Not covered:
-  /// how long a body has been at rest, which ODE does not report.
+  /// applied wrenches, Device::state(), the seed and the state of the iterative solver. Equal histories give equal
+  /// hashes in every process. Not covered: how long a body has been at rest, which ODE does not report.
   std::uint64_t state_hash() const;
 
   struct State;  // see src/sim/physics/world_state.hpp

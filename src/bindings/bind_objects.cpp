@@ -39,6 +39,13 @@ void set_angular_velocity(const ObjectView& view, const NumpyArray& velocity) {
                             {view.world().velocity(view.id()).linear, to_vector(velocity, "angular_velocity")});
 }
 
+void apply_wrench(const ObjectView& view, const NumpyArray& force, const NumpyArray& torque,
+                  const std::optional<NumpyArray>& point, bool local) {
+  view.world().apply_wrench(view.id(), {to_vector(force, "force"), to_vector(torque, "torque")},
+                            point ? std::make_optional(to_vector(*point, "point")) : std::nullopt,
+                            local ? WrenchFrame::kObject : WrenchFrame::kWorld);
+}
+
 }  // namespace
 
 void bind_objects(py::module_& module) {
@@ -78,6 +85,26 @@ void bind_objects(py::module_& module) {
           "target_velocity", [](const View& v) { return v.world().target_velocity(v.id()); },
           [](const View& v, double target) { v.world().set_target_velocity(v.id(), target); },
           "Target of a velocity-controlled joint, rad/s or m/s.")
+      .def_property(
+          "target_effort", [](const View& v) { return v.world().target_effort(v.id()); },
+          [](const View& v, double target) { v.world().set_target_effort(v.id(), target); },
+          "Target of an effort-controlled joint, N m or N, positive in the joint's direction.")
+      .def_property(
+          "motor_mode", [](const View& v) { return v.world().motor_mode(v.id()); },
+          [](const View& v, MotorMode mode) { v.world().set_motor_mode(v.id(), mode); },
+          "bubblesim.MotorMode of the joint's motor, until the world is reset.")
+      .def_property_readonly(
+          "motor_effort", [](const View& v) { return v.world().motor_effort(v.id()); },
+          "Measured effort of the joint's motor on the child link, N m or N: the mean over the last step.")
+      .def("apply_wrench", &apply_wrench, py::arg("force") = py::make_tuple(0, 0, 0),
+           py::arg("torque") = py::make_tuple(0, 0, 0), py::kw_only(), py::arg("point") = py::none(),
+           py::arg("local") = false,
+           R"(Push a link, or the canonical link of a model, during the next step. Wrenches add up.
+
+:param force: N, array of 3, constant during the step.
+:param torque: N m, array of 3.
+:param point: m, array of 3, where the force acts; by default the link's centre of mass.
+:param local: the three vectors are in the object's frame instead of the world's.)")
       .def_property(
           "max_force", [](const View& v) { return v.world().max_force(v.id()); },
           [](const View& v, double force) { v.world().set_max_force(v.id(), force); },

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <optional>
 #include <variant>
 
 #include "bindings.hpp"
@@ -53,7 +54,8 @@ void bind_world(py::module_& module) {
   py::enum_<MotorMode>(module, "MotorMode", "Mode of the motor of a joint's axis.")
       .value("NONE", MotorMode::kNone, "No motor: the axis moves freely, with friction and damping.")
       .value("VELOCITY", MotorMode::kVelocity)
-      .value("POSITION", MotorMode::kPosition);
+      .value("POSITION", MotorMode::kPosition)
+      .value("EFFORT", MotorMode::kEffort);
   py::class_<World> world(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.");
   Guarded(world)
       .def(
@@ -122,12 +124,31 @@ void bind_world(py::module_& module) {
           [](const World& w, const Pose7& pose, ObjectId frame) { return to_list(frame_of(w, frame) * to_pose(pose)); },
           "Return the world pose of a pose in the frame of an object; see `pose_in`.")
       .def(
+          "pose_to",
+          [](const World& w, const Pose7& pose, ObjectId frame) {
+            return to_list(frame_of(w, frame).Inverse() * to_pose(pose));
+          },
+          "Return a world pose in the frame of an object; see `pose_in`.")
+      .def(
           "set_state",
           [](World& w, ObjectId id, const Pose7& pose, const std::array<double, 3>& linear,
              const std::array<double, 3>& angular) {
             w.set_state(id, to_pose(pose), {to_vector(linear), to_vector(angular)});
           },
           "Set the pose, linear and angular velocity at once.")
+      .def(
+          "apply_wrench",
+          [](World& w, ObjectId id, const std::array<double, 3>& force, const std::array<double, 3>& torque,
+             const std::optional<std::array<double, 3>>& point, bool local) {
+            w.apply_wrench(id, {to_vector(force), to_vector(torque)},
+                           point ? std::make_optional(to_vector(*point)) : std::nullopt,
+                           local ? WrenchFrame::kObject : WrenchFrame::kWorld);
+          },
+          py::arg("object"), py::arg("force"), py::arg("torque") = std::array<double, 3>{}, py::kw_only(),
+          py::arg("point") = py::none(), py::arg("local") = false,
+          "Push a link or model in the next step, N and N m; see Object.apply_wrench.")
+      .def("clear_wrench", &World::clear_wrench, py::arg("object"), py::arg("force") = true, py::arg("torque") = true,
+           "Remove the forces or torques that were applied for the next step, or both.")
       .def("set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
            py::arg("turning"),
            "Move a model as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
@@ -143,20 +164,23 @@ void bind_world(py::module_& module) {
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
       .def("motor_effort", &World::motor_effort, py::arg("joint"), py::arg("axis") = 0,
-           "Return the effort of the motor on the child, the mean over the last step. Measuring starts with the first "
-           "call, which returns 0.")
+           "Return the effort of the motor on the child, the mean over the last step; 0 without a motor.")
       .def("joint_links", &World::joint_links, py::arg("joint"),
            "Return the handles of the parent link and the child link; -1 is the world.")
       .def("joint_axes", &World::joint_axes, py::arg("joint"), "Return the number of axes.")
       .def("target_position", &World::target_position, py::arg("joint"), py::arg("axis") = 0)
       .def("target_velocity", &World::target_velocity, py::arg("joint"), py::arg("axis") = 0)
+      .def("target_effort", &World::target_effort, py::arg("joint"), py::arg("axis") = 0)
       .def("max_force", &World::max_force, py::arg("joint"), py::arg("axis") = 0)
+      .def("motor_mode", &World::motor_mode, py::arg("joint"), py::arg("axis") = 0)
       .def("set_motor_mode", &World::set_motor_mode, py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
            "Set the MotorMode, until the world is reset.")
       .def("set_target_position", &World::set_target_position, py::arg("joint"), py::arg("position"),
            py::arg("axis") = 0)
       .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
            py::arg("axis") = 0)
+      .def("set_target_effort", &World::set_target_effort, py::arg("joint"), py::arg("effort"), py::arg("axis") = 0,
+           "Set the force or torque on the child of an effort-controlled joint; its force limit applies.")
       .def("joint_type", [](const World& w, ObjectId joint) { return w.joint_description(joint).type; })
       .def(
           "joint_limits",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Joint motors, compared with weights, levers and moments of inertia."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -43,7 +44,6 @@ def motor_effort(file: Path, *, steps: int = 40, axis: int = 0, target_velocity:
     simulation = bubblesim.Simulation(str(file))
     joint = simulation.object("/joint").handle
     simulation.world.set_target_velocity(joint, target_velocity, axis)
-    assert simulation.world.motor_effort(joint, axis) == 0
     simulation.step(steps)
     return float(simulation.world.motor_effort(joint, axis))
 
@@ -94,19 +94,61 @@ def test_it_agrees_with_a_sensor_of_the_joint(tmp_path: Path) -> None:
     sensed = axis("0 1 0", "velocity") + '<sensor name="Force" type="force_torque"/>'
     simulation = bubblesim.Simulation(str(arm(tmp_path, "revolute", sensed)))
     joint = simulation.object("/joint")
-    simulation.world.motor_effort(joint.handle)
     simulation.step(3)
     assert simulation.object("/Force").reading.torque[1] == pytest.approx(-simulation.world.motor_effort(joint.handle))
 
 
-def test_to_measure_changes_nothing(tmp_path: Path) -> None:
-    file = arm(tmp_path, "revolute", axis("0 1 0", "velocity", "<effort>5</effort>"))
-    measured, plain = (bubblesim.Simulation(str(file)) for _ in range(2))
-    for _ in range(10):
-        measured.world.motor_effort(measured.object("/joint").handle)
-        measured.step()
-        plain.step()
-    assert measured.state_hash() == plain.state_hash()
+def test_it_is_known_in_the_first_step(tmp_path: Path) -> None:
+    file = arm(tmp_path, "prismatic", axis("0 0 1", "velocity"))
+    assert motor_effort(file, steps=1) == pytest.approx(MASS * G, rel=1e-3)
+
+
+def without_force(joint: bubblesim.Object) -> None:
+    joint.max_force = 0.0
+
+
+def without_mode(joint: bubblesim.Object) -> None:
+    joint.motor_mode = bubblesim.MotorMode.NONE
+
+
+@pytest.mark.parametrize("switch_off", [without_force, without_mode])
+def test_a_motor_switched_off_exerts_nothing(tmp_path: Path, switch_off: Callable[[bubblesim.Object], None]) -> None:
+    limited = axis("0 0 1", "velocity", "<lower>-100</lower><upper>100</upper>")
+    sensed = limited + '<sensor name="Force" type="force_torque"/>'
+    simulation = bubblesim.Simulation(str(arm(tmp_path, "prismatic", sensed)))
+    joint = simulation.object("/joint")
+    simulation.step(3)
+    assert joint.motor_effort == pytest.approx(MASS * G, rel=1e-3)
+    switch_off(joint)
+    simulation.step()
+    assert joint.motor_effort == 0
+    assert simulation.object("/Force").reading.force[2] == pytest.approx(0, abs=1e-6), "it falls freely"
+
+
+def test_an_effort_motor_lifts_what_its_force_carries(tmp_path: Path) -> None:
+    simulation = bubblesim.Simulation(str(arm(tmp_path, "prismatic", axis("0 0 1", "effort"))))
+    joint = simulation.object("/joint")
+    assert joint.motor_mode == bubblesim.MotorMode.EFFORT
+    joint.target_effort = MASS * (G + 1.0)
+    simulation.step(10)
+    assert joint.joint_velocity == pytest.approx(0.5, abs=1e-6), "1 m/s^2 during 0.5 s"
+    assert joint.motor_effort == pytest.approx(MASS * (G + 1.0))
+
+
+def test_links_are_pushed(tmp_path: Path) -> None:
+    simulation = bubblesim.Simulation(str(arm(tmp_path, "prismatic", axis("0 0 1", ""), gravity=0.0)))
+    link = simulation.object("/arm")
+    link.apply_wrench([0, 0, 6])
+    link.apply_wrench([0, 0, 6], point=[0.1, 0, 0], local=True)
+    simulation.world.apply_wrench(simulation.object("/Arm").handle, [0, 0, 3], torque=[0, 0, 1])
+    simulation.step()
+    assert link.linear_velocity[2] == pytest.approx(15 / MASS * 0.05)
+    with pytest.raises(ValueError, match=r"the force .* must be finite"):
+        link.apply_wrench([float("nan"), 0, 0])
+    with pytest.raises(ValueError, match="force: expected 3 numbers"):
+        link.apply_wrench([1, 2])
+    with pytest.raises(bubblesim.WrongObject, match="acts on a link or a model"):
+        simulation.object("/joint").apply_wrench([1, 0, 0])
 
 
 PYTHON = """
@@ -125,5 +167,4 @@ def test_scripts_read_it(tmp_path: Path, name: str, code: str) -> None:
     run = run_script(tmp_path, code, "--strict", name=name, scene=scene, target="/Arm", until=0.5)
     assert run.stderr == ""
     forces = [float(line) for line in run.stdout.split()]
-    assert forces[0] == 0
-    assert forces[1:] == pytest.approx([-MASS * G * LENGTH] * 9, rel=1e-3)
+    assert forces == pytest.approx([-MASS * G * LENGTH] * 10, rel=1e-3)

@@ -237,6 +237,10 @@ def test_a_tricycle_turns_about_where_its_axles_meet(peer: Peer) -> None:
     assert odom["header"]["frame_id"] == "tricycle/odom"
     states = peer.next("/tricycle/joint_states", "sensor_msgs/JointState")
     assert states["position"][states["name"].index("front_steering")] == pytest.approx(0.5, abs=0.01)
+    efforts = [abs(effort) for effort in states["effort"]]
+    assert max(efforts) < 5, "what the motors exert while it rolls, not their limit of 20 N m"
+    assert len(efforts) == 4
+    assert sum(efforts) > 0
 
 
 def test_a_car_turns_about_where_its_axles_meet(peer: Peer) -> None:

@@ -28,12 +28,18 @@ SCENE = """\
       <link name="tip"><pose>0 0 1 0 0 0</pose></link>
     </model>
     <model name="Rock"><static>true</static><link name="link"/></model>
+    <model name="Wheel">
+      <pose>-5 0 0 0 0 0</pose>
+      <link name="rim"/>
+      <joint name="axle" type="continuous"><parent>world</parent><child>rim</child><axis><xyz>0 0 1</xyz></axis></joint>
+    </model>
   </world>
 </sdf>
 """
 SDF = "<sdf version='1.9'><model name='Any'><link name='link'/></model></sdf>"
 URDF = """<robot name='any'><link name='body'><inertial><mass value='1'/>
 <inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link></robot>"""
+ENDLESS = {"secs": -1}
 AHEAD = {"position": {"x": 3.0}, "orientation": {"w": 1.0}}
 
 
@@ -87,7 +93,7 @@ def test_the_world_tells_its_models_and_time(gazebo: Gazebo) -> None:
     answer = gazebo("get_world_properties")
     assert answer == {
         "sim_time": 0,
-        "model_names": ["Platform", "Arm", "Rock"],
+        "model_names": ["Platform", "Arm", "Rock", "Wheel"],
         "rendering_enabled": True,
         "success": True,
         "status_message": "GetWorldProperties: got properties",
@@ -175,6 +181,13 @@ BAD_REQUESTS: list[tuple[str, dict[str, Any], str]] = [
     ("spawn_sdf_model", {"model_name": "New", "model_xml": "<sdf"}, "is not well-formed XML"),
     ("spawn_sdf_model", {"model_name": "New", "model_xml": SDF, "reference_frame": "x"}, "no object"),
     ("spawn_urdf_model", {"model_name": "New", "model_xml": URDF.replace("'1'/>", "'-1'/>")}, ""),
+    ("apply_body_wrench", {"body_name": "Arm"}, "is a model, not a link"),
+    ("apply_body_wrench", {"body_name": "Rock::link", "wrench": {"force": {"x": 1.0}}}, "is static"),
+    ("apply_body_wrench", {"body_name": "Arm::tip", "wrench": {"torque": {"x": math.inf}}}, "finite"),
+    ("apply_body_wrench", {"body_name": "Arm::tip", "reference_frame": "x"}, "no object"),
+    ("apply_joint_effort", {"joint_name": "axel"}, "/axle"),
+    ("apply_joint_effort", {"joint_name": "axle", "effort": math.nan}, "finite"),
+    ("apply_joint_effort", {"joint_name": "Wheel"}, "is a model, not a joint"),
 ]
 
 
@@ -185,7 +198,7 @@ def test_bad_requests_are_refused_with_a_reason_and_change_nothing(gazebo: Gazeb
         assert answer["success"] is False, (service, request)
         assert reason in answer["status_message"], (service, request)
     assert gazebo("get_link_state", link_name="Arm::tip") == before
-    assert gazebo("get_world_properties")["model_names"] == ["Platform", "Arm", "Rock"]
+    assert gazebo("get_world_properties")["model_names"] == ["Platform", "Arm", "Rock", "Wheel"]
 
 
 def test_time_is_stopped_and_started(gazebo: Gazebo) -> None:
@@ -200,6 +213,68 @@ def test_time_is_stopped_and_started(gazebo: Gazebo) -> None:
     assert time() > 0
     gazebo("reset_simulation")
     assert time() == 0
+
+
+def steps(gazebo: Gazebo, count: int) -> None:
+    assert gazebo.own(f"{NAME}/step", steps=count)["success"]
+
+
+def ros_time(seconds: float) -> dict[str, int]:
+    whole = math.floor(seconds)
+    return {"secs": whole, "nsecs": round((seconds - whole) * 1e9)}
+
+
+def link_velocity(gazebo: Gazebo, link: str) -> tuple[list[float], list[float]]:
+    twist = gazebo("get_link_state", link_name=link)["link_state"]["twist"]
+    return vector(twist["linear"]), vector(twist["angular"])
+
+
+def test_a_wrench_acts_exactly_as_long_as_it_should(gazebo: Gazebo) -> None:
+    # Neither start nor end are those of a step; the link has 1 kg.
+    wrench = {"force": {"x": 2.0}, "torque": {"z": 1.0}}
+    times = {"start_time": ros_time(0.12), "duration": ros_time(0.1234)}
+    assert gazebo("apply_body_wrench", body_name="Platform::base", wrench=wrench, **times)["success"]
+    steps(gazebo, 2)
+    assert link_velocity(gazebo, "Platform::base") == ([0, 0, 0], [0, 0, 0])
+    steps(gazebo, 8)
+    linear, angular = link_velocity(gazebo, "Platform::base")
+    assert linear == pytest.approx([2 * 0.1234, 0, 0], abs=1e-9)
+    assert angular == pytest.approx([0, 0, 0.1234], abs=1e-9)
+
+
+def test_a_wrench_has_the_axes_and_the_point_of_its_frame(gazebo: Gazebo) -> None:
+    request = {"reference_frame": "Platform", "reference_point": {"y": 0.5}, "wrench": {"force": {"x": 2.0}}}
+    assert gazebo("apply_body_wrench", body_name="Platform::base", **request, duration=ros_time(0.005))["success"]
+    steps(gazebo, 1)
+    linear, angular = link_velocity(gazebo, "Platform::base")
+    assert linear == pytest.approx([0, 0.01, 0], abs=1e-9)  # the platform faces y
+    assert angular == pytest.approx([0, 0, -0.005], abs=1e-9)
+
+
+def test_a_wrench_without_end_ends_when_it_is_cleared(gazebo: Gazebo) -> None:
+    assert gazebo("apply_body_wrench", body_name="Arm::tip", wrench={"force": {"y": 1.0}}, duration=ENDLESS)["success"]
+    steps(gazebo, 20)
+    gazebo("clear_body_wrenches", body_name="Arm::tip")
+    steps(gazebo, 5)
+    assert link_velocity(gazebo, "Arm::tip")[0] == pytest.approx([0, 1, 0], abs=1e-9)
+
+
+def test_an_effort_turns_a_joint_for_its_time(gazebo: Gazebo) -> None:
+    assert gazebo("apply_joint_effort", joint_name="axle", effort=0.5, duration=ros_time(0.123))["success"]
+    steps(gazebo, 5)
+    assert link_velocity(gazebo, "Wheel::rim")[1] == pytest.approx([0, 0, 0.5 * 0.123], abs=1e-6)
+    assert gazebo("apply_joint_effort", joint_name="axle", effort=-0.5, duration=ENDLESS)["success"]
+    steps(gazebo, 2)
+    gazebo("clear_joint_forces", joint_name="axle")
+    steps(gazebo, 2)
+    assert link_velocity(gazebo, "Wheel::rim")[1] == pytest.approx([0, 0, 0.5 * 0.023], abs=1e-6)
+
+
+def test_forces_end_with_a_reset(gazebo: Gazebo) -> None:
+    assert gazebo("apply_body_wrench", body_name="Arm::tip", wrench={"force": {"y": 1.0}}, duration=ENDLESS)["success"]
+    gazebo("reset_world")
+    steps(gazebo, 2)
+    assert link_velocity(gazebo, "Arm::tip")[0] == [0, 0, 0]
 
 
 def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
@@ -221,8 +296,8 @@ def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
     wait_until(told, "both topics")
     for topic, listener in listeners.items():
         topics[topic] = next(yaml.safe_load_all(listener.communicate()[0]))
-    assert topics["model_states"]["name"] == ["Platform", "Arm", "Rock"]
-    assert topics["link_states"]["name"] == ["Platform::base", "Arm::base", "Arm::tip", "Rock::link"]
+    assert topics["model_states"]["name"] == ["Platform", "Arm", "Rock", "Wheel"]
+    assert topics["link_states"]["name"] == [*("Platform::base", "Arm::base", "Arm::tip", "Rock::link", "Wheel::rim")]
     assert named(topics["model_states"], "Platform")[0] == pytest.approx([1, 2, 0])
     # The tip moves round the base: v = w x r = (0, 0.5, 0) x (0, 0, 1).
     assert named(topics["link_states"], "Arm::tip")[1] == pytest.approx([0.5, 0, 0], abs=0.01)

@@ -16,11 +16,15 @@ MESSAGES = {
     "ODEPhysics": "667d56ddbd547918c32d1934503dc335",
 }
 SERVICES = {
+    "ApplyBodyWrench": "585b9f9618aa0581b207e2f2d90866bc",
+    "ApplyJointEffort": "c0039811b8cc919490b3cff748cdf46b",
+    "BodyRequest": "5eade9afe7f232d78005bd0cafeab755",
     "DeleteModel": "9ce56b4e9e54616de25d796dc972a262",
     "GetLinkState": "09d6c98cce97b35f7ab9bd70300657ab",
     "GetModelState": "4c515e936d3319c9610c559c60bfc3d4",
     "GetPhysicsProperties": "575a5e74786981b7df2e3afc567693a6",
     "GetWorldProperties": "36bb0f2eccf4d8be971410c22818ba3f",
+    "JointRequest": "0be1351618e1dc030eb7959d9a4902de",
     "SetLinkState": "8a5146eb66ae4d26b0860b08f3f271be",
     "SetModelState": "5b3ab0281d4f5445def017e3a2e4a07b",
     "SpawnModel": "9ed9c82c96abe1a00c3e8cdaeee24413",

@@ -15,6 +15,7 @@ from bubblesim.geometry.frames import state_from, state_in
 from bubblesim.ros_messages import pose_message, pose_values, twist_message, vector_values
 from bubblesim.scripting.host.host import ScriptHost
 from bubblesim.services.answers import Message, answering_empty, report_errors
+from bubblesim.services.gazebo_forces import GazeboForces
 from bubblesim.services.gazebo_names import find_entity, find_frame
 
 
@@ -43,6 +44,7 @@ class GazeboServices:
             ("get_world_properties", "GetWorldProperties", self._get_world_properties),
         ):
             self._advertise(name, f"gazebo_msgs/{kind}", report_errors(answer))
+        GazeboForces(self._bridge, self._simulation)
 
     def _advertise(self, name: str, service_type: str, answer: object) -> int:
         server: int = self._bridge.advertise_service(

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bubblesim/device.hpp"
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
 #include "physics/world_state.hpp"
@@ -47,7 +48,9 @@ void World::reset() {
   for (const auto& [id, model] : state_->models) place_model(*built, id, model.description);
   gather_statics(*built);
   list_moving(*built);
+  std::vector<DeviceSlot> devices = std::move(state_->devices);
   state_ = std::move(built);
+  reset_devices(*this, std::move(devices), *state_);
 }
 
 ObjectId World::add_model(ModelDescription model) {
@@ -88,9 +91,11 @@ void World::check_removable(ObjectId model) const {
 void World::remove_model(ObjectId model) {
   check_removable(model);
   dJointGroupEmpty(state_->contacts.get());  // contacts of the last step may refer to the model's bodies
-  forget_forces(*state_);                    // and these refer to its shapes
+  forget_touches(*state_);                   // and these refer to its shapes
   state_->models.erase(model);
   state_->tree.remove(model);
+  remove_devices(*state_, model);
+  forget_wrenches(*state_);
   std::vector<ObjectId>& lost = state_->lost_models;
   lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
   if (lost.empty()) state_->diverged = state_->interrupted;
@@ -129,6 +134,24 @@ std::vector<PlacedShape> World::shapes() const {
 
 namespace {
 
+void add_wrenches(Fnv1a& hash, const Wrenches& wrenches) {
+  for (const auto& [link, wrench] : wrenches) {
+    const double values[] = {wrench.force.X(),  wrench.force.Y(),  wrench.force.Z(),
+                             wrench.torque.X(), wrench.torque.Y(), wrench.torque.Z()};
+    hash.add(static_cast<std::uint64_t>(link));
+    hash.add(values, 6);
+  }
+}
+
+void add_scheduled(Fnv1a& hash, const DeviceSlot& slot) {
+  const double schedule[] = {slot.period, slot.ahead};
+  hash.add(schedule, 2);
+  hash.add(static_cast<std::uint64_t>(slot.substeps));
+  const std::vector<double> state = slot.device->state();
+  hash.add(state.data(), state.size());
+  add_wrenches(hash, slot.wrenches);
+}
+
 void add_planar_motor(Fnv1a& hash, const PlanarMotor& motor) {
   if (motor.linear == nullptr) return;
   const double velocity[] = {dJointGetLMotorParam(motor.linear.get(), dParamVel),
@@ -157,12 +180,14 @@ std::uint64_t World::state_hash() const {
     for (const PlacedJoint& placed : model.joints) {
       for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
         const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
-                                  placed.joint->axis(axis).max_force};
-        hash.add(targets, 3);
+                                  placed.joint->target_effort(axis), placed.joint->axis(axis).max_force};
+        hash.add(targets, 4);
         hash.add(static_cast<std::uint64_t>(placed.joint->axis(axis).motor));
       }
     }
   }
+  add_wrenches(hash, state_->wrenches);
+  for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   hash.add(state_->seed);
   hash.add(static_cast<std::uint64_t>(state_->random));
   hash.add(static_cast<std::uint64_t>(state_->steps_to_iterate));

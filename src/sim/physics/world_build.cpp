@@ -214,10 +214,28 @@ class ModelBuilder {
       joint.joint = make_joint(state_.world.get(), description, site);
     }
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
+    if (joint.joint) meter_motors(joint, description, pose);
     if (joint.joint && !description.sensors.empty()) {
       joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
     }
     model_.joints.push_back(std::move(joint));
+  }
+
+  void meter_motors(PlacedJoint& joint, const JointDescription& description, const Pose& pose) const {
+    const int axes = joint.joint->axis_count();
+    for (int i = 0; i < axes; ++i) {
+      auto& meter = joint.motor_meters.emplace_back();
+      if (joint.joint->motor_joint(i) == nullptr) continue;
+      MeteredAxis axis;
+      axis.joint = joint.joint->motor_joint(i);
+      axis.child = body_named(description.child);
+      // With two axes, the first is fixed in the parent and the second in the child.
+      axis.carrier = i == axes - 1 ? axis.child : body_named(description.parent);
+      axis.direction = pose.Rot().RotateVector(joint.joint->axis(i).direction);
+      axis.origin = pose.Pos();
+      axis.slides = description.type == "prismatic";
+      meter = std::make_unique<MotorMeter>(axis);
+    }
   }
 
   /// A point, in the world, on the axis of a link in the reference body of a gearbox.

@@ -58,18 +58,6 @@ void gather_wrench(const World::State& state, const PlacedJoint& placed, double 
   }
 }
 
-/// The frame in which an axis is fixed: with two axes, the first is fixed in the parent and the second in the child.
-Pose frame_of_axis(const World::State& state, const PlacedJoint& placed, int axis) {
-  if (axis == placed.joint->axis_count() - 1) return link_pose(state.link(placed.child)) * placed.in_child;
-  return placed.parent == kNoObject ? placed.in_parent : link_pose(state.link(placed.parent)) * placed.in_parent;
-}
-
-void gather_motor(const World::State& state, const PlacedJoint& placed, MotorMeter& meter, double step) {
-  const Wrench wrench = on_child(meter.joint, *dJointGetFeedback(meter.joint), state.link(placed.child).body.get());
-  const Vector3 effort = meter.slides ? wrench.force : wrench.torque + meter.lever.Cross(wrench.force);
-  meter.sum += effort.Dot(meter.along) * step;
-}
-
 }  // namespace
 
 void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
@@ -80,20 +68,6 @@ void watch_contact(World::State& state, dJointID joint, const Collider& first, c
   report.joint = joint;
   report.contact = contact;
   dJointSetFeedback(joint, &report.feedback);
-}
-
-const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides) {
-  for (const auto& meter : placed.motor_meters) {
-    if (meter->axis == axis) return meter.get();
-  }
-  dJointID joint = placed.joint->motor_joint(axis);
-  if (joint == nullptr) return nullptr;
-  auto& meter = placed.motor_meters.emplace_back(std::make_unique<MotorMeter>());
-  meter->axis = axis;
-  meter->slides = slides;
-  meter->joint = joint;
-  if (dJointGetFeedback(joint) == nullptr) dJointSetFeedback(joint, &meter->feedback);
-  return meter.get();
 }
 
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
@@ -110,22 +84,24 @@ std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
   return meter;
 }
 
-void aim_motor_meters(const World::State& state, const PlacedJoint& placed) {
-  for (const auto& meter : placed.motor_meters) {
-    const Pose frame = frame_of_axis(state, placed, meter->axis);
-    meter->along = frame.Rot().RotateVector(placed.joint->axis(meter->axis).direction);
-    meter->lever = to_vector(dBodyGetPosition(state.link(placed.child).body.get())) - frame.Pos();
-  }
+void clear_reports(WrenchAccumulator& meter) {
+  for (JointReport& report : meter.reports) report.feedback = {};
+}
+
+void forget_touches(World::State& state) {
+  state.touches.clear();
+  state.touch_reports.clear();
 }
 
 void forget_forces(World::State& state) {
-  state.touches.clear();
-  state.touch_reports.clear();
+  forget_touches(state);
   state.steps = 0;
   for (const PlacedModel* model : state.moving) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->sum = {};
-      for (const auto& meter : placed.motor_meters) meter->sum = 0;
+      for (const auto& meter : placed.motor_meters) {
+        if (meter != nullptr) meter->clear();
+      }
     }
   }
 }
@@ -140,7 +116,9 @@ void gather_forces(World::State& state, double step) {
   for (const PlacedModel* model : state.moving) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) gather_wrench(state, placed, step);
-      for (const auto& meter : placed.motor_meters) gather_motor(state, placed, *meter, step);
+      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
+        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(step);
+      }
     }
   }
 }

@@ -79,12 +79,10 @@ double World::joint_velocity(ObjectId joint, int axis) const {
   return found.joint.velocity(found.index);
 }
 
-double World::motor_effort(ObjectId joint, int axis) {
+double World::motor_effort(ObjectId joint, int axis) const {
   const int index = joint_axis(*state_, joint, axis).index;
-  const Object& object = state_->tree.at(joint);
-  PlacedJoint& placed = state_->models.at(state_->tree.outermost_model_of(joint)).joints[object.index];
-  const MotorMeter* meter = motor_meter(placed, index, joint_description(joint).type == "prismatic");
-  return meter == nullptr || state_->last_duration == 0 ? 0 : meter->sum / state_->last_duration;
+  const auto& meter = placed_joint(*state_, joint).motor_meters[static_cast<std::size_t>(index)];
+  return meter == nullptr || state_->last_duration == 0 ? 0 : meter->impulse() / state_->last_duration;
 }
 
 std::pair<ObjectId, ObjectId> World::joint_links(ObjectId joint) const {
@@ -107,13 +105,26 @@ double World::target_velocity(ObjectId joint, int axis) const {
   return found.joint.target_velocity(found.index);
 }
 
+double World::target_effort(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.target_effort(found.index);
+}
+
 double World::max_force(ObjectId joint, int axis) const {
   const JointAxis found = joint_axis(*state_, joint, axis);
   return found.joint.axis(found.index).max_force;
 }
 
+MotorMode World::motor_mode(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.axis(found.index).motor;
+}
+
 void World::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
   const JointAxis found = joint_axis(*state_, joint, axis);
+  if (mode != MotorMode::kNone && found.joint.motor_joint(found.index) == nullptr) {
+    throw WrongObject(state_->shown(joint) + " is a gearbox, which has no motor: drive one of the hinges of its links");
+  }
   found.joint.set_motor_mode(found.index, mode);
 }
 
@@ -127,6 +138,15 @@ void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
   const JointAxis found = joint_axis(*state_, joint, axis);
   check_target(*state_, joint, "target velocity", velocity);
   found.joint.set_target_velocity(found.index, velocity);
+}
+
+void World::set_target_effort(ObjectId joint, double effort, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  if (!within(effort, kMaxEffort)) {
+    throw InvalidInput(state_->shown(joint) + ": the target effort " + text(effort) +
+                       " is not usable: it must be finite and at most 1e9");
+  }
+  found.joint.set_target_effort(found.index, effort);
 }
 
 const JointDescription& World::joint_description(ObjectId joint) const {

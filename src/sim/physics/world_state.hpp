@@ -18,6 +18,7 @@
 #include "physics/contact_thinning.hpp"
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
+#include "physics/joints/motor_meter.hpp"
 #include "physics/ode_handles.hpp"
 
 namespace bubblesim {
@@ -56,17 +57,6 @@ struct WrenchAccumulator {
   Wrench sum;  // over the substeps of the last advance(), N s and N m s
 };
 
-/// Measures the force of an axis's motor. ODE's joint keeps a pointer to the feedback.
-struct MotorMeter {
-  int axis = 0;
-  bool slides = false;
-  dJointID joint = nullptr;
-  dJointFeedback feedback{};
-  Vector3 along;   // the axis at the start of the substep, to which ODE's forces refer; world axes
-  Vector3 lever;   // from the joint's origin to the child's centre of mass, at the same time
-  double sum = 0;  // over the substeps of the last advance(), N s or N m s
-};
-
 struct PlacedJoint {
   std::unique_ptr<Joint> joint;
   ObjectId object = kNoObject;
@@ -75,7 +65,7 @@ struct PlacedJoint {
   Pose in_parent;
   Pose in_child;
   std::unique_ptr<WrenchAccumulator> meter;               // null without a sensor
-  std::vector<std::unique_ptr<MotorMeter>> motor_meters;  // of axes whose motor effort was read
+  std::vector<std::unique_ptr<MotorMeter>> motor_meters;  // by axis; null without a motor
 };
 
 /// Two shapes that touched during the last advance(); a contact sensor observes the first.
@@ -133,6 +123,19 @@ struct StateSample {
   std::vector<LinkState> links;
 };
 
+/// What pushes links, by link: the sum in world axes, the torque about the centre of mass.
+using Wrenches = std::map<ObjectId, Wrench>;
+
+/// A device and its schedule.
+struct DeviceSlot {
+  std::shared_ptr<Device> device;
+  ObjectId model = kNoObject;  // with which it is removed
+  double period = 0;           // s; 0 for each substep
+  long substeps = 0;           // until its next update
+  double ahead = 0;            // s from that update to the time at which it is due
+  Wrenches wrenches;           // of its last update
+};
+
 struct World::State {
   /// Creates the state without models.
   State(const Vector3& gravity, std::uint64_t seed);
@@ -150,6 +153,9 @@ struct World::State {
   ode::SpaceHandle planes;   // infinite geoms would degrade the quadtree of the statics
   ode::JointGroupHandle contacts;
   std::map<ObjectId, PlacedModel> models;
+  Wrenches wrenches;                      // of the next advance()
+  std::vector<DeviceSlot> devices;        // in the order of their updates
+  DeviceSlot* updating = nullptr;         // the device whose update runs
   std::deque<TouchReport> touch_reports;  // of this substep; a deque, because ODE keeps pointers to its elements
   std::vector<Touch> touches;             // of the last advance()
   std::uint64_t steps = 0;                // substeps started in the last advance()
@@ -197,13 +203,23 @@ void watch_contact(World::State& state, dJointID joint, const Collider& first, c
                    const dContactGeom& contact);
 /// Requests feedback of a joint from now on.
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child);
-/// The meter of an axis's motor, which measures from the first call on; null without a motor.
-const MotorMeter* motor_meter(PlacedJoint& placed, int axis, bool slides);
-/// Updates the positions of a joint's motor meters before a substep.
-void aim_motor_meters(const World::State& state, const PlacedJoint& placed);
-/// Clears ODE's feedback at the start of an advance(), and accumulates it after each substep.
+/// Call before each substep: ODE leaves the feedback of a motor unchanged while it has no force.
+void clear_reports(WrenchAccumulator& meter);
+/// Clears the sums at the start of an advance(), and accumulates ODE's feedback after each substep.
+void forget_touches(World::State& state);
 void forget_forces(World::State& state);
 void gather_forces(World::State& state, double step);
+
+/// Updates the devices that are due at the start of a substep.
+void update_devices(World& world, World::State& state, double time, double step);
+/// Puts devices into the state of a world that was reset.
+void reset_devices(World& world, std::vector<DeviceSlot> devices, World::State& state);
+/// Removes the devices of a model.
+void remove_devices(World::State& state, ObjectId model);
+/// Passes forces and torques to ODE, which applies them in the next substep only.
+void push_links(const World::State& state, const Wrenches& wrenches);
+/// Removes the wrenches of links that do not exist any more.
+void forget_wrenches(World::State& state);
 
 Vector3 to_vector(const dReal* values);
 

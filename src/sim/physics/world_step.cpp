@@ -58,15 +58,20 @@ void step_iteratively(World::State& state, double step) {
   dRandSetSeed(others);
 }
 
-void substep(World::State& state, double step) {
+void substep(World::State& state, const Wrenches& wrenches, double step) {
   try {
     find_contacts(state, step);
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
-        aim_motor_meters(state, placed);
+        if (placed.meter != nullptr) clear_reports(*placed.meter);
+        for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
+          if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
+        }
       }
     }
+    push_links(state, wrenches);
+    for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
     if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
       step_iteratively(state, step);
       state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
@@ -98,7 +103,7 @@ void remember(World::State& state, double duration) {
 
 }  // namespace
 
-void World::advance(double duration, double step) {
+void World::advance(double duration, double step, std::optional<double> time) {
   if (!(step >= kMinPhysicsStep && step <= kMaxPhysicsStep)) {
     throw InvalidInput("a physics substep of " + text(step) + " s is not usable: it must be from 1e-5 to 1 s");
   }
@@ -109,7 +114,13 @@ void World::advance(double duration, double step) {
   ode::prepare_this_thread();
   remember(*state_, duration);
   forget_forces(*state_);
-  for (long left = std::lround(duration / step); left > 0; --left) substep(*state_, step);
+  const Wrenches wrenches = std::exchange(state_->wrenches, {});
+  const double start = time.value_or(state_->age);
+  const long substeps = std::lround(duration / step);
+  for (long done = 0; done < substeps; ++done) {
+    update_devices(*this, *state_, start + static_cast<double>(done) * step, step);
+    substep(*state_, wrenches, step);
+  }
   state_->age += duration;
 }
 

@@ -32,7 +32,7 @@ void warn(const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.
 
 void Simulation::advance_physics(double substep) {
   try {
-    world_.advance(scene_.time_step, substep);
+    world_.advance(scene_.time_step, substep, time());
   } catch (const Diverged& divergence) {
     handle(divergence);
   }

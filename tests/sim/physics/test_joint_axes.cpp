@@ -118,6 +118,19 @@ TEST(Revolute2, SteersByPositionWhileItRolls) {
   EXPECT_NEAR(std::atan2(-axle.X(), axle.Y()), 0.4, 1e-3) << "the axle points where the steering says";
 }
 
+TEST(Revolute2, EffortTurnsEachAxisPositively) {
+  for (const int axis : {0, 1}) {
+    Jointed pair(steered_wheel(MotorMode::kEffort, MotorMode::kEffort));
+    pair.world.set_target_effort(pair.joint, 0.5, axis);
+    pair.world.advance(0.1, kStep);
+    // Two bodies of 1 kg m^2 turn against each other.
+    EXPECT_NEAR(pair.world.joint_velocity(pair.joint, axis), 0.5 * 0.1 * 2, 1e-6);
+    EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 1 - axis), 0, 1e-6);
+    EXPECT_NEAR(pair.world.motor_effort(pair.joint, axis), 0.5, 1e-9);
+    EXPECT_EQ(pair.world.motor_effort(pair.joint, 1 - axis), 0);
+  }
+}
+
 TEST(Revolute2, LimitsOfTheFirstAxisHoldOnTheirOwnSide) {
   JointDescription described = steered_wheel(MotorMode::kVelocity, MotorMode::kNone);
   described.axes[0].lower = -0.3;

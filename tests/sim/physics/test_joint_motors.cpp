@@ -2,6 +2,7 @@
 // Motors, limits, friction and damping of joints, compared with theory.
 #include <gtest/gtest.h>
 
+#include "bubblesim/error.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_joint_motors {
@@ -248,6 +249,98 @@ TEST_P(AnyAxis, FrictionAndDampingAddUp) {
   EXPECT_NEAR(axis.velocity(), exact, 0.005);
   axis.run(5);
   EXPECT_NEAR(axis.velocity(), 0, 1e-9) << "friction stops it";
+}
+
+TEST_P(AnyAxis, EffortIsAcceleration) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kEffort));
+  axis.world.set_target_effort(axis.joint, -1.5);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), -1.5 * 0.5, 1e-9) << "v = F/m t";
+  EXPECT_NEAR(axis.world.motor_effort(axis.joint), -1.5, 1e-9);
+  axis.world.set_target_effort(axis.joint, 0);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), -1.5 * 0.5, 1e-9) << "without effort it moves freely";
+  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0);
+}
+
+TEST_P(AnyAxis, EffortKeepsToTheForceLimitAndNotToTheVelocityLimit) {
+  AxisDescription weak = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  weak.max_force = 2;
+  weak.max_velocity = 0.1;
+  Axis axis(GetParam(), weak);
+  axis.world.set_target_effort(axis.joint, 50);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), 2 * 0.5, 1e-9);
+  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 2, 1e-9);
+}
+
+TEST_P(AnyAxis, EffortPushesAgainstAStop) {
+  AxisDescription stopped = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  stopped.lower = -0.2;
+  stopped.upper = 0.1;
+  Axis axis(GetParam(), stopped);
+  axis.world.set_target_effort(axis.joint, 3);
+  axis.run(3);
+  EXPECT_NEAR(axis.position(), 0.1, 0.01);
+  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 3, 1e-9) << "the stop holds it, not the motor";
+}
+
+TEST_P(AnyAxis, EffortActsBesideFrictionAndDamping) {
+  AxisDescription both = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  both.friction = 0.5;
+  both.damping = 0.4;
+  Axis axis(GetParam(), both);
+  axis.world.set_target_effort(axis.joint, 2.5);
+  axis.run(60);
+  EXPECT_NEAR(axis.velocity(), (2.5 - 0.5) / 0.4, 1e-6) << "terminal velocity";
+}
+
+TEST_P(AnyAxis, ModesCanBeChangedWhileRunning) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  axis.world.set_target_velocity(axis.joint, 1);
+  axis.world.set_target_effort(axis.joint, 2);
+  axis.run(0.1);
+  EXPECT_NEAR(axis.velocity(), 1, 1e-6);
+  axis.world.set_motor_mode(axis.joint, MotorMode::kEffort);
+  axis.run(0.5);
+  EXPECT_NEAR(axis.velocity(), 2, 1e-6);
+  axis.world.set_motor_mode(axis.joint, MotorMode::kVelocity);
+  axis.run(0.1);
+  EXPECT_NEAR(axis.velocity(), 1, 1e-6) << "the targets are kept";
+}
+
+TEST_P(AnyAxis, TargetEffortIsStateAndEndsWithAReset) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kEffort));
+  const std::uint64_t before = axis.world.state_hash();
+  axis.world.set_target_effort(axis.joint, 2);
+  EXPECT_EQ(axis.world.target_effort(axis.joint), 2);
+  EXPECT_NE(axis.world.state_hash(), before);
+  axis.world.reset();
+  EXPECT_EQ(axis.world.target_effort(axis.joint), 0);
+  EXPECT_EQ(axis.world.state_hash(), before);
+  EXPECT_THROW(axis.world.set_target_effort(axis.joint, kNaN), InvalidInput);
+  EXPECT_THROW(axis.world.set_target_effort(axis.joint, kInfinity), InvalidInput);
+  EXPECT_EQ(axis.world.state_hash(), before);
+}
+
+TEST_P(AnyAxis, MotorEffortIsKnownInTheFirstStep) {
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0) << "before the first step";
+  axis.world.set_target_velocity(axis.joint, 0.5);
+  axis.run(0.05);
+  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 0.5 / 0.05, 1e-5) << "the momentum divided by the time";
+}
+
+TEST_P(AnyAxis, MotorEffortOfAMotorWithoutForceIsZero) {
+  AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  limited.lower = -10;  // a motor joint of its own
+  Axis axis(GetParam(), limited);
+  axis.world.set_target_velocity(axis.joint, 0.5);
+  axis.run(0.05);
+  EXPECT_GT(axis.world.motor_effort(axis.joint), 1);
+  axis.world.set_max_force(axis.joint, 0);
+  axis.run(0.05);
+  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0) << "not what it exerted last";
 }
 
 TEST(Pendulum, SwingsWithThePeriodOfTheory) {

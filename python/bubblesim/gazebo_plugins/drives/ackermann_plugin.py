@@ -20,17 +20,13 @@ class AckermannPlugin(Plugin):
 
     def steer(self, speed: float, angle: float) -> None:
         """Set speed (m/s) and steering angle (rad, to the left), each within its limit."""
-        self._wheels.speed = max(-self._max_speed, min(speed, self._max_speed))
-        self._wheels.angle = max(-self._max_steering, min(angle, self._max_steering))
+        limited = max(-self._max_speed, min(speed, self._max_speed))
+        self._wheels.command(limited, max(-self._max_steering, min(angle, self._max_steering)))
 
     def reset(self) -> None:
         """Stop and steer straight ahead."""
         self._wheels.reset()
         self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._wheels.command()
 
     def publish(self) -> None:
         """Publish the odometry."""

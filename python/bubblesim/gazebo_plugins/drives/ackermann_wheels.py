@@ -12,7 +12,7 @@ from bubblesim.gazebo_plugins.drives.wheels import drive_by_velocity
 
 
 class AckermannWheels:
-    """The wheels' joints and their command: a speed and a steering angle at the middle of the car."""
+    """The joints of the wheels, commanded by a speed and a steering angle at the middle of the car."""
 
     def __init__(
         self,
@@ -25,7 +25,7 @@ class AckermannWheels:
         steering_track: float,
         radius: float,
     ) -> None:
-        """Create it with zero command; call `reset` before use. All lengths in metres.
+        """Call `reset` before use. All lengths in metres.
 
         :param steering: the joints that turn the front wheels, the left one first.
         :param rears: the joints of the left and of the right rear wheels.
@@ -33,7 +33,6 @@ class AckermannWheels:
         :param steering_track: between the axes that the front wheels are steered about.
         :param radius: of the rear wheels.
         """
-        self.speed = self.angle = 0.0  # m/s; rad to the left
         self._world = world
         self._steering = steering
         self._rears = rears
@@ -44,17 +43,16 @@ class AckermannWheels:
 
     def reset(self) -> None:
         """Stop and steer straight ahead."""
-        self.speed = self.angle = 0.0
         drive_by_velocity(self._world, [joint for side in self._rears for joint in side])
         for joint in self._steering:
             self._world.set_motor_mode(joint, MotorMode.POSITION)
 
-    def command(self) -> None:
-        """Set the targets of the motors."""
-        speeds = rear_wheel_speeds(self._wheelbase, self._track, self.speed, self.angle)
+    def command(self, speed_of_middle: float, angle: float) -> None:
+        """Set the targets of the motors, from m/s and rad to the left."""
+        speeds = rear_wheel_speeds(self._wheelbase, self._track, speed_of_middle, angle)
         for joints, speed in zip(self._rears, speeds, strict=True):
             for joint in joints:
                 self._world.set_target_velocity(joint, speed / self._radius)
-        angles = front_wheel_angles(self._wheelbase, self._steering_track, self.angle)
-        for joint, angle in zip(self._steering, angles, strict=True):
-            self._world.set_target_position(joint, angle)
+        angles = front_wheel_angles(self._wheelbase, self._steering_track, angle)
+        for joint, position in zip(self._steering, angles, strict=True):
+            self._world.set_target_position(joint, position)

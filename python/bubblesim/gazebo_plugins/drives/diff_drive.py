@@ -34,7 +34,8 @@ class DiffDrive(Plugin):
             )
             left, right = right, left
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
-        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        rate = p.number("updateRate", 100.0, least=0.0)
+        self._rate = Rate(rate, self.simulation.time_step)
         diameters, separations = p.lengths("wheelDiameter", 0.15, pairs), p.lengths("wheelSeparation", 0.34, pairs)
         torque = p.number("wheelTorque", p.number("max_wheel_torque", 5.0, least=0.0), least=0.0)
         acceleration = p.number("wheelAcceleration", p.number("max_wheel_acceleration", 0.0, least=0.0), least=0.0)
@@ -44,7 +45,7 @@ class DiffDrive(Plugin):
             WheelGroup(DifferentialDrive(diameter / 2, separation, FASTEST), [left_one], [right_one])
             for diameter, separation, left_one, right_one in zip(diameters, separations, left, right, strict=True)
         ]
-        self._drive = TwoSidedDrive(self, *groups, torque=torque, acceleration=acceleration)
+        self._drive = TwoSidedDrive(self, *groups, torque=torque, acceleration=acceleration, rate=rate)
         self._odometry = Odometry(
             self,
             topic=p.text("odometryTopic", "odom"),
@@ -74,10 +75,6 @@ class DiffDrive(Plugin):
         """Stop."""
         self._drive.reset()
         self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._drive.actuate()
 
     def publish(self) -> None:
         """Publish the odometry and, if subscribed, the wheels' topics."""

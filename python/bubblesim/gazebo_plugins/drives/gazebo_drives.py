@@ -41,10 +41,6 @@ class GazeboDiffDrive(Plugin):
         """Stop."""
         self._drive.reset()
 
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._drive.actuate()
-
 
 class GazeboSkidSteerDrive(GazeboDiffDrive):
     """Four wheels, with joints of fixed names."""

@@ -7,10 +7,9 @@ import math
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Velocity
-from bubblesim.controllers.speed_ramp import approached
 from bubblesim.gazebo_plugins.drives.gz_odometry import drive_odometry
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
-from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
+from bubblesim.gazebo_plugins.plugin import FASTEST, Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
 
@@ -25,14 +24,13 @@ class GzDiffDrive(Plugin):
         self._left, self._right = (self._wheels(f"{side}_joint") for side in ("left", "right"))
         geometry = DifferentialDrive(p.length("wheel_radius", 0.2), p.length("wheel_separation", 1.0), FASTEST)
         self._max_velocities = [self._limit(kind, "velocity") for kind in ("linear", "angular")]
-        self._accelerations = [self._limit(kind, "acceleration") for kind in ("linear", "angular")]
+        accelerations = self._limit("linear", "acceleration"), self._limit("angular", "acceleration")
         self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
         p.ignore("tf_topic", "min_jerk", "max_jerk", "min_linear_jerk", "max_linear_jerk")
         p.check()
-        self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._left, self._right))
-        self._velocity = Velocity(0.0, 0.0)
+        self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._left, self._right), velocity_rates=accelerations)
         self._odometry = drive_odometry(self)
-        self._drive.subscribe(p.text("topic", f"/model/{model}/cmd_vel"))
+        self.subscribe(p.text("topic", f"/model/{model}/cmd_vel"), "geometry_msgs/Twist", self._command)
 
     def _wheels(self, parameter: str) -> list[int]:
         names = self.parameters.names(parameter)
@@ -46,27 +44,16 @@ class GzDiffDrive(Plugin):
         p.ignore(f"min_{kind}_{what}", f"min_{what}")
         return p.number(f"max_{kind}_{what}", p.number(f"max_{what}", math.inf, least=0.0), least=0.0)
 
+    def _command(self, twist: Message) -> None:
+        wanted = twist["linear"]["x"], twist["angular"]["z"]
+        if self.usable("Twist", wanted):
+            limited = (max(-most, min(to, most)) for to, most in zip(wanted, self._max_velocities, strict=True))
+            self._drive.command(Velocity(*limited))
+
     def reset(self) -> None:
         """Stop."""
-        self._velocity = Velocity(0.0, 0.0)
         self._drive.reset()
         self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        wanted, now = self._drive.target, self._velocity
-        linear, angular = (
-            approached(before, max(-most, min(to, most)), acceleration * self.simulation.time_step)
-            for before, to, most, acceleration in zip(
-                (now.linear, now.angular),
-                (wanted.linear, wanted.angular),
-                self._max_velocities,
-                self._accelerations,
-                strict=True,
-            )
-        )
-        self._velocity = Velocity(linear, angular)
-        self._drive.command(self._velocity)
 
     def publish(self) -> None:
         """Publish the odometry of the wheels."""

@@ -10,7 +10,7 @@ from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
 from bubblesim.gazebo_plugins.drives.kobuki_events import SIDES, bumpers_pressed, cliff_reading
 from bubblesim.gazebo_plugins.drives.odometry import Motion, Odometry, covariance, motion_on_plane
-from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
+from bubblesim.gazebo_plugins.drives.two_sided_drive import STILL, TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import joint_states
 from bubblesim.gazebo_plugins.plugin import FASTEST, Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.imu import imu_message
@@ -108,9 +108,9 @@ class Kobuki(Plugin):
     def actuate(self) -> None:
         """Command the wheels; stop them if the last command is too old."""
         if self._powered and self.simulation.time - self._commanded <= self._timeout:
-            self._drive.actuate()
+            self._drive.keep(self._drive.target)
         else:
-            self._drive.command(Velocity(0.0, 0.0))
+            self._drive.keep(STILL)
 
     def publish(self) -> None:
         """Publish states, and events of cliff sensors and bumpers."""

@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-import math
-
+from bubblesim._core import PlanarDrive
 from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
-from bubblesim.geometry.rotations import heading_of
 
 
 class PlanarMove(Plugin):
@@ -32,31 +30,27 @@ class PlanarMove(Plugin):
             pose_covariance=covariance(1e-5, 1e-5, 1e-3),
             twist_covariance=covariance(1e-5, 1e-5, 1e-3),
         )
-        self._forward = self._leftward = self._turning = 0.0
+        self._drive = PlanarDrive(self.world, context.model)
+        context.endpoints.append(self._drive.remove)
         self._commanded_at = 0.0  # s of simulated time
         self.subscribe(p.text("commandTopic", "cmd_vel"), "geometry_msgs/Twist", self._command)
 
     def _command(self, twist: Message) -> None:
         wanted = twist["linear"]["x"], twist["linear"]["y"], twist["angular"]["z"]
         if self.usable("Twist", wanted):
-            self._forward, self._leftward, self._turning = wanted
+            self._drive.set_velocity(*wanted)
             self._commanded_at = self.simulation.time
 
     def reset(self) -> None:
         """Stop."""
-        self._forward = self._leftward = self._turning = self._commanded_at = 0.0
+        self._drive.set_velocity(0.0, 0.0, 0.0)
+        self._commanded_at = 0.0
         self._rate.reset()
 
     def actuate(self) -> None:
-        """Set the model's planar velocity."""
+        """Stop when the last command is too old."""
         if 0 <= self._timeout < self.simulation.time - self._commanded_at:
-            self._forward = self._leftward = self._turning = 0.0
-        # Use the heading in the middle of the step, so that the path is the commanded arc.
-        yaw = heading_of(*self.world.pose(self.context.model)[3:]) + self._turning * self.simulation.time_step / 2
-        cos, sin = math.cos(yaw), math.sin(yaw)
-        x = cos * self._forward - sin * self._leftward
-        y = sin * self._forward + cos * self._leftward
-        self.world.set_planar_velocity(self.context.model, x, y, self._turning)
+            self._drive.set_velocity(0.0, 0.0, 0.0)
 
     def publish(self) -> None:
         """Publish the odometry, which is exact."""

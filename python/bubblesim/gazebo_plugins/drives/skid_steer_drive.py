@@ -22,10 +22,11 @@ class SkidSteerDrive(Plugin):
         right = [self.joint(f"right{row}Joint", f"right_{row.lower()}_joint") for row in ("Front", "Rear")]
         geometry = DifferentialDrive(p.length("wheelDiameter", 0.15) / 2, p.length("wheelSeparation", 0.4), FASTEST)
         torque = p.number("torque", 5.0, least=0.0)
-        self._drive = TwoSidedDrive(self, WheelGroup(geometry, left, right), torque=torque)
-        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        rate = p.number("updateRate", 100.0, least=0.0)
+        self._rate = Rate(rate, self.simulation.time_step)
         variances = (p.number("covariance_x", 1e-4), p.number("covariance_y", 1e-4), p.number("covariance_yaw", 1e-2))
         p.check()
+        self._drive = TwoSidedDrive(self, WheelGroup(geometry, left, right), torque=torque, rate=rate)
         self._odometry = Odometry(
             self,
             topic=p.text("odometryTopic", "odom"),
@@ -41,10 +42,6 @@ class SkidSteerDrive(Plugin):
         """Stop."""
         self._drive.reset()
         self._rate.reset()
-
-    def actuate(self) -> None:
-        """Command the wheels."""
-        self._drive.actuate()
 
     def publish(self) -> None:
         """Publish the odometry."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import math
 
-from bubblesim._core import MotorMode
+from bubblesim._core import JointRamps, MotorMode
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels
-from bubblesim.controllers.speed_ramp import SpeedRamp, approached
 from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance, motion_in_world, motion_on_plane
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics, drive_by_velocity
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
@@ -33,14 +32,18 @@ class TricycleDrive(Plugin):
         self._right = self.joint("encoderWheelRightJoint", "right_wheel_joint")
         self._radius = p.length("actuatedWheelDiameter", 0.15) / 2
         self._torque = p.number("wheelTorque", 5.0, least=0.0)
-        self._acceleration = p.number("wheelAcceleration", 0.0, least=0.0)  # rad/s^2
-        self._steering_speed = p.number("steeringSpeed", 0.0, least=0.0)
+        # rad/s^2 and rad/s; 0: no limit.
+        rates = [p.number(name, 0.0, least=0.0) or math.inf for name in ("wheelAcceleration", "steeringSpeed")]
         p.ignore("wheelDeceleration", "wheelSpeedTolerance", "steeringAngleTolerance")
         diameter, separation = p.length("encoderWheelDiameter", 0.15), p.length("encoderWheelSeparation", 0.5)
         self._axle = DifferentialDrive(diameter / 2, separation)
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
-        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        rate = p.number("updateRate", 100.0, least=0.0)
+        self._rate = Rate(rate, self.simulation.time_step)
         p.check()
+        outputs = [(self._wheel, MotorMode.VELOCITY, [1.0, 0.0]), (self._steering, MotorMode.POSITION, [0.0, 1.0])]
+        self._ramps = JointRamps(self.world, context.model, rate, rates, outputs)
+        context.endpoints.append(self._ramps.remove)
         self._odometry = Odometry(
             self,
             topic=p.text("odometryTopic", "odom"),
@@ -49,13 +52,8 @@ class TricycleDrive(Plugin):
             transform=True,
             pose_covariance=covariance(1e-5, 1e-5, 1e-3),
         )
-        self._wheels = WheelTopics(self, (self._steering, self._wheel, self._left, self._right), efforts=True)
+        self._wheels = WheelTopics(self, (self._steering, self._wheel, self._left, self._right))
         self.subscribe(p.text("commandTopic", "cmd_vel"), "geometry_msgs/Twist", self._command)
-        self._begin()
-
-    def _begin(self) -> None:
-        self._target_speed = self._target_angle = self._angle = 0.0
-        self._ramp = SpeedRamp(self._acceleration, (0.0,))
         self._encoder = WheelOdometry(self._axle, self._angles())
 
     def _angles(self) -> Wheels:
@@ -64,24 +62,16 @@ class TricycleDrive(Plugin):
     def _command(self, twist: Message) -> None:
         speed, angle = twist["linear"]["x"] / self._radius, twist["angular"]["z"]
         if self.usable("Twist", (speed, angle)):
-            self._target_speed, self._target_angle = speed, max(-_RIGHT_ANGLE, min(angle, _RIGHT_ANGLE))
+            self._ramps.set_targets([speed, max(-_RIGHT_ANGLE, min(angle, _RIGHT_ANGLE))])
 
     def reset(self) -> None:
         """Stop and steer straight ahead."""
-        self._begin()
+        self._encoder = WheelOdometry(self._axle, self._angles())
+        self._ramps.stop()
         self._rate.reset()
         drive_by_velocity(self.world, [self._wheel], self._torque)
         self.world.set_motor_mode(self._steering, MotorMode.POSITION)
         self.world.set_max_force(self._steering, self._torque)
-
-    def actuate(self) -> None:
-        """Command the front wheel."""
-        dt = self.simulation.time_step
-        most = self._steering_speed * dt if self._steering_speed > 0 else math.inf
-        self._angle = approached(self._angle, self._target_angle, most)
-        self.world.set_target_position(self._steering, self._angle)
-        (speed,) = self._ramp.update((self._target_speed,), dt)
-        self.world.set_target_velocity(self._wheel, speed)
 
     def publish(self) -> None:
         """Publish the odometry and, if subscribed, the wheels' topics."""

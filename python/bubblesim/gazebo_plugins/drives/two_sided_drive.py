@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from bubblesim._core import JointRamps, MotorMode
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
-from bubblesim.controllers.speed_ramp import SpeedRamp
 from bubblesim.gazebo_plugins.drives.odometry import Motion, motion_in_world, motion_on_plane
 from bubblesim.gazebo_plugins.drives.wheels import drive_by_velocity
 from bubblesim.gazebo_plugins.plugin import Message, Plugin
+
+STILL = Velocity(0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class WheelGroup:
 
 
 class TwoSidedDrive:
-    """Used by a plugin, which calls it in each phase. Without commands the wheels stand still."""
+    """Used by a plugin. Without commands the wheels stand still; a device of the world accelerates them."""
 
     def __init__(
         self,
@@ -32,25 +35,38 @@ class TwoSidedDrive:
         *groups: WheelGroup,
         torque: float | None = None,
         acceleration: float = 0.0,
+        velocity_rates: tuple[float, float] | None = None,
+        rate: float = 0.0,
     ) -> None:
         """Torque in N m, None for the joints' limits; acceleration of the rims in m/s^2, 0: no limit.
 
         The first wheels of the first group have the encoders.
+
+        :param velocity_rates: m/s^2 and rad/s^2 of the robot, instead of the acceleration of each rim.
+        :param rate: of the commands to the wheels, Hz; 0: in each physics substep.
         """
         self._plugin = plugin
         self._groups = groups
         self._torque = torque
-        self._acceleration = acceleration
-        self._stop()
+        self._whole = velocity_rates is not None
+        if velocity_rates is not None:
+            rates = list(velocity_rates)
+            outputs = [output for group in groups for output in _of_robot(group)]
+        else:
+            rates = [acceleration / g.geometry.wheel_radius or math.inf for g in groups for _ in range(2)]
+            outputs = [output for index, group in enumerate(groups) for output in _of_rims(group, index, len(groups))]
+        self._ramps = JointRamps(plugin.world, plugin.context.model, rate, rates, outputs)
+        plugin.context.endpoints.append(self._ramps.remove)
+        self._begin()
 
-    def _stop(self) -> None:
-        self.target = Velocity(0.0, 0.0)
-        self._ramps = [SpeedRamp(self._acceleration / g.geometry.wheel_radius, (0.0, 0.0)) for g in self._groups]
+    def _begin(self) -> None:
+        self.target = self._commanded = STILL
         self._encoder = WheelOdometry(self._groups[0].geometry, self._angles())
 
     def reset(self) -> None:
         """Stop and reset the odometry to the origin."""
-        self._stop()
+        self._begin()
+        self._ramps.stop()
         for group in self._groups:
             drive_by_velocity(self._plugin.world, [*group.left, *group.right], self._torque)
 
@@ -59,23 +75,25 @@ class TwoSidedDrive:
         self._plugin.subscribe(topic, "geometry_msgs/Twist", self.set_command)
 
     def set_command(self, twist: Message) -> None:
-        """Set the command from a geometry_msgs/Twist."""
+        """Command the wheels by a geometry_msgs/Twist."""
         forward, turning = twist["linear"]["x"], twist["angular"]["z"]
         if self._plugin.usable("Twist", (forward, turning)):
             self.target = Velocity(forward, turning)
-
-    def actuate(self) -> None:
-        """Command the wheels from the last Twist."""
-        self.command(self.target)
+            self.command(self.target)
 
     def command(self, velocity: Velocity) -> None:
         """Command the wheels."""
-        for group, ramp in zip(self._groups, self._ramps, strict=True):
-            wanted = wheel_speeds(group.geometry, velocity)
-            speeds = ramp.update((wanted.left, wanted.right), self._plugin.simulation.time_step)
-            for joints, speed in zip((group.left, group.right), speeds, strict=True):
-                for joint in joints:
-                    self._plugin.world.set_target_velocity(joint, speed)
+        self._commanded = velocity
+        if self._whole:
+            self._ramps.set_targets([velocity.linear, velocity.angular])
+        else:
+            speeds = [wheel_speeds(group.geometry, velocity) for group in self._groups]
+            self._ramps.set_targets([speed for pair in speeds for speed in (pair.left, pair.right)])
+
+    def keep(self, velocity: Velocity) -> None:
+        """Command the wheels unless this was the last command."""
+        if velocity != self._commanded:
+            self.command(velocity)
 
     def _angles(self) -> Wheels:
         """Return the angles of the first wheels on both sides."""
@@ -93,3 +111,24 @@ class TwoSidedDrive:
         """Return the velocity of the robot from its encoders; call it once in each step."""
         self._encoder.update(self._angles(), self._plugin.simulation.time_step)
         return self._encoder.velocity
+
+
+_Output = tuple[int, MotorMode, list[float]]
+
+
+def _of_rims(group: WheelGroup, index: int, groups: int) -> list[_Output]:
+    """Return the outputs of a group whose inputs are the speeds of the wheels of all groups, left and right."""
+    outputs: list[_Output] = []
+    for side, joints in enumerate((group.left, group.right)):
+        factors = [float(column == 2 * index + side) for column in range(2 * groups)]
+        outputs += [(joint, MotorMode.VELOCITY, factors) for joint in joints]
+    return outputs
+
+
+def _of_robot(group: WheelGroup) -> list[_Output]:
+    """Return the outputs of a group whose inputs are the robot's velocities."""
+    radius, half = group.geometry.wheel_radius, group.geometry.track / 2
+    outputs: list[_Output] = []
+    for sign, joints in ((-1.0, group.left), (1.0, group.right)):
+        outputs += [(joint, MotorMode.VELOCITY, [1.0 / radius, sign * half / radius]) for joint in joints]
+    return outputs

@@ -26,26 +26,25 @@ def wheel_radius(plugin: Plugin, joint: int) -> float | None:
     return max((shape.size[0] for shape in shapes if shape.kind in ("sphere", "cylinder")), default=None)
 
 
-def joint_states(plugin: Plugin, joints: Sequence[int], *, efforts: bool = False) -> Message:
-    """Return a sensor_msgs/JointState of this step; the effort is the motor's limit."""
+def joint_states(plugin: Plugin, joints: Sequence[int]) -> Message:
+    """Return a sensor_msgs/JointState of this step; the effort is that of the motor, the mean over the step."""
     world = plugin.world
     return {
         "header": plugin.header(""),
         "name": [world.name(joint) for joint in joints],
         "position": [world.joint_position(joint) for joint in joints],
         "velocity": [world.joint_velocity(joint) for joint in joints],
-        "effort": [world.max_force(joint) for joint in joints] if efforts else [],
+        "effort": [world.motor_effort(joint) for joint in joints],
     }
 
 
 class WheelTopics:
     """Optional topics of a drive's wheels: joint_states, and the wheels' transforms."""
 
-    def __init__(self, plugin: Plugin, joints: Sequence[int], *, efforts: bool = False) -> None:
+    def __init__(self, plugin: Plugin, joints: Sequence[int]) -> None:
         """Read the parameters publishWheelJointState and publishWheelTF."""
         self._plugin = plugin
         self._joints = joints
-        self._efforts = efforts
         self._transforms = plugin.parameters.flag("publishWheelTF", default=False)
         self._publisher: int | None = None
         if plugin.parameters.flag("publishWheelJointState", default=False):
@@ -55,8 +54,7 @@ class WheelTopics:
         """Publish the states of this step."""
         plugin, world = self._plugin, self._plugin.world
         if self._publisher is not None and plugin.is_needed(self._publisher):
-            message = joint_states(plugin, self._joints, efforts=self._efforts)
-            plugin.bridge.publish(self._publisher, message)
+            plugin.bridge.publish(self._publisher, joint_states(plugin, self._joints))
         if self._transforms:
             for joint in self._joints:
                 parent, child = world.joint_links(joint)

@@ -105,10 +105,12 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
       description.motor = MotorMode::kVelocity;
     } else if (*motor == "position") {
       description.motor = MotorMode::kPosition;
+    } else if (*motor == "effort") {
+      description.motor = MotorMode::kEffort;
     } else {
       reading.report(source_of(axis.Element(), "bubblesim:motor"), path,
-                     "<bubblesim:motor> is '" + *motor + "', it must be velocity or position" +
-                         did_you_mean(*motor, {"velocity", "position"}));
+                     "<bubblesim:motor> is '" + *motor + "', it must be velocity, position or effort" +
+                         did_you_mean(*motor, {"velocity", "position", "effort"}));
     }
   }
   return description;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "check/checks.hpp"
 #include "physics/contact_defaults.hpp"
 
 namespace bubblesim {
@@ -74,6 +75,12 @@ void Joint::set_stops(int axis, double lower, double upper) const {
 void Joint::apply_motor(Axis& axis) {
   if (axis.motor == nullptr) return;
   const AxisDescription& description = axis.description;
+  if (description.motor == MotorMode::kEffort && !description.mimic) {
+    // A motor that cannot reach its speed exerts its limit.
+    const double effort = std::min(std::abs(axis.target_effort), description.max_force);
+    axis.motor->hold(std::copysign(kMaxSpeed, axis.target_effort), effort);
+    return;
+  }
   const bool driven = description.motor != MotorMode::kNone || description.mimic;
   const bool by_velocity = description.motor == MotorMode::kVelocity && !description.mimic;
   axis.motor->hold(by_velocity ? target_speed(description, axis.target_velocity) : 0,
@@ -96,6 +103,17 @@ void Joint::set_target_velocity(int axis, double velocity) {
   Axis& set = axes_[static_cast<std::size_t>(axis)];
   set.target_velocity = velocity;
   apply_motor(set);
+}
+
+void Joint::set_target_effort(int axis, double effort) {
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.target_effort = effort;
+  apply_motor(set);
+}
+
+bool Joint::is_driven(int axis) const {
+  const Axis& asked = axes_[static_cast<std::size_t>(axis)];
+  return asked.motor != nullptr && (asked.description.motor != MotorMode::kNone || asked.description.mimic);
 }
 
 void Joint::set_max_force(int axis, double force) {

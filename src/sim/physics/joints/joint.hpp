@@ -41,9 +41,13 @@ class Joint {
 
   double target_position(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_position; }
   double target_velocity(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_velocity; }
+  double target_effort(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_effort; }
+  /// Whether the axis has a motor and a command for it.
+  bool is_driven(int axis) const;
   void set_motor_mode(int axis, MotorMode mode);
   void set_target_position(int axis, double position);
   void set_target_velocity(int axis, double velocity);
+  void set_target_effort(int axis, double effort);
   void set_max_force(int axis, double force);
 
   /// ODE's joint with the motor of an axis; null when it has none.
@@ -68,6 +72,7 @@ class Joint {
     AxisDescription description;
     double target_position = 0;
     double target_velocity = 0;
+    double target_effort = 0;
     const Joint* leader = nullptr;
     // ODE handles the stop and the motor of an axis in one constraint: a motor that pushes against a stop becomes a
     // plain force, infinite without a limit. Therefore an axis with limits does not use the motor of its rows.

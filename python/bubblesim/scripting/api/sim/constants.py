@@ -13,6 +13,9 @@ class SimConstants:
     handle_self = -4
     handle_parent = -11
     handle_scene = -12
+    handleflag_resetforce = 0x400000
+    handleflag_resettorque = 0x800000
+    handleflag_resetforcetorque = 0xC00000
 
     simulation_stopped = 0
     simulation_paused = 8
@@ -37,6 +40,11 @@ class SimConstants:
     jointmode_passive = jointmode_kinematic = 0
     jointmode_dependent = 3
     jointmode_force = jointmode_dynamic = 5
+    jointintparam_dynctrlmode = 2039
+    jointdynctrl_free = 0
+    jointdynctrl_force = 1
+    jointdynctrl_velocity = 4
+    jointdynctrl_position = 8
 
     object_shape_type = 0
     object_joint_type = 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 
+from bubblesim._core import MotorMode
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -43,7 +44,7 @@ class JointFunctions(ApiContext):
 
     def getJointForce(self, joint: Handle) -> float:
         """Return the force or torque of the joint's motor in the last step, positive in the joint's direction.
-        Measurement starts with the first call, which returns 0. Forces of limits and friction are not included."""
+        Forces of limits and friction are not included."""
         return float(self._world.motor_effort(self._resolve(joint)))
 
     def getJointTargetPosition(self, joint: Handle) -> float:
@@ -63,13 +64,51 @@ class JointFunctions(ApiContext):
         self._world.set_target_velocity(self._resolve(joint), velocity)
 
     def getJointTargetForce(self, joint: Handle) -> float:
-        """Return the maximum force or torque of the joint's motor."""
-        return float(self._world.max_force(self._resolve(joint)))
+        """Return the target force or torque of a force-controlled joint, and the maximum of the motor of others."""
+        joint = self._resolve(joint)
+        by_force = self._world.motor_mode(joint) == MotorMode.EFFORT
+        return float(self._world.target_effort(joint) if by_force else self._world.max_force(joint))
 
-    def setJointTargetForce(self, joint: Handle, force: float) -> None:
-        """Set the maximum force or torque of the joint's motor."""
-        self._world.set_max_force(self._resolve(joint), abs(force))
+    def setJointTargetForce(self, joint: Handle, force: float, signed: bool = True) -> None:
+        """Set the force or torque of a force-controlled joint, within the limit of its motor; of other joints the limit
+        of the motor, without the sign. If ``signed`` is false, the target velocity gives the direction."""
+        joint = self._resolve(joint)
+        if self._world.motor_mode(joint) != MotorMode.EFFORT:
+            self._world.set_max_force(joint, abs(force))
+        elif signed:
+            self._world.set_target_effort(joint, force)
+        else:
+            self._world.set_target_effort(joint, math.copysign(force, self._world.target_velocity(joint)))
 
     def setJointMaxForce(self, joint: Handle, force: float) -> None:
         """Set the maximum force or torque of the joint's motor (old name)."""
-        self.setJointTargetForce(joint, force)
+        self.setJointTargetForce(joint, force, False)
+
+    def getObjectInt32Param(self, joint: Handle, parameter: int) -> int:
+        """Return sim.jointintparam_dynctrlmode, the control mode of a joint: sim.jointdynctrl_free, force, velocity or
+        position. There are no other parameters."""
+        self._require_control_mode(parameter)
+        mode = self._world.motor_mode(self._resolve(joint))
+        return next(number for number, known in self._control_modes().items() if known == mode)
+
+    def setObjectInt32Param(self, joint: Handle, parameter: int, value: int) -> None:
+        """Set sim.jointintparam_dynctrlmode, the control mode of a joint, until the scene is reset."""
+        self._require_control_mode(parameter)
+        if value not in self._control_modes():
+            raise ValueError(
+                f"{value} is not a control mode of a joint; valid ones: sim.jointdynctrl_free, jointdynctrl_force, "
+                "jointdynctrl_velocity and jointdynctrl_position"
+            )
+        self._world.set_motor_mode(self._resolve(joint), self._control_modes()[value])
+
+    def _control_modes(self) -> dict[int, MotorMode]:
+        return {
+            self.jointdynctrl_free: MotorMode.NONE,
+            self.jointdynctrl_force: MotorMode.EFFORT,
+            self.jointdynctrl_velocity: MotorMode.VELOCITY,
+            self.jointdynctrl_position: MotorMode.POSITION,
+        }
+
+    def _require_control_mode(self, parameter: int) -> None:
+        if parameter != self.jointintparam_dynctrlmode:
+            raise ValueError(f"parameter {parameter} is not supported; supported: sim.jointintparam_dynctrlmode")

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.scripting.api.functions import script_module
+from bubblesim.scripting.api.sim.forces import ForceFunctions
 from bubblesim.scripting.api.sim.joints import JointFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
@@ -20,6 +21,7 @@ from bubblesim.scripting.api.sim.vision import VisionFunctions
 class SimApi(
     ObjectFunctions,
     JointFunctions,
+    ForceFunctions,
     SensorFunctions,
     VisionFunctions,
     SignalFunctions,

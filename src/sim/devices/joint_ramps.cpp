@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/joint_ramps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "bubblesim/error.hpp"
+#include "check/checks.hpp"
+#include "scene/describe.hpp"
+
+namespace bubblesim {
+
+JointRamps::JointRamps(std::vector<double> rates, std::vector<Output> outputs)
+    : rates_(std::move(rates)), outputs_(std::move(outputs)), inputs_(rates_.size()), targets_(rates_.size()) {
+  for (const double rate : rates_) {
+    if (!(rate >= 0)) throw InvalidInput("the rate " + text(rate) + " of an input is not usable: it must be 0 or more");
+  }
+  for (const Output& output : outputs_) {
+    const bool finite =
+        std::all_of(output.factors.begin(), output.factors.end(), [](double f) { return std::isfinite(f); });
+    if (finite && output.factors.size() == rates_.size()) continue;
+    throw InvalidInput("the factors of an output are not usable: they must be " + std::to_string(rates_.size()) +
+                       " finite numbers, one for each input");
+  }
+}
+
+void JointRamps::set_targets(std::vector<double> targets) {
+  const bool finite = std::all_of(targets.begin(), targets.end(), [](double target) { return std::isfinite(target); });
+  if (!finite || targets.size() != rates_.size()) {
+    throw InvalidInput("the targets are not usable: they must be " + std::to_string(rates_.size()) +
+                       " finite numbers, one for each input");
+  }
+  targets_ = std::move(targets);
+  changing_ = true;
+}
+
+void JointRamps::stop() {
+  std::fill(inputs_.begin(), inputs_.end(), 0);
+  std::fill(targets_.begin(), targets_.end(), 0);
+  changing_ = false;
+}
+
+void JointRamps::update(World& world, double, double duration) {
+  if (!changing_) return;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const double most = rates_[i] * duration;
+    const double gap = targets_[i] - inputs_[i];
+    inputs_[i] = std::abs(gap) <= most ? targets_[i] : inputs_[i] + std::copysign(most, gap);
+  }
+  changing_ = inputs_ != targets_;
+  for (const Output& output : outputs_) {
+    const double sum = std::inner_product(inputs_.begin(), inputs_.end(), output.factors.begin(), 0.0);
+    if (output.mode == MotorMode::kPosition) {
+      world.set_target_position(output.joint, sum);
+    } else {
+      world.set_target_velocity(output.joint, std::clamp(sum, -kMaxSpeed, kMaxSpeed));
+    }
+  }
+}
+
+void JointRamps::reset(World&) { stop(); }
+
+std::vector<double> JointRamps::state() const {
+  std::vector<double> numbers = inputs_;
+  numbers.insert(numbers.end(), targets_.begin(), targets_.end());
+  numbers.push_back(changing_ ? 1 : 0);
+  return numbers;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/planar_drive.hpp"
+
+#include <cmath>
+
+#include "bubblesim/error.hpp"
+#include "check/checks.hpp"
+
+namespace bubblesim {
+
+void PlanarDrive::set_velocity(double forward, double leftward, double turning) {
+  // The length of a velocity may be greater than its parts.
+  if (!within(std::hypot(forward, leftward), kMaxSpeed) || !within(turning, kMaxSpeed)) {
+    throw InvalidInput("the planar velocity must be finite and at most 1e6");
+  }
+  forward_ = forward;
+  leftward_ = leftward;
+  turning_ = turning;
+  commanded_ = true;
+}
+
+void PlanarDrive::update(World& world, double, double duration) {
+  if (!commanded_) return;
+  // The heading in the middle of the time until the next update makes the path the commanded arc.
+  const double yaw = world.pose(model_).Rot().Yaw() + turning_ * duration / 2;
+  const double along = std::cos(yaw);
+  const double across = std::sin(yaw);
+  world.set_planar_velocity(model_, along * forward_ - across * leftward_, across * forward_ + along * leftward_,
+                            turning_);
+}
+
+void PlanarDrive::reset(World&) {
+  forward_ = leftward_ = turning_ = 0;
+  commanded_ = false;
+}
+
+std::vector<double> PlanarDrive::state() const { return {forward_, leftward_, turning_, commanded_ ? 1.0 : 0.0}; }
+
+}  // namespace bubblesim

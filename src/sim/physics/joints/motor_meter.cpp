@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/joints/motor_meter.hpp"
+
+namespace bubblesim {
+namespace {
+
+Vector3 as_vector(const dReal* values) { return {values[0], values[1], values[2]}; }
+
+Vector3 in_body(dBodyID body, const Vector3& v) {
+  if (body == nullptr) return v;
+  dVector3 result;
+  dBodyVectorFromWorld(body, v.X(), v.Y(), v.Z(), result);
+  return as_vector(result);
+}
+
+Vector3 in_world(dBodyID body, const Vector3& v) {
+  if (body == nullptr) return v;
+  dVector3 result;
+  dBodyVectorToWorld(body, v.X(), v.Y(), v.Z(), result);
+  return as_vector(result);
+}
+
+}  // namespace
+
+MotorMeter::MotorMeter(const MeteredAxis& axis)
+    : axis_(axis),
+      direction_in_carrier_(in_body(axis.carrier, axis.direction)),
+      lever_in_child_(in_body(axis.child, as_vector(dBodyGetPosition(axis.child)) - axis.origin)) {
+  // A joint with one body reports its force first, whichever place the body has.
+  dBodyID first = dJointGetBody(axis.joint, 0);
+  child_first_ = first == axis.child || first == nullptr || dJointGetBody(axis.joint, 1) == nullptr;
+  if (dJointGetFeedback(axis.joint) == nullptr) dJointSetFeedback(axis.joint, &feedback_);
+}
+
+void MotorMeter::aim() {
+  direction_ = in_world(axis_.carrier, direction_in_carrier_);
+  if (!axis_.slides) lever_ = in_world(axis_.child, lever_in_child_);
+  *dJointGetFeedback(axis_.joint) = {};  // ODE leaves it unchanged while the motor has no force
+}
+
+void MotorMeter::gather(double step) {
+  const dJointFeedback& feedback = *dJointGetFeedback(axis_.joint);
+  const Vector3 force = as_vector(child_first_ ? feedback.f1 : feedback.f2);
+  if (axis_.slides) {
+    impulse_ += force.Dot(direction_) * step;
+  } else {
+    const Vector3 torque = as_vector(child_first_ ? feedback.t1 : feedback.t2);
+    impulse_ += (torque + lever_.Cross(force)).Dot(direction_) * step;
+  }
+}
+
+}  // namespace bubblesim

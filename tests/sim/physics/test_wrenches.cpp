@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces and torques on links, compared with the motion of a free rigid body.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "bubblesim/error.hpp"
+#include "bubblesim/world.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_wrenches {
+namespace {
+
+constexpr double kStep = 0.005;
+constexpr double kPass = 0.05;
+constexpr double kMass = 2;
+const Vector3 kInertia(0.5, 1, 2);
+
+/// A free body, rotated, with its centre of mass away from its origin.
+SceneDescription free_body(const Vector3& gravity = {}) {
+  ModelDescription body = model("Body", link("link"), Pose(1, 2, 3, 0.3, -0.2, 0.5));
+  body.links[0].mass = kMass;
+  body.links[0].inertia_diagonal = kInertia;
+  body.links[0].centre_of_mass = {0.1, -0.2, 0.3};
+  return scene({body, still(model("Wall", link_with(Box{{1, 1, 1}}), at(0, 0, 50)))}, gravity);
+}
+
+class Wrenches : public ::testing::Test {
+ protected:
+  ObjectId find(const std::string& path) const { return world.tree().find(path); }
+  /// Velocity of the centre of mass.
+  Vector3 linear() const {
+    const Twist twist = world.velocity(body);
+    return twist.linear + twist.angular.Cross(world.pose(body).Rot().RotateVector({0.1, -0.2, 0.3}));
+  }
+  Vector3 centre() const { return world.pose(body).CoordPositionAdd({0.1, -0.2, 0.3}); }
+  static void expect_near(const Vector3& found, const Vector3& wanted, double tolerance) {
+    EXPECT_LT((found - wanted).Length(), tolerance) << found << ", expected " << wanted;
+  }
+
+  World world{free_body(), 0};
+  ObjectId body = world.tree().find("/Body/link");
+};
+
+TEST_F(Wrenches, MomentumIsForceTimesTime) {
+  const Vector3 force(3, -1, 0.5);
+  for (int i = 0; i < 20; ++i) {
+    world.apply_wrench(body, {force, {}});
+    world.advance(kPass, kStep);
+  }
+  expect_near(linear() * kMass, force * 20 * kPass, 1e-9);
+  expect_near(world.velocity(body).angular, {}, 1e-9);
+}
+
+TEST_F(Wrenches, ActDuringOneStep) {
+  world.apply_wrench(body, {{1, 0, 0}, {}});
+  world.advance(kPass, kStep);
+  const Vector3 after_one = linear();
+  world.advance(kPass, kStep);
+  expect_near(after_one, {kPass / kMass, 0, 0}, 1e-12);
+  expect_near(linear(), after_one, 1e-12);
+}
+
+TEST_F(Wrenches, AddUp) {
+  world.apply_wrench(body, {{1, 0, 0}, {}});
+  world.apply_wrench(body, {{2, 4, 0}, {}});
+  world.advance(kPass, kStep);
+  expect_near(linear() * kMass, Vector3(3, 4, 0) * kPass, 1e-12);
+}
+
+TEST_F(Wrenches, TorqueAboutAPrincipalAxisTurnsAboutIt) {
+  for (int axis = 0; axis < 3; ++axis) {
+    world.reset();
+    Vector3 torque;
+    torque[static_cast<std::size_t>(axis)] = 0.4;
+    const Vector3 in_world = world.pose(body).Rot().RotateVector(torque);
+    for (int i = 0; i < 10; ++i) {
+      world.apply_wrench(body, {{}, torque}, {}, WrenchFrame::kObject);
+      world.advance(kPass, kStep);
+    }
+    expect_near(world.velocity(body).angular, in_world * 0.5 / kInertia[static_cast<std::size_t>(axis)], 1e-9);
+    expect_near(linear(), {}, 1e-9);
+  }
+}
+
+TEST_F(Wrenches, AForceBesideTheCentreAlsoTurns) {
+  const Vector3 force(0, 3, 0);
+  const Vector3 lever(0.2, 0, 0.1);
+  world.apply_wrench(body, {force, {}}, centre() + lever);
+  world.advance(kStep, kStep);
+  const Quaternion turned = free_body().models[0].pose.Rot();
+  const Vector3 torque = turned.RotateVectorReverse(lever.Cross(force));
+  const Vector3 angular = turned.RotateVector(torque / kInertia) * kStep;
+  expect_near(linear(), force * kStep / kMass, 1e-12);
+  expect_near(world.velocity(body).angular, angular, 1e-9);
+}
+
+TEST_F(Wrenches, TheFrameOfTheObjectIsThatOfAllVectors) {
+  const Pose before = world.pose(body);
+  World other(free_body(), 0);
+  const Wrench wrench{{1, -2, 3}, {0.1, 0.2, -0.3}};
+  const Vector3 point(0.4, 0.1, -0.2);
+  world.apply_wrench(body, wrench, point, WrenchFrame::kObject);
+  other.apply_wrench(body, {before.Rot().RotateVector(wrench.force), before.Rot().RotateVector(wrench.torque)},
+                     before.CoordPositionAdd(point));
+  world.advance(kPass, kStep);
+  other.advance(kPass, kStep);
+  expect_near(world.velocity(body).linear, other.velocity(body).linear, 1e-12);
+  expect_near(world.velocity(body).angular, other.velocity(body).angular, 1e-12);
+}
+
+TEST_F(Wrenches, OnAModelActOnItsCanonicalLink) {
+  World other(free_body(), 0);
+  world.apply_wrench(find("/Body"), {{1, 2, 3}, {4, 5, 6}});
+  other.apply_wrench(body, {{1, 2, 3}, {4, 5, 6}});
+  world.advance(kPass, kStep);
+  other.advance(kPass, kStep);
+  EXPECT_EQ(world.state_hash(), other.state_hash());
+}
+
+TEST_F(Wrenches, OnTwoJoinedLinksMoveBoth) {
+  World pair(jointed(joint("fixed", {})), 0);
+  const ObjectId base = pair.tree().find("/Robot/base");
+  pair.apply_wrench(base, {{1, 0, 0}, {}});
+  pair.advance(kPass, kStep);
+  EXPECT_NEAR(pair.velocity(base).linear.X(), kPass / 2, 1e-6) << "1 N moves two links of 1 kg";
+}
+
+TEST_F(Wrenches, CanBeCleared) {
+  world.apply_wrench(body, {{1, 0, 0}, {0, 1, 0}});
+  world.clear_wrench(body, true, false);
+  world.advance(kPass, kStep);
+  expect_near(linear(), {}, 1e-12);
+  EXPECT_GT(world.velocity(body).angular.Length(), 0.01);
+  world.reset();
+  world.apply_wrench(body, {{1, 0, 0}, {0, 1, 0}});
+  world.clear_wrench(body);
+  EXPECT_EQ(world.state_hash(), World(free_body(), 0).state_hash());
+}
+
+TEST_F(Wrenches, AreForgottenByAReset) {
+  const std::uint64_t before = world.state_hash();
+  world.apply_wrench(body, {{1, 0, 0}, {}});
+  EXPECT_NE(world.state_hash(), before);
+  world.reset();
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+TEST_F(Wrenches, OfARemovedModelAreForgotten) {
+  world.apply_wrench(body, {{1, 0, 0}, {}});
+  world.remove_model(find("/Body"));
+  EXPECT_NO_THROW(world.advance(kPass, kStep));
+}
+
+TEST_F(Wrenches, WakeASleepingBody) {
+  ModelDescription box = model("Box", link_with(Box{{0.2, 0.2, 0.2}}, 0), at(0, 0, 0.1));
+  World ground(scene({floor(0), box}), 0);
+  const ObjectId link = ground.tree().find("/Box/link");
+  ground.advance(3, kStep);  // it sleeps after half a second at rest
+  const double before = ground.pose(link).Pos().X();
+  ground.advance(1, kStep);
+  ASSERT_EQ(ground.pose(link).Pos().X(), before);
+  ground.apply_wrench(link, {{2, 0, 0}, {}});
+  ground.advance(kPass, kStep);
+  EXPECT_NEAR(ground.velocity(link).linear.X(), 2 * kPass, 1e-6);
+}
+
+TEST_F(Wrenches, WithoutForceOrTorqueDoNotWakeIt) {
+  const std::uint64_t before = world.state_hash();
+  world.apply_wrench(body, {});
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+TEST_F(Wrenches, TooLargeForTheWorldAreADivergence) {
+  world.apply_wrench(body, {{1e9, 0, 0}, {}});
+  EXPECT_THROW(world.advance(kPass, kStep), Diverged);
+  world.reset();
+  EXPECT_NO_THROW(world.advance(kPass, kStep));
+}
+
+TEST_F(Wrenches, InvalidOnesAreRefused) {
+  const std::uint64_t before = world.state_hash();
+  EXPECT_THROW(world.apply_wrench(body, {{kNaN, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.apply_wrench(body, {{}, {0, kInfinity, 0}}), InvalidInput);
+  EXPECT_THROW(world.apply_wrench(body, {{1e10, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.apply_wrench(body, {{1, 0, 0}, {}}, Vector3(kNaN, 0, 0)), InvalidInput);
+  EXPECT_THROW(world.apply_wrench(find("/Wall/link"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_THROW(world.apply_wrench(find("/Wall"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_THROW(world.apply_wrench(12345, {{1, 0, 0}, {}}), NoSuchObject);
+  World pair(jointed(joint("revolute", {axis(Vector3::UnitZ)})), 0);
+  EXPECT_THROW(pair.apply_wrench(pair.tree().find("/joint"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_wrenches
