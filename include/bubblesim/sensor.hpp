@@ -38,6 +38,8 @@ class Sensor {
   virtual ~Sensor() = default;
 
   void update(const MeasurementContext& moment);
+  /// Rays of a measurement: those with rays may measure in several threads at once, after RayScene::refresh().
+  virtual std::size_t ray_count() const { return 0; }
   /// Replaces the last measurement.
   void replace(double time, Measurement measurement);
   /// The last measurement. It does not change while a caller holds it; the next one is written to another buffer.

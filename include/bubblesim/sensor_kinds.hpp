@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -115,6 +116,17 @@ struct CameraImage {
   std::vector<float> depth;       ///< m along the axis, at least `near`; +Inf beyond `far` (REP 117)
   std::vector<ObjectId> objects;  ///< visible link, or kNoObject
 };
+
+/// Axes of a camera's point cloud: those of the sensor, or z forward and x to the right (REP 103).
+enum class CloudAxes { kSensor, kOptical };
+
+/// Floats per pixel of a camera's point cloud: x, y and z in metres, and the colour in the fifth as the bytes blue,
+/// green, red and 0, as PCL's PointXYZRGB. The others are 0.
+constexpr std::size_t kCloudFloats = 8;
+
+/// Writes the points of an image's pixels, kCloudFloats floats for each, to `points`. Those whose depth is not between
+/// `least` and `most` (m) are NaN. Returns whether no point is NaN.
+bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, float* points);
 
 /// An inertial measurement unit; noise along x, y, z.
 struct ImuDescription {

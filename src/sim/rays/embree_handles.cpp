@@ -18,11 +18,11 @@ void check_embree() {
   if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree failed with error " + std::to_string(error));
 }
 
-SceneHandle make_scene(RTCBuildQuality quality) {
+SceneHandle make_scene(RTCBuildQuality quality, RTCSceneFlags flag) {
   SceneHandle scene(rtcNewScene(device()));
   check_embree();
   rtcSetSceneFlags(scene.get(),
-                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | flag));
   rtcSetSceneBuildQuality(scene.get(), quality);
   return scene;
 }

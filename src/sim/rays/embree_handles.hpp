@@ -26,7 +26,7 @@ RTCDevice device();
 /// Throws std::runtime_error if Embree reported an error on this thread.
 void check_embree();
 
-/// Creates a scene in which no ray passes between neighbouring faces.
-SceneHandle make_scene(RTCBuildQuality quality);
+/// Creates a scene in which no ray passes between neighbouring faces. `flag` is added to its flags.
+SceneHandle make_scene(RTCBuildQuality quality, RTCSceneFlags flag = RTC_SCENE_FLAG_NONE);
 
 }  // namespace bubblesim::rays

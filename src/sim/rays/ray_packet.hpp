@@ -29,7 +29,7 @@ inline void aim(RTCRay16& rays, std::size_t i, const Vector3& origin, const Vect
 
 /// Distances are multiples of each ray's direction, which need not have length 1.
 struct RayPacket {
-  RTCRayHit16 data;
+  RTCRayHit16 data{};
   RayMask mask;
 
   /// Sets origin and range (`near` to `far`) of the first `count` rays. The caller sets the directions.

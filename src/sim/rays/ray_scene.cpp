@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "bubblesim/triangle_mesh.hpp"
+#include "rays/packet_math.hpp"
+#include "rays/ray_shapes.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -12,13 +16,12 @@ using namespace rays;
 constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits on planes_
 
 /// Column-major, 3 rows and 4 columns.
-std::array<float, 12> to_matrix(const Pose& pose) {
-  const ignition::math::Matrix3d turn(pose.Rot());
+std::array<float, 12> to_matrix(const ignition::math::Matrix3d& turn, const Vector3& position) {
   std::array<float, 12> matrix;
   for (std::size_t column = 0; column < 3; ++column) {
     for (std::size_t row = 0; row < 3; ++row) matrix[3 * column + row] = static_cast<float>(turn(row, column));
   }
-  for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(pose.Pos()[row]);
+  for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(position[row]);
   return matrix;
 }
 
@@ -37,30 +40,53 @@ VisualDescription as_visual(const CollisionDescription& collision) {
   return visual;
 }
 
-/// Rejects hits from inside and on the ignored model. Ray and normal are in the same frame here.
-void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
+/// Rejects hits from inside and on the ignored model.
+void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   const auto& context = *reinterpret_cast<const QueryContext*>(arguments->context);
-  const unsigned count = arguments->N;
-  for (unsigned i = 0; i < count; ++i) {
-    const float along = RTCRayN_dir_x(arguments->ray, count, i) * RTCHitN_Ng_x(arguments->hit, count, i) +
-                        RTCRayN_dir_y(arguments->ray, count, i) * RTCHitN_Ng_y(arguments->hit, count, i) +
-                        RTCRayN_dir_z(arguments->ray, count, i) * RTCHitN_Ng_z(arguments->hit, count, i);
-    if (along > 0 || shape.model == context.ignored_model) arguments->valid[i] = 0;
+  if (shape.model == context.ignored_model) {
+    std::fill_n(arguments->valid, arguments->N, 0);
+  } else {
+    keep_hits_from_outside(arguments);
   }
+}
+
+/// The positions of a model's sensors, in the world.
+std::vector<Vector3> sensor_positions(const World& world, ObjectId model) {
+  std::vector<Vector3> positions;
+  for (const ObjectKind carrier : {ObjectKind::kLink, ObjectKind::kJoint}) {
+    for (const ObjectId part : world.tree().parts(model, carrier)) {
+      for (const ObjectId sensor : world.tree().children(part, ObjectKind::kSensor)) {
+        positions.push_back(world.pose(sensor).Pos());
+      }
+    }
+  }
+  return positions;
+}
+
+/// Whether a sensor is inside a shape at `pose` in the world; inside its bounding box in case of a mesh.
+bool houses(const Geometry& geometry, const Pose& pose, const std::vector<Vector3>& sensors) {
+  return std::any_of(sensors.begin(), sensors.end(), [&](const Vector3& sensor) {
+    const Vector3 place = pose.Rot().RotateVectorReverse(sensor - pose.Pos());
+    const auto* mesh = std::get_if<Mesh>(&geometry);
+    if (mesh == nullptr) return is_inside(place, geometry);
+    const Vector3& low = mesh->triangles->low;
+    const Vector3& high = mesh->triangles->high;
+    return is_inside(place - (low + high) / 2, Box{high - low});
+  });
 }
 
 }  // namespace
 
 struct RayScene::InfinitePlane {
   const RayShape* shape;
-  Vector3 normal;
-  double offset;  // normal * point for its points
+  PlaneEquation equation;
 };
 
 struct RayScene::MovingLink {
   ObjectId id = kNoObject;
   Pose pose;
+  LinkFrame frame;  // of the same pose
   bool placed = false;
   SceneHandle scene;
   GeometryHandle instance;
@@ -74,7 +100,10 @@ struct RayScene::ModelShapes {
   std::vector<std::unique_ptr<MovingLink>> links;
 };
 
-RayScene::RayScene() : statics_(make_scene(RTC_BUILD_QUALITY_HIGH)), movers_(make_scene(RTC_BUILD_QUALITY_LOW)) {
+// Of all build qualities and flags, these commit a scene of instances fastest: twice as fast as the lowest quality.
+RayScene::RayScene()
+    : statics_(make_scene(RTC_BUILD_QUALITY_HIGH)),
+      movers_(make_scene(RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_DYNAMIC)) {
   rtcCommitScene(statics_.get());
   rtcCommitScene(movers_.get());
 }
@@ -86,16 +115,20 @@ void RayScene::add_model(const World& world, ObjectId model, const ModelDescript
   const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                    [](const LinkDescription& link) { return !link.visuals.empty(); });
   const std::vector<ObjectId> ids = world.tree().parts(model, ObjectKind::kLink);
+  const std::vector<Vector3> sensors = sensor_positions(world, model);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const LinkDescription& link = description.links[i];
-    const Pose pose = description.is_static ? world.pose(ids[i]) : Pose::Zero;
+    const Pose link_pose = world.pose(ids[i]);
+    const Pose pose = description.is_static ? link_pose : Pose::Zero;
     const std::size_t first = placed->shapes.size();
     const auto add = [&](const VisualDescription& visual) {
       const Pose in_frame = pose * visual.pose;
       const ignition::math::Matrix3d turn(in_frame.Rot());
       placed->shapes.push_back(std::make_unique<RayShape>(
           RayShape{visual.geometry, in_frame, turn, turn.Transposed(), visual.material, visual.keeps_mesh_materials,
-                   visual.cast_shadows, static_cast<float>(visual.laser_retro), ids[i], model}));
+                   visual.cast_shadows, static_cast<float>(visual.laser_retro), ids[i], model,
+                   houses(visual.geometry, link_pose * visual.pose, sensors)}));
+      has_retro_ = has_retro_ || visual.laser_retro != 0;
     };
     if (visuals) {
       for (const VisualDescription& visual : link.visuals) add(visual);
@@ -117,7 +150,7 @@ void RayScene::add_static(ModelShapes& model, std::size_t first) {
     const RayShape& shape = *model.shapes[i];
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
       const Vector3 normal = shape.pose.Rot().RotateVector(plane->normal.Normalized());
-      planes_.push_back({&shape, normal, normal.Dot(shape.pose.Pos())});
+      planes_.push_back({&shape, {normal, normal.Dot(shape.pose.Pos())}});
       continue;
     }
     const GeometryHandle geometry = make_geometry(shape);
@@ -173,8 +206,9 @@ void RayScene::refresh(const World& world) {
     const Pose pose = world.pose(link->id);
     if (pose == link->pose && link->placed) continue;
     link->pose = pose;
+    link->frame = {ignition::math::Matrix3d(pose.Rot()), pose.Pos()};
     link->placed = true;
-    const std::array<float, 12> matrix = to_matrix(pose);
+    const std::array<float, 12> matrix = to_matrix(link->frame.turn, pose.Pos());
     rtcSetGeometryTransform(link->instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
     rtcCommitGeometry(link->instance.get());
     movers_changed_ = true;
@@ -185,28 +219,11 @@ void RayScene::refresh(const World& world) {
   statics_changed_ = movers_changed_ = false;
 }
 
-void RayScene::meet_planes(RayPacket& packet, const RayMask& mask, ObjectId ignored) const {
-  RTCRay16& ray = packet.data.ray;
-  for (std::size_t p = 0; p < planes_.size(); ++p) {
-    const InfinitePlane& plane = planes_[p];
-    if (plane.shape->model == ignored) continue;
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      const double height = plane.normal.X() * ray.org_x[i] + plane.normal.Y() * ray.org_y[i] +
-                            plane.normal.Z() * ray.org_z[i] - plane.offset;
-      const double descent =
-          -(plane.normal.X() * ray.dir_x[i] + plane.normal.Y() * ray.dir_y[i] + plane.normal.Z() * ray.dir_z[i]);
-      if (mask.use[i] == 0 || height < 0 || descent <= 0) continue;
-      const auto distance = static_cast<float>(height / descent);
-      if (!(distance >= ray.tnear[i] && distance < ray.tfar[i])) continue;
-      ray.tfar[i] = distance;
-      packet.data.hit.geomID[i] = static_cast<unsigned>(p);
-      packet.data.hit.instID[0][i] = kPlaneInstance;
-    }
-  }
-}
-
 void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
-  meet_planes(packet, mask, context.ignored_model);
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    if (planes_[p].shape->model == context.ignored_model) continue;
+    meet_plane(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance, mask, packet.data);
+  }
   rtcIntersect16(mask.use, statics_.get(), &context.embree, &packet.data);
   if (!links_.empty()) rtcIntersect16(mask.use, movers_.get(), &context.embree, &packet.data);
 }
@@ -215,21 +232,13 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
 bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const {
   const RTCRay16& ray = packet.data.ray;
   const RTCHit16& hit = packet.data.hit;
-  int any = 0;
   int moving = 0;
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    const float along = ray.dir_x[i] * hit.Ng_x[i] + ray.dir_y[i] * hit.Ng_y[i] + ray.dir_z[i] * hit.Ng_z[i];
-    const int on_static = (packet.mask.use[i] != 0) & (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) &
-                          (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID);
-    moving |= (packet.mask.use[i] != 0) & (hit.instID[0][i] < kPlaneInstance);
-    inside.use[i] = (on_static & (along > 0)) != 0 ? kUsed : 0;
-    any |= inside.use[i];
-  }
+  int any = hits_from_inside(packet.data, packet.mask, kPlaneInstance, inside, moving);
   if (moving == 0) return any != 0;
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (packet.mask.use[i] == 0 || hit.instID[0][i] >= kPlaneInstance) continue;
-    const Vector3 direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
-    if (normal(packet, i).Dot(direction) <= 0) continue;
+    const Vector3 normal = links_[hit.instID[0][i]]->frame.turn * Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]);
+    if (normal.Dot(Vector3(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i])) <= 0) continue;
     inside.use[i] = any = kUsed;
   }
   return any != 0;
@@ -237,7 +246,7 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
 
 void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   QueryContext context = make_context(coherent, ignored);
-  if (ignored != kNoObject) context.embree.filter = keep_hits_from_outside;
+  if (ignored != kNoObject) context.embree.filter = keep_seen_hits;
   alignas(64) std::array<float, kPacket> far;
   std::copy_n(packet.data.ray.tfar, kPacket, far.begin());
   trace_once(packet, packet.mask, context);
@@ -249,7 +258,7 @@ void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
     packet.data.ray.tfar[i] = far[i];
     packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  context.embree.filter = keep_hits_from_outside;
+  context.embree.filter = keep_seen_hits;
   trace_once(packet, inside, context);
 }
 
@@ -270,29 +279,20 @@ const RayShape& RayScene::shape(const RayPacket& packet, std::size_t i) const {
 
 Vector3 RayScene::normal(const RayPacket& packet, std::size_t i) const {
   const RTCHit16& hit = packet.data.hit;
-  if (hit.instID[0][i] == kPlaneInstance) return planes_[hit.geomID[i]].normal;
+  if (hit.instID[0][i] == kPlaneInstance) return planes_[hit.geomID[i]].equation.normal;
   const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).Normalized();
   if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) return normal;
-  return links_[hit.instID[0][i]]->pose.Rot().RotateVector(normal);
+  return links_[hit.instID[0][i]]->frame.turn * normal;
 }
 
-Vector3 RayScene::shading_normal(const RayPacket& packet, std::size_t i) const {
-  const Vector3 flat = normal(packet, i);
+const LinkFrame* RayScene::link_frame(const RayPacket& packet, std::size_t i) const {
   const unsigned instance = packet.data.hit.instID[0][i];
-  if (instance == kPlaneInstance) return flat;
+  return instance < kPlaneInstance ? &links_[instance]->frame : nullptr;
+}
+
+const Vector3* RayScene::plane_normal(const RayPacket& packet, std::size_t i) const {
   const RTCHit16& hit = packet.data.hit;
-  Vector3 smooth = smooth_normal(shape(packet, i), hit.primID[i], hit.u[i], hit.v[i]);
-  if (instance != RTC_INVALID_GEOMETRY_ID) smooth = links_[instance]->pose.Rot().RotateVector(smooth);
-  return smooth.Dot(flat) > 0 ? smooth : flat;  // files may have normals that point inwards, or none
-}
-
-Vector3 RayScene::in_shape(const RayPacket& packet, std::size_t i, const Vector3& point) const {
-  const unsigned instance = packet.data.hit.instID[0][i];
-  const Pose& own = shape(packet, i).pose;
-  const Vector3 outer = instance < kPlaneInstance
-                            ? links_[instance]->pose.Rot().RotateVectorReverse(point - links_[instance]->pose.Pos())
-                            : point;
-  return own.Rot().RotateVectorReverse(outer - own.Pos());
+  return hit.instID[0][i] == kPlaneInstance ? &planes_[hit.geomID[i]].equation.normal : nullptr;
 }
 
 }  // namespace bubblesim

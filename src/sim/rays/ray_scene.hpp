@@ -4,6 +4,7 @@
 // inside its own housing sees through it.
 #pragma once
 
+#include <ignition/math/Matrix3.hh>
 #include <map>
 #include <memory>
 #include <vector>
@@ -14,6 +15,15 @@
 #include "rays/ray_shape.hpp"
 
 namespace bubblesim {
+namespace rays {
+
+/// Pose of a moving link in the world; the rotation as a matrix, which is faster for many points.
+struct LinkFrame {
+  ignition::math::Matrix3d turn;
+  Vector3 position;
+};
+
+}  // namespace rays
 
 class RayScene {
  public:
@@ -29,20 +39,23 @@ class RayScene {
   /// Updates the poses of moving links. Cheap when nothing moved.
   void refresh(const World& world);
 
-  /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: neighbouring rays are
-  /// nearly parallel.
+  /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: all rays start at one
+  /// point, and neighbouring rays are nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
   /// Sets tfar of each ray with a hit to -infinity. Infinite planes cast no shadow.
   void occlude(RTCRay16& rays, const rays::RayMask& mask) const;
+
+  /// Whether any shape ever had a laser_retro.
+  bool has_retro() const { return has_retro_; }
 
   /// The shape that ray `i` of a traced packet hit; the ray must have a hit.
   const rays::RayShape& shape(const rays::RayPacket& packet, std::size_t i) const;
   /// The surface normal at the hit; unit length, world axes.
   Vector3 normal(const rays::RayPacket& packet, std::size_t i) const;
-  /// The normal for shading, which is interpolated on smooth meshes.
-  Vector3 shading_normal(const rays::RayPacket& packet, std::size_t i) const;
-  /// Converts a world point to the frame of the shape that was hit.
-  Vector3 in_shape(const rays::RayPacket& packet, std::size_t i, const Vector3& point) const;
+  /// The frame of the moving link that ray `i` hit; null if the hit is on a static shape.
+  const rays::LinkFrame* link_frame(const rays::RayPacket& packet, std::size_t i) const;
+  /// The normal of the infinite plane that ray `i` hit; null if the hit is on another shape.
+  const Vector3* plane_normal(const rays::RayPacket& packet, std::size_t i) const;
 
  private:
   struct InfinitePlane;
@@ -52,7 +65,6 @@ class RayScene {
   void add_static(ModelShapes& model, std::size_t first);
   void add_moving(ModelShapes& model, std::size_t first, ObjectId link);
   void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
-  void meet_planes(rays::RayPacket& packet, const rays::RayMask& mask, ObjectId ignored) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 
   std::map<ObjectId, std::unique_ptr<ModelShapes>> models_;
@@ -63,6 +75,7 @@ class RayScene {
   std::vector<MovingLink*> links_;  // by instance id; null where one was removed
   bool statics_changed_ = false;
   bool movers_changed_ = false;
+  bool has_retro_ = false;
 };
 
 }  // namespace bubblesim

@@ -47,12 +47,14 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
   box.upper_z = high[2];
 }
 
-/// Where ray `i` of a packet enters the shape, as a multiple of the ray's direction; the normal is in the shape's outer
-/// frame.
-std::optional<ShapeHit> meet(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
+Vector3 origin_in_shape(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
   const Vector3 start(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
-  const Vector3 origin = shape.turn_back * (start - shape.pose.Pos());
-  if (is_inside(origin, shape.geometry)) return std::nullopt;  // fast exit, for a lidar in its housing
+  return shape.turn_back * (start - shape.pose.Pos());
+}
+
+/// Where ray `i` of a packet enters the shape, as a multiple of the ray's direction; the normal is in the shape's outer
+/// frame. `origin` is its start in the shape's frame.
+std::optional<ShapeHit> meet(const RayShape& shape, const Vector3& origin, RTCRayN* rays, unsigned count, unsigned i) {
   const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
   const double length = direction.Length();
   const Ray ray{origin, shape.turn_back * (direction / length)};
@@ -74,9 +76,18 @@ void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
   const unsigned count = arguments->N;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
   RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
+  const bool one_origin = (arguments->context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0;
+  std::optional<Vector3> origin;
   for (unsigned i = 0; i < count; ++i) {
     if (arguments->valid[i] == 0) continue;
-    const std::optional<ShapeHit> hit = meet(shape, rays, count, i);
+    if (!origin || !one_origin) {
+      origin = origin_in_shape(shape, rays, count, i);
+      if (is_inside(*origin, shape.geometry)) {
+        if (one_origin) return;  // a lidar in its housing
+        continue;
+      }
+    }
+    const std::optional<ShapeHit> hit = meet(shape, *origin, rays, count, i);
     if (!hit) continue;
     RTCRayN_tfar(rays, count, i) = static_cast<float>(hit->distance);
     RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.X());
@@ -93,7 +104,9 @@ void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
   if (!shape.cast_shadows) return;
   const unsigned count = arguments->N;
   for (unsigned i = 0; i < count; ++i) {
-    if (arguments->valid[i] == 0 || !meet(shape, arguments->ray, count, i)) continue;
+    if (arguments->valid[i] == 0) continue;
+    const Vector3 origin = origin_in_shape(shape, arguments->ray, count, i);
+    if (is_inside(origin, shape.geometry) || !meet(shape, origin, arguments->ray, count, i)) continue;
     RTCRayN_tfar(arguments->ray, count, i) = -std::numeric_limits<float>::infinity();
   }
 }
@@ -145,30 +158,32 @@ GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
 }
 
 GeometryHandle make_any(const RayShape& shape) {
-  if (const auto* box = std::get_if<Box>(&shape.geometry)) return make_box(*box, shape.pose);
+  const auto* box = std::get_if<Box>(&shape.geometry);
+  if (box != nullptr && !shape.houses_sensor) return make_box(*box, shape.pose);
   if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return make_mesh(*mesh->triangles, shape.pose);
   return make_round();
 }
 
 }  // namespace
 
-bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
-
-Vector3 smooth_normal(const RayShape& shape, unsigned triangle, float u, float v) {
-  const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-  if (mesh == nullptr || mesh->triangles->normals.empty()) return {};
-  const auto& [a, b, c] = mesh->triangles->triangles[triangle];
-  const auto normal = [mesh](std::uint32_t corner) {
-    const TriangleMesh::Point& known = mesh->triangles->normals[corner];
-    return Vector3(known[0], known[1], known[2]);
-  };
-  const auto second = static_cast<double>(u);
-  const auto third = static_cast<double>(v);
-  return (shape.turn * (normal(a) * (1 - second - third) + normal(b) * second + normal(c) * third)).Normalized();
+/// Ray and normal are in the same frame here.
+void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
+  const unsigned count = arguments->N;
+  for (unsigned i = 0; i < count; ++i) {
+    const float along = RTCRayN_dir_x(arguments->ray, count, i) * RTCHitN_Ng_x(arguments->hit, count, i) +
+                        RTCRayN_dir_y(arguments->ray, count, i) * RTCHitN_Ng_y(arguments->hit, count, i) +
+                        RTCRayN_dir_z(arguments->ray, count, i) * RTCHitN_Ng_z(arguments->hit, count, i);
+    if (along > 0) arguments->valid[i] = 0;
+  }
 }
+
+bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
 GeometryHandle make_geometry(const RayShape& shape) {
   GeometryHandle geometry = make_any(shape);
+  if (shape.houses_sensor && std::holds_alternative<Mesh>(shape.geometry)) {
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), keep_hits_from_outside);
+  }
   if (!shape.cast_shadows) rtcSetGeometryOccludedFilterFunction(geometry.get(), let_light_through);
   // Callbacks only read the shape; Embree's interface has no const.
   rtcSetGeometryUserData(geometry.get(), const_cast<RayShape*>(&shape));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shape as an Embree geometry. Flat shapes become faces; rays against round shapes use the exact float64 formulas of
-// ray_shapes.hpp. A new kind of geometry is added here only.
+// A shape as an Embree geometry. Flat shapes become faces; rays against round shapes, and boxes around a sensor, use
+// the exact float64 formulas of ray_shapes.hpp. A new kind of geometry is added here only.
 #pragma once
 
 #include <ignition/math/Matrix3.hh>
@@ -22,17 +22,17 @@ struct RayShape {
   float laser_retro = 0;
   ObjectId link = kNoObject;
   ObjectId model = kNoObject;
+  bool houses_sensor = false;  ///< a sensor of the model is inside it at first; traced so that it is ignored quickly
 };
-
-/// The interpolated normal at u, v (Embree's coordinates) of a mesh's triangle, in the shape's outer frame, unit
-/// length; the zero vector when the mesh is flat there.
-Vector3 smooth_normal(const RayShape& shape, unsigned triangle, float u, float v);
 
 /// Context of an Embree query, passed to every callback.
 struct QueryContext {
   RTCIntersectContext embree;  // must be first: Embree passes a pointer to it
   ObjectId ignored_model = kNoObject;
 };
+
+/// A filter that rejects hits on faces from inside.
+void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments);
 
 /// Infinite planes have no bounding box: RayScene intersects them itself.
 bool is_infinite(const Geometry& geometry);

@@ -12,6 +12,7 @@
 #include "rays/ray_scene.hpp"
 #include "scene/describe.hpp"
 #include "scene/fnv1a.hpp"
+#include "sensors/worker_pool.hpp"
 
 namespace bubblesim {
 
@@ -194,15 +195,31 @@ void Simulation::remove_model_now(ObjectId model) {
 void Simulation::update_sensors() {
   // Half a step of tolerance: rounding must not move a due time from one step to the next.
   const double until = time() + scene_.time_step / 2;
+  std::vector<SensorSlot*> with_rays;
+  std::size_t rays = 0;
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
     slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
     if (slot.shows) continue;
     slot.time = time();
     slot.measured = slot.wanted;  // without readers, it measures on the next read
-    if (slot.wanted) update(slot);
-    slot.wanted = false;
+    if (!std::exchange(slot.wanted, false)) continue;
+    if (slot.sensor->ray_count() == 0) {
+      update(slot);
+    } else {
+      with_rays.push_back(&slot);
+      rays += slot.sensor->ray_count();
+    }
   }
+  if (rays < kRaysWorthThreads) {
+    for (SensorSlot* slot : with_rays) update(*slot);
+    return;
+  }
+  rays_->refresh(world_);
+  WorkerPool::shared().run(with_rays.size(), [&](std::size_t i) {
+    with_rays[i]->sensor->update({world_, *rays_, time(), seed_});
+  });
+  measurements_ += with_rays.size();
 }
 
 void Simulation::update(SensorSlot& slot) {

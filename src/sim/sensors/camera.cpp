@@ -7,23 +7,23 @@
 #include <limits>
 #include <vector>
 
+#include "rays/hit_groups.hpp"
+#include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
 #include "sensors/kinds.hpp"
 #include "sensors/noise.hpp"
 #include "sensors/shading.hpp"
+#include "sensors/worker_pool.hpp"
 
 namespace bubblesim {
 namespace {
 
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
+constexpr std::size_t kRowsPerPart = 8;  // of a large image, on one thread
 
-/// Position of a ray in its pixel, from the pixel's upper left corner.
-struct SubPixel {
-  double column;
-  double row;
-};
-constexpr SubPixel kCentre{0.5, 0.5};
-constexpr std::array<SubPixel, 4> kFour = {{{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}}};
+// Positions of rays in a pixel, from the pixel's upper left corner.
+constexpr double kCentre = 0.5;
+constexpr std::array<double, 2> kQuarters = {0.25, 0.75};
 
 class Camera final : public Sensor {
  public:
@@ -32,9 +32,31 @@ class Camera final : public Sensor {
         description_(description),
         id_(id),
         shading_(environment),
-        focal_(description.width / (2 * std::tan(description.horizontal_fov / 2))) {}
+        focal_(description.width / (2 * std::tan(description.horizontal_fov / 2))) {
+    const std::size_t padded = columns_per_packet(static_cast<std::size_t>(description.width));
+    const auto fill = [&](double part, std::vector<double>& left) {
+      for (std::size_t column = 0; column < padded; ++column) {
+        left.push_back((description.width / 2.0 - (static_cast<double>(column) + part)) / focal_);
+      }
+    };
+    fill(kCentre, centres_);
+    if (!description.antialias) return;
+    for (std::size_t i = 0; i < kQuarters.size(); ++i) fill(kQuarters[i], quarters_[i]);
+  }
+
+  std::size_t ray_count() const override {
+    const auto pixels = static_cast<std::size_t>(description_.width) * static_cast<std::size_t>(description_.height);
+    return pixels * (description_.antialias ? 1 + quarters_.size() * quarters_.size() : 1);
+  }
 
  private:
+  /// What the rays of an image have in common.
+  struct View {
+    const RayScene& scene;
+    Vector3 eye;
+    ignition::math::Matrix3d turn;
+  };
+
   static CameraImage empty_image(const CameraDescription& description) {
     CameraImage image;
     image.width = description.width;
@@ -49,85 +71,108 @@ class Camera final : public Sensor {
     return image;
   }
 
+  static std::size_t columns_per_packet(std::size_t columns) {
+    return (columns + rays::kPacket - 1) / rays::kPacket * rays::kPacket;
+  }
+
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     auto& image = std::get<CameraImage>(measurement);
     moment.rays.refresh(moment.world);
     if (description_.color) shading_.place_lights(moment.world);
     const Pose sensor = moment.world.pose(id_);
-    const ignition::math::Matrix3d turn(sensor.Rot());
-    const auto width = static_cast<std::size_t>(description_.width);
+    const View view{moment.rays, sensor.Pos(), ignition::math::Matrix3d(sensor.Rot())};
     Noise noise(description_.noise, moment, id_);
-    std::vector<Color> colors(width);
+    colors_.resize(description_.color && noise.active() ? image.rgb.size() : 0);
+    const auto rows = static_cast<std::size_t>(description_.height);
+    const std::size_t length = image.depth.size() < kRaysWorthThreads ? rows : kRowsPerPart;
+    WorkerPool::shared().run((rows + length - 1) / length, [&](std::size_t part) {
+      for (std::size_t row = part * length; row < std::min(rows, (part + 1) * length); ++row) {
+        measure_row(view, row, image);
+      }
+    });
+    // The values of the noise follow from each other: one thread, in the order of the pixels.
+    for (std::size_t i = 0; i < colors_.size(); ++i) image.rgb[i] = level(noise(colors_[i]));
+    if (description_.color || !noise.active()) return;
+    for (float& depth : image.depth) {
+      if (std::isfinite(depth)) depth = static_cast<float>(noise(depth));
+    }
+  }
+
+  void measure_row(const View& view, std::size_t row, CameraImage& image) {
+    const auto width = static_cast<std::size_t>(description_.width);
     rays::RayPacket packet;
-    for (std::size_t row = 0; row < static_cast<std::size_t>(description_.height); ++row) {
-      const std::size_t start = row * width;
-      std::fill(colors.begin(), colors.end(), Color{});
-      const bool color_by_centre = description_.color && !description_.antialias;
-      for (std::size_t first = 0; first < width; first += rays::kPacket) {
-        const std::size_t count = std::min(rays::kPacket, width - first);
-        aim(packet, sensor, turn, first, row, kCentre, count);
-        moment.rays.trace(packet, true);
-        measure_depth(moment.rays, packet, count, &image.depth[start + first], &image.objects[start + first]);
-        if (color_by_centre) shading_.add(moment.rays, packet, count, 1, &colors[first]);
-        if (!description_.color || color_by_centre) continue;
-        for (const SubPixel& part : kFour) {
-          aim(packet, sensor, turn, first, row, part, count);
-          moment.rays.trace(packet, true);
-          shading_.add(moment.rays, packet, count, 0.25F, &colors[first]);
-        }
+    for (std::size_t first = 0; first < width; first += rays::kPacket) {
+      const std::size_t count = std::min(rays::kPacket, width - first);
+      const std::size_t start = row * width + first;
+      trace(view, static_cast<double>(row) + kCentre, &centres_[first], count, packet);
+      const rays::HitGroups groups(packet);
+      measure_depth(view.scene, packet, groups, count, &image.depth[start], &image.objects[start]);
+      if (!description_.color) continue;
+      lanes::Colors colors{};
+      if (description_.antialias) {
+        add_quarters(view, row, first, count, colors);
+      } else {
+        shading_.add(view.scene, packet, groups, 1, colors);
       }
-      if (description_.color) {
-        for (std::size_t i = 0; i < width; ++i) write(colors[i], noise, &image.rgb[3 * (start + i)]);
-      } else if (noise.active()) {
-        for (std::size_t i = 0; i < width; ++i) {
-          float& depth = image.depth[start + i];
-          if (std::isfinite(depth)) depth = static_cast<float>(noise(depth));
-        }
+      if (colors_.empty()) {
+        lanes::to_bytes(colors, count, &image.rgb[3 * start]);
+      } else {
+        keep(colors, count, &colors_[3 * start]);
       }
     }
   }
 
+  void add_quarters(const View& view, std::size_t row, std::size_t first, std::size_t count, lanes::Colors& colors) {
+    rays::RayPacket packet;
+    for (const double down : kQuarters) {
+      for (const std::vector<double>& left : quarters_) {
+        trace(view, static_cast<double>(row) + down, &left[first], count, packet);
+        shading_.add(view.scene, packet, rays::HitGroups(packet), 0.25F, colors);
+      }
+    }
+  }
+
+  /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length.
   /// Directions have length 1 along the camera's axis: distances are depths.
-  void aim(rays::RayPacket& packet, const Pose& sensor, const ignition::math::Matrix3d& turn, std::size_t column,
-           std::size_t row, const SubPixel& part, std::size_t count) const {
+  void trace(const View& view, double down, const double* left, std::size_t count, rays::RayPacket& packet) const {
     // Surfaces nearer than the near plane are clipped, as by a graphics card.
-    packet.start(sensor.Pos(), static_cast<float>(description_.near), static_cast<float>(description_.far), count);
-    RTCRay16& ray = packet.data.ray;
-    const double up = (description_.height / 2.0 - (static_cast<double>(row) + part.row)) / focal_;
-    const double base[3] = {turn(0, 0) + up * turn(0, 2), turn(1, 0) + up * turn(1, 2), turn(2, 0) + up * turn(2, 2)};
-    const double side[3] = {turn(0, 1), turn(1, 1), turn(2, 1)};
-    const double first = description_.width / 2.0 - (static_cast<double>(column) + part.column);
-    for (std::size_t i = 0; i < rays::kPacket; ++i) {
-      const double left = (first - static_cast<double>(i)) / focal_;
-      ray.dir_x[i] = static_cast<float>(base[0] + left * side[0]);
-      ray.dir_y[i] = static_cast<float>(base[1] + left * side[1]);
-      ray.dir_z[i] = static_cast<float>(base[2] + left * side[2]);
-    }
+    packet.start(view.eye, static_cast<float>(description_.near), static_cast<float>(description_.far), count);
+    const double up = (description_.height / 2.0 - down) / focal_;
+    const auto& turn = view.turn;
+    const Vector3 base(turn(0, 0) + up * turn(0, 2), turn(1, 0) + up * turn(1, 2), turn(2, 0) + up * turn(2, 2));
+    rays::aim(packet.data.ray, base, {turn(0, 1), turn(1, 1), turn(2, 1)}, left);
+    view.scene.trace(packet, true);
   }
 
-  static void measure_depth(const RayScene& scene, const rays::RayPacket& packet, std::size_t count, float* depth,
-                            ObjectId* objects) {
+  static void measure_depth(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups,
+                            std::size_t count, float* depth, ObjectId* objects) {
     for (std::size_t i = 0; i < count; ++i) {
-      const bool hit = packet.hit(i);
-      depth[i] = hit ? packet.data.ray.tfar[i] : kNoDepth;
-      objects[i] = hit ? scene.shape(packet, i).link : kNoObject;
+      depth[i] = groups.hits().use[i] != 0 ? packet.data.ray.tfar[i] : kNoDepth;
+      objects[i] = kNoObject;
+    }
+    for (const rays::HitGroup& group : groups) {
+      const ObjectId link = scene.shape(packet, group.ray).link;
+      for (std::size_t i = 0; i < count; ++i) objects[i] = group.members.use[i] != 0 ? link : objects[i];
     }
   }
 
-  static void write(const Color& color, Noise& noise, std::uint8_t* rgb) {
-    const auto level = [&noise](float value) {
-      const double noisy = noise.active() ? noise(value) : static_cast<double>(value);
-      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(noisy, 0.0, 1.0)));
-    };
-    rgb[0] = level(color.r);
-    rgb[1] = level(color.g);
-    rgb[2] = level(color.b);
+  static void keep(const lanes::Colors& colors, std::size_t count, float* rgb) {
+    for (std::size_t i = 0; i < count; ++i) {
+      rgb[3 * i] = colors.r[i];
+      rgb[3 * i + 1] = colors.g[i];
+      rgb[3 * i + 2] = colors.b[i];
+    }
   }
+
+  static std::uint8_t level(double value) { return static_cast<std::uint8_t>(255 * std::clamp(value, 0.0, 1.0) + 0.5); }
 
   CameraDescription description_;
   ObjectId id_;
   Shading shading_;
-  double focal_;  // in pixels
+  double focal_;                 // in pixels
+  std::vector<double> centres_;  // of the columns, left of the axis, as parts of the focal length
+  std::array<std::vector<double>, 2> quarters_;
+  std::vector<float> colors_;  // of an image before its noise; three per pixel
 };
 
 }  // namespace

@@ -7,14 +7,17 @@
 #include <limits>
 #include <vector>
 
+#include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
 #include "sensors/kinds.hpp"
 #include "sensors/noise.hpp"
+#include "sensors/worker_pool.hpp"
 
 namespace bubblesim {
 namespace {
 
 constexpr float kNoRange = std::numeric_limits<float>::infinity();
+constexpr std::size_t kRaysPerPart = 64 * rays::kPacket;  // of a large scan, on one thread
 
 class Lidar final : public Sensor {
  public:
@@ -36,6 +39,8 @@ class Lidar final : public Sensor {
     z_.resize(padded, 0);
   }
 
+  std::size_t ray_count() const override { return count_; }
+
  private:
   static LidarScan empty_scan(const LidarDescription& description) {
     LidarScan scan{description.horizontal, description.vertical, description.min_range, description.max_range, {}, {}};
@@ -51,35 +56,30 @@ class Lidar final : public Sensor {
     moment.rays.refresh(moment.world);
     const Pose sensor = moment.world.pose(id_);
     const ignition::math::Matrix3d turn(sensor.Rot());
-    const auto min_range = static_cast<float>(description_.min_range);
-    const auto max_range = static_cast<float>(description_.max_range);
-    rays::RayPacket packet;
-    for (std::size_t first = 0; first < count_; first += rays::kPacket) {
-      const std::size_t count = std::min(rays::kPacket, count_ - first);
-      packet.start(sensor.Pos(), min_range, max_range, count);
-      aim(packet, first, turn);
-      moment.rays.trace(packet, true);
-      for (std::size_t i = 0; i < count; ++i) {
-        const bool hit = packet.hit(i);
-        scan.ranges[first + i] = hit ? packet.data.ray.tfar[i] : kNoRange;
-        scan.intensities[first + i] = hit ? moment.rays.shape(packet, i).laser_retro : 0;
-      }
-    }
+    const std::size_t parts = count_ < kRaysWorthThreads ? 1 : (count_ + kRaysPerPart - 1) / kRaysPerPart;
+    const std::size_t length = parts == 1 ? count_ : kRaysPerPart;
+    WorkerPool::shared().run(parts, [&](std::size_t part) {
+      scan_part(moment.rays, sensor.Pos(), turn, part * length, std::min(count_, (part + 1) * length), scan);
+    });
     distort(moment, scan.ranges);
   }
 
-  /// Directions in double precision: single precision has an error of a millimetre on ground at a distance of 100 m.
-  void aim(rays::RayPacket& packet, std::size_t first, const ignition::math::Matrix3d& turn) const {
-    RTCRay16& ray = packet.data.ray;
-    const double r[9] = {turn(0, 0), turn(0, 1), turn(0, 2), turn(1, 0), turn(1, 1),
-                         turn(1, 2), turn(2, 0), turn(2, 1), turn(2, 2)};
-    const double* x = &x_[first];
-    const double* y = &y_[first];
-    const double* z = &z_[first];
-    for (std::size_t i = 0; i < rays::kPacket; ++i) {
-      ray.dir_x[i] = static_cast<float>(r[0] * x[i] + r[1] * y[i] + r[2] * z[i]);
-      ray.dir_y[i] = static_cast<float>(r[3] * x[i] + r[4] * y[i] + r[5] * z[i]);
-      ray.dir_z[i] = static_cast<float>(r[6] * x[i] + r[7] * y[i] + r[8] * z[i]);
+  void scan_part(const RayScene& scene, const Vector3& origin, const ignition::math::Matrix3d& turn, std::size_t begin,
+                 std::size_t end, LidarScan& scan) const {
+    const auto min_range = static_cast<float>(description_.min_range);
+    const auto max_range = static_cast<float>(description_.max_range);
+    rays::RayPacket packet;
+    for (std::size_t first = begin; first < end; first += rays::kPacket) {
+      const std::size_t count = std::min(rays::kPacket, end - first);
+      packet.start(origin, min_range, max_range, count);
+      rays::aim(packet.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
+      scene.trace(packet, true);
+      for (std::size_t i = 0; i < count; ++i) {
+        scan.ranges[first + i] = packet.hit(i) ? packet.data.ray.tfar[i] : kNoRange;
+      }
+      for (std::size_t i = 0; i < count && scene.has_retro(); ++i) {
+        scan.intensities[first + i] = packet.hit(i) ? scene.shape(packet, i).laser_retro : 0;
+      }
     }
   }
 

@@ -2,13 +2,14 @@
 // Colours of traced rays: Lambert's law with the scene's lights and shadows, and the sky.
 #pragma once
 
-#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
+#include "rays/hit_groups.hpp"
 #include "rays/ray_scene.hpp"
+#include "sensors/shade_lanes.hpp"
 
 namespace bubblesim {
 
@@ -19,12 +20,11 @@ class Shading {
   /// Collects the scene's lights and those of links, at their current poses.
   void place_lights(const World& world);
 
-  /// Adds `weight` times the colours of the first `count` rays of a traced packet to `colors`.
-  void add(const RayScene& scene, const rays::RayPacket& packet, std::size_t count, float weight, Color* colors) const;
+  /// Adds `weight` times the colours of the rays of a traced packet to `sum`.
+  void add(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups, float weight,
+           lanes::Colors& sum) const;
 
  private:
-  Color behind(const Vector3& direction) const;
-
   Environment environment_;
   std::vector<Light> lights_;
 };

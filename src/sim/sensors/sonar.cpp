@@ -74,6 +74,8 @@ class Sonar final : public Sensor {
   Sonar(const SonarDescription& description, ObjectId id, ObjectId model)
       : Sensor(ProximityReading{}), description_(description), id_(id), model_(model), rays_(fill(description)) {}
 
+  std::size_t ray_count() const override { return rays_.size(); }
+
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     moment.rays.refresh(moment.world);

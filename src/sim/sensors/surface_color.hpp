@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colour of a surface where a ray hits it: from its material, checkerboard or texture.
+// The colours and normals of surfaces where rays hit them: from materials, checkerboards, textures and smooth meshes.
 #pragma once
 
-#include <cstddef>
-
+#include "rays/hit_groups.hpp"
 #include "rays/ray_scene.hpp"
+#include "sensors/shade_lanes.hpp"
 
 namespace bubblesim {
 
-struct SurfaceColor {
-  Color diffuse;
-  Color emissive;
+/// The surfaces at the ends of a packet's rays; undefined for rays without a hit.
+struct Surfaces {
+  lanes::Places places;    // world
+  lanes::Normals normals;  // world
+  lanes::Colors diffuse;
+  lanes::Colors emissive;
 };
 
-/// The colour of the surface that ray `i` of a traced packet hit, at `point` in the world.
-SurfaceColor surface_color(const RayScene& scene, const rays::RayPacket& packet, std::size_t i, const Vector3& point);
+void find_surfaces(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups,
+                   Surfaces& surfaces);
 
 }  // namespace bubblesim

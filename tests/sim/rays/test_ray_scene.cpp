@@ -229,19 +229,6 @@ TEST(RayScene, ShowsVisualsInPlaceOfCollisionShapes) {
   EXPECT_EQ(traced.rays.shape(packet, 0).laser_retro, 7);
 }
 
-TEST(RayScene, TellsWhereOnAShapeARayEnded) {
-  const Pose pose(5, 1, 0, 0, 0, M_PI / 2);
-  for (const bool is_static : {true, false}) {
-    ModelDescription target = model("Target", link_with(Box{{2, 2, 2}}), pose);
-    target.is_static = is_static;
-    const Traced traced(scene({target}));
-    const rays::RayPacket packet = traced.trace({0, 0.5, 0.25}, Vector3::UnitX);
-    ASSERT_TRUE(packet.hit(0));
-    const Vector3 place = traced.rays.in_shape(packet, 0, {4, 0.5, 0.25});
-    EXPECT_LT(place.Distance({-0.5, 1, 0.25}), kExact);  // a quarter turn to the left: the box's y points to -x
-  }
-}
-
 TEST(Shadow, FallsFromStillAndMovingShapesAlike) {
   const Traced traced(scene({still(model("Still", link_with(Sphere{1}), at(0, 0, 5))),
                              model("Moving", link_with(Box{{1, 1, 1}}), at(5, 0, 5)), floor()}));

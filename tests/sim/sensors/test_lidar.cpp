@@ -4,6 +4,7 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
 #include "scenes.hpp"
+#include "surfaces.hpp"
 
 namespace bubblesim::test::test_lidar {
 namespace {
@@ -110,6 +111,45 @@ TEST(Lidar, LooksOutOfItsOwnHousing) {
   SceneDescription described = with_lidar(turn_of(361), room());
   described.models.back().links[0].collisions.push_back(shape(Cylinder{0.2, 0.3}));
   EXPECT_NEAR(Scan(described)->ranges[180], 4, kExact);
+}
+
+TEST(Lidar, LooksOutOfHousingsOfAnyShape) {
+  for (const Geometry& geometry : {Geometry(Box{{0.4, 0.5, 0.3}}), Geometry(box_mesh({0.4, 0.5, 0.3})),
+                                   Geometry(Capsule{0.3, 0.2}), Geometry(Ellipsoid{{0.3, 0.4, 0.2}})}) {
+    for (const bool moves : {false, true}) {
+      SceneDescription described = with_lidar(turn_of(361), room());
+      ModelDescription& eye = described.models.back();
+      eye.is_static = !moves;
+      eye.links[0].collisions.push_back(shape(geometry));
+      eye.links[0].collisions.push_back(shape(Box{{0.1, 0.1, 0.1}}));  // it stands beside the lidar
+      eye.links[0].collisions.back().pose = at(0, -0.6, 0);
+      const Scan scan(described);
+      for (int i = 0; i <= 360; ++i) {
+        const double angle = -M_PI + i * M_PI / 180;
+        if (std::abs(angle + M_PI / 2) < 0.2) continue;
+        EXPECT_NEAR(scan->ranges[i], distance_in_room(angle), kExact) << geometry.index() << ", ray " << i;
+      }
+      EXPECT_NEAR(scan->ranges[90], 0.55, kExact) << geometry.index();
+    }
+  }
+}
+
+TEST(Lidar, SeesTheHousingOfAnotherLidar) {
+  ModelDescription other = model("Other", link_with(Box{{0.4, 0.5, 0.3}}), Pose(2, 0, 0, 0, 0, M_PI / 2));
+  SensorDescription housed;
+  housed.name = "Housed";
+  housed.kind = turn_of(3);
+  other.links[0].sensors.push_back(housed);
+  std::vector<ModelDescription> others = room();
+  others.push_back(other);
+  EXPECT_NEAR(Scan(with_lidar(turn_of(361), others))->ranges[180], 1.75, kExact);
+}
+
+TEST(Lidar, OfManyRaysMeasuresAsOneOfFew) {
+  LidarDescription many = turn_of(20 * 360 + 1);
+  const Scan scan(with_lidar(many, room()));
+  const Scan few(with_lidar(turn_of(361), room()));
+  for (int i = 0; i <= 360; ++i) EXPECT_NEAR(scan->ranges[20 * i], few->ranges[i], 1e-5) << i;
 }
 
 TEST(Lidar, TellsTheRetroOfWhatItHits) {

@@ -44,11 +44,11 @@ class DepthCamera(Camera):
         if not (self.is_needed(self._depth) or self.is_needed(self._points)):
             return
         near, far = self._cutoffs
-        depth = np.where((image.depth > near) & (image.depth < far), image.depth, np.float32(np.nan))
         if self.is_needed(self._depth):
+            depth = np.where((image.depth > near) & (image.depth < far), image.depth, np.float32(np.nan))
             self.bridge.publish(self._depth, {"header": header, **image_message(depth, "32FC1")})
         if self.is_needed(self._points):
-            self.bridge.publish(self._points, {"header": header, **self._cloud.message(image, depth)})
+            self.bridge.publish(self._points, {"header": header, **self._cloud.message(image, near, far)})
 
 
 class OpenniKinect(DepthCamera):
@@ -58,29 +58,22 @@ class OpenniKinect(DepthCamera):
 
 
 class DepthCloud:
-    """Computes point clouds from the depths of one camera."""
+    """Computes point clouds from the images of one camera."""
 
     def __init__(self, *, optical: bool) -> None:
         """``optical``: axes with z forward and x to the right; else with x forward and y to the left."""
         self._optical = optical
-        self._rays: tuple[Array, Array] | None = None  # x of columns and y of rows at a depth of 1 m
+        self._points: Array | None = None  # memory for all messages: fresh memory takes longer than the points
 
-    def message(self, image: Any, depth: Array) -> Message:
-        """Return a sensor_msgs/PointCloud2 without its header, of depths in metres, which may be NaN."""
-        height, width = depth.shape
-        if self._rays is None:
-            half = np.tan(image.horizontal_fov / 2) * 2 / width
-            columns, rows = ((np.arange(n) - (n - 1) / 2) * half for n in (width, height))
-            self._rays = columns.astype(np.float32), rows.astype(np.float32)[:, None]
-        points = np.zeros((height, width, _POINT // 4), np.float32)
-        right, down, forward = (0, 1, 2) if self._optical else (1, 2, 0)
-        np.multiply(depth, self._rays[0], out=points[:, :, right])
-        np.multiply(depth, self._rays[1], out=points[:, :, down])
-        if not self._optical:
-            np.negative(points[:, :, 1:3], out=points[:, :, 1:3])
-        points[:, :, forward] = depth
-        if image.rgb is not None:
-            points.view(np.uint8)[:, :, 16:19] = image.rgb[:, :, ::-1]
+    def message(self, image: Any, near: float = -np.inf, far: float = np.inf) -> Message:
+        """Return a sensor_msgs/PointCloud2 without its header; it is valid until the next one.
+
+        Points whose depth is not between ``near`` and ``far``, in metres, are NaN.
+        """
+        height, width = image.depth.shape
+        if self._points is None:
+            self._points = np.empty((height, width, _POINT // 4), np.float32)
+        dense = image.fill_cloud(self._points, near, far, self._optical)
         return {
             "height": height,
             "width": width,
@@ -88,6 +81,6 @@ class DepthCloud:
             "is_bigendian": False,
             "point_step": _POINT,
             "row_step": _POINT * width,
-            "data": points.view(np.uint8),
-            "is_dense": not bool(np.isnan(depth).any()),
+            "data": self._points.view(np.uint8),
+            "is_dense": dense,
         }

@@ -7,8 +7,6 @@ import re
 from collections.abc import Collection, Iterator
 from typing import Any
 
-import numpy as np
-
 from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.camera import image_message
@@ -98,8 +96,7 @@ class GzSensor(SensorTopic):
                 yield from super().outputs(topic, reading)
 
     def _points(self, image: Any) -> Message:
-        depth = np.where(np.isfinite(image.depth), image.depth, np.float32(np.nan))
-        return self._cloud.message(image, depth)
+        return self._cloud.message(image)
 
 
 def _depths(image: Any) -> Message:

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rays of a traced packet, grouped by the shape that they hit: mostly one or two shapes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "rays/packet_math.hpp"
+#include "rays/ray_packet.hpp"
+
+namespace bubblesim::rays {
+
+struct HitGroup {
+  std::size_t ray;  ///< one of them
+  RayMask members;
+};
+
+class HitGroups {
+ public:
+  explicit HitGroups(const RayPacket& packet) {
+    RayMask left;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      hits_.use[i] = packet.mask.use[i] != 0 && packet.hit(i) ? kUsed : 0;
+      left.use[i] = hits_.use[i];
+    }
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      if (left.use[i] == 0) continue;
+      groups_[count_].ray = i;
+      take_same(packet.data.hit, i, left, groups_[count_].members);
+      ++count_;
+    }
+  }
+
+  /// The rays that hit something.
+  const RayMask& hits() const { return hits_; }
+  bool all_hit() const {
+    int all = kUsed;
+    for (const int hit : hits_.use) all &= hit;
+    return all != 0;
+  }
+  const HitGroup* begin() const { return groups_.data(); }
+  const HitGroup* end() const { return groups_.data() + count_; }
+
+ private:
+  RayMask hits_;
+  std::size_t count_ = 0;
+  std::array<HitGroup, kPacket> groups_;
+};
+
+}  // namespace bubblesim::rays

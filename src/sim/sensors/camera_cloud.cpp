@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Point clouds of cameras, in one pass over depths and colours.
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "bubblesim/sensor_kinds.hpp"
+#include "rays/simd.hpp"
+#include "sensors/worker_pool.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr std::size_t kPointRows = 16;  // of a large image, on one thread
+
+/// The offset of each of `count` pixels from the image's centre, at a depth of 1 m, rightwards or downwards.
+std::vector<float> offsets(int count, double pixel) {
+  std::vector<float> found;
+  for (int i = 0; i < count; ++i) found.push_back(static_cast<float>((i - (count - 1) / 2.0) * pixel));
+  return found;
+}
+
+struct Row {
+  const float* depths;
+  const std::uint8_t* rgb;  // null: none
+  const float* across;
+  float down;
+  std::size_t width;
+};
+
+/// Returns the number of points that are NaN.
+BUBBLESIM_SIMD std::size_t fill_row(const Row& row, float least, float most, bool optical, float* points) {
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < row.width; ++i) {
+    const float measured = row.depths[i];
+    const bool inside = (measured > least) & (measured < most);
+    const float depth = inside ? measured : std::numeric_limits<float>::quiet_NaN();
+    missing += inside ? 0 : 1;
+    const float right = depth * row.across[i];
+    const float down = depth * row.down;
+    std::uint32_t color = 0;
+    if (row.rgb != nullptr) {
+      const std::uint8_t* rgb = row.rgb + 3 * i;
+      color = static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
+    }
+    float* point = points + kCloudFloats * i;
+    point[0] = optical ? right : depth;
+    point[1] = optical ? down : -right;
+    point[2] = optical ? depth : -down;
+    point[3] = 0;
+    std::memcpy(&point[4], &color, sizeof color);  // the lowest byte first, as on all machines that run ROS
+    point[5] = point[6] = point[7] = 0;
+  }
+  return missing;
+}
+
+}  // namespace
+
+bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, float* points) {
+  const double pixel = std::tan(image.horizontal_fov / 2) * 2 / image.width;
+  const std::vector<float> across = offsets(image.width, pixel);
+  const std::vector<float> down = offsets(image.height, pixel);
+  const std::size_t width = across.size();
+  const std::size_t rows = down.size();
+  std::atomic<std::size_t> missing{0};
+  const std::size_t length = rows * width < kRaysWorthThreads ? rows : kPointRows;
+  WorkerPool::shared().run((rows + length - 1) / length, [&](std::size_t part) {
+    std::size_t found = 0;
+    for (std::size_t row = part * length; row < std::min(rows, (part + 1) * length); ++row) {
+      const std::size_t first = row * width;
+      const Row pixels{&image.depth[first], image.rgb.empty() ? nullptr : &image.rgb[3 * first], across.data(),
+                       down[row], width};
+      found += fill_row(pixels, static_cast<float>(least), static_cast<float>(most), axes == CloudAxes::kOptical,
+                        points + kCloudFloats * first);
+    }
+    missing += found;
+  });
+  return missing == 0;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arithmetic of shading on the sixteen rays of a packet at once. Places, and the rays to the lights, are in double
+// precision, so that shadows and checkerboards are exact far from the origin; colours are in single precision.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/triangle_mesh.hpp"
+#include "rays/ray_packet.hpp"
+
+namespace bubblesim::lanes {
+
+constexpr std::size_t kLanes = rays::kPacket;
+
+struct alignas(64) Places {
+  double x[kLanes], y[kLanes], z[kLanes];
+};
+struct alignas(64) Normals {
+  float x[kLanes], y[kLanes], z[kLanes];
+};
+struct alignas(64) Colors {
+  float r[kLanes], g[kLanes], b[kLanes];
+};
+/// Places on an image, from its lower left corner (0, 0) to (1, 1).
+struct alignas(64) ImagePlaces {
+  float right[kLanes], up[kLanes];
+};
+/// The normals of the three corners of each ray's triangle, and the ray's place in it.
+struct alignas(64) CornerNormals {
+  Normals corner[3];
+  float second[kLanes], third[kLanes];
+};
+/// Light at each place.
+struct alignas(64) Arrivals {
+  Places to_light;         // unit vectors
+  float distance[kLanes];  // m
+  float strength[kLanes];  // 0: none arrives, or from behind the surface
+};
+using Turn = std::array<double, 9>;  // a rotation matrix, row by row
+using Mask = rays::RayMask;
+
+/// Where the rays end, and the unit normals there, in the frame in which Embree has them.
+void find_places(const RTCRayHit16& packet, Places& places, Normals& normals);
+
+void turn_normals(const Turn& turn, const Mask& mask, Normals& normals);
+void set_normals(const Vector3& normal, const Mask& mask, Normals& normals);
+/// Replaces normals by those interpolated between the corners, turned by `turn`, that are on the same side.
+void smooth_normals(const CornerNormals& corners, const Turn& turn, const Mask& mask, Normals& normals);
+
+/// The places in a frame at `position` with the axes `turn`.
+void into_frame(const Turn& turn, const Vector3& position, Places& places);
+
+void paint(const Color& color, const Mask& mask, Colors& colors);
+/// A checkerboard of the material's two colours.
+void paint_checker(const Material& material, const Places& in_shape, const Mask& mask, Colors& colors);
+/// An image that repeats; colours are interpolated between pixel centres.
+void paint_texture(const Texture& texture, const ImagePlaces& places, const Mask& mask, Colors& colors);
+/// Each face of a box shows the whole image: upright on the sides, the upper edge at +x on top and bottom.
+void place_on_box(const Vector3& size, const Places& in_shape, ImagePlaces& places);
+
+/// Adds `weight` times the sky's colour to the rays that are not in `mask`.
+void add_sky(const RTCRay16& rays, const Mask& mask, float weight, Colors& sum);
+/// Adds `weight` times a colour to the rays that are not in `mask`.
+void add_beside(const Color& color, const Mask& mask, float weight, Colors& sum);
+/// Adds `weight` * (surface * light + glow) to the rays in `mask`.
+void add_ambient(const Colors& surface, const Color& light, const Colors& glow, const Mask& mask, float weight,
+                 Colors& sum);
+
+/// Light from one direction. Returns whether any arrives.
+bool arrive_along(const Vector3& to_light, const Normals& normals, const Mask& mask, Arrivals& arrivals);
+/// Light from a point or a spotlight. Returns whether any arrives.
+bool arrive_from(const Light& light, const Places& places, const Normals& normals, const Mask& mask,
+                 Arrivals& arrivals);
+
+/// Rays from the places to the light; `lit` marks those to trace.
+void aim_at_light(const RTCRay16& rays, const Places& places, const Normals& normals, const Arrivals& arrivals,
+                  RTCRay16& shadows, Mask& lit);
+/// Removes the light of places in shadow: those whose ray was found to be blocked.
+void remove_shadows(const RTCRay16& shadows, Arrivals& arrivals);
+/// Adds `weight` * surface * light * strength.
+void add_light(const Colors& surface, const Color& light, const Arrivals& arrivals, float weight, Colors& sum);
+
+/// Converts values from 0 to 1 to bytes, of `count` pixels.
+void to_bytes(const Colors& colors, std::size_t count, std::uint8_t* rgb);
+
+}  // namespace bubblesim::lanes
