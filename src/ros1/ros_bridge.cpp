@@ -79,9 +79,9 @@ struct RosBridge::Impl {
   Diagnostics diagnostics{options.take_report};
   MasterThread master;
   Topics topics{master, publisher_check, queue, guard};
+  std::unique_ptr<StepService> step_service;  // before the services, which use its queue
   Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
-  std::unique_ptr<StepService> step_service;
   Parameters parameters{master};
 
   mutable std::mutex urgent_mutex;  // guards urgent
