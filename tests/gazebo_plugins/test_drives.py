@@ -132,6 +132,11 @@ GZ_ARM = (
     + '<joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>'
     + joint("gz_arm_joint", "base", "arm", "0 0 1")
     + joint("gz_disc_joint", "arm", "disc", "0 0 1")
+    + link("flywheel", 0, 0, 2, 1, 0.1)
+    + joint("gz_flywheel_joint", "disc", "flywheel", "0 0 1").replace(
+        "</axis>", "<dynamics><damping>0.2</damping></dynamics></axis>"
+    )
+    + plugin("gz-sim-apply-joint-force-system", joint_name="gz_flywheel_joint")
     + plugin("gz-sim-joint-position-controller-system", joint_name="gz_arm_joint", initial_position="0.2")
     + plugin("gz-sim-joint-controller-system", joint_name="gz_disc_joint", topic="gz_disc")
     + plugin("gz-sim-joint-state-publisher-system", topic="gz_arm/joints")
@@ -281,6 +286,17 @@ def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
     peer.say("/model/gz_arm/joint/gz_arm_joint/0/cmd_pos", "std_msgs/Float64", {"data": -0.5})
     peer.say("/gz_disc", "std_msgs/Float64", {"data": 1.5})
     arm(-0.5, 1.5)
+
+
+def test_gz_sims_force_accelerates_a_joint_to_where_its_damping_holds(peer: Peer) -> None:
+    peer.say("/model/gz_arm/joint/gz_flywheel_joint/cmd_force", "std_msgs/Float64", {"data": 0.3})
+
+    def holds(state: Message) -> bool:
+        index = state["name"].index("gz_flywheel_joint")
+        found = state["velocity"][index], state["effort"][index]
+        return bool(found == pytest.approx((0.3 / 0.2, 0.3), abs=0.01))
+
+    peer.wait_for("/gz_arm/joints", "sensor_msgs/JointState", holds, "the flywheel to turn at 1.5 rad/s by 0.3 N m")
 
 
 def test_ros_2s_drive_turns_to_the_left_for_a_positive_rate(peer: Peer) -> None:

@@ -16,7 +16,11 @@ from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
 from bubblesim.gazebo_plugins.drives.planar_move import PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
 from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
-from bubblesim.gazebo_plugins.joints.gz_joint_controllers import GzJointController, GzJointPositionController
+from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
+    GzApplyJointForce,
+    GzJointController,
+    GzJointPositionController,
+)
 from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
 from bubblesim.gazebo_plugins.plugin import Plugin
@@ -72,6 +76,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-ackermann-steering-system": GzAckermannSteering,
     "gz-diff-drive-system": GzDiffDrive,
     "gz-odometry-publisher-system": GzOdometryPublisher,
+    "gz-apply-joint-force-system": GzApplyJointForce,
     "gz-joint-controller-system": GzJointController,
     "gz-joint-position-controller-system": GzJointPositionController,
     "gz-joint-state-publisher-system": GzJointStatePublisher,

@@ -21,7 +21,7 @@ const std::vector<OwnElement>& sdf_extensions() {
   static const std::vector<OwnElement> elements = {
       {"bubblesim:time_step", {"world"}},                // seconds of one simulation step
       {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
-      {"bubblesim:motor", {"axis", "axis2"}},            // velocity or position
+      {"bubblesim:motor", {"axis", "axis2"}},            // velocity, position or effort
       {"bubblesim:mimic", {"axis", "axis2"}},            // as <mimic> of SDFormat 1.11
       {"bubblesim:on_divergence", {"world"}},            // pause, reset or remove
       {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder

@@ -70,6 +70,7 @@ void remove_devices(World::State& state, ObjectId model) {
 
 void World::add_device(std::shared_ptr<Device> device, ObjectId model, double rate) {
   check_not_updating(*state_);
+  if (device == nullptr) throw InvalidInput("add_device needs a device, not a null pointer");
   if (model != kNoObject) {
     const Object& object = state_->tree.at(model);
     if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {

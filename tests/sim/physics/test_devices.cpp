@@ -190,6 +190,7 @@ TEST_F(Devices, CanBeRemoved) {
 }
 
 TEST_F(Devices, InvalidOnesAreRefused) {
+  EXPECT_THROW(world.add_device(nullptr), InvalidInput);
   EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), kNoObject, -1), InvalidInput);
   EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), kNoObject, kNaN), InvalidInput);
   EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), world.tree().find("/First/link")), WrongObject);

@@ -157,6 +157,16 @@ TEST_P(Gearbox, ChildTurnsMinusRatioTimesTheParent) {
   }
 }
 
+TEST_P(Gearbox, HasNoMotor) {
+  World world(geared(1, GetParam().first, GetParam().second, GetParam().apart, GetParam().reference), 0);
+  const ObjectId gearbox = world.tree().find("/joint2");
+  EXPECT_THROW(world.set_motor_mode(gearbox, MotorMode::kEffort), WrongObject);
+  EXPECT_THROW(world.set_motor_mode(gearbox, MotorMode::kVelocity, 1), WrongObject);
+  EXPECT_NO_THROW(world.set_motor_mode(gearbox, MotorMode::kNone));
+  world.advance(0.1, kStep);
+  EXPECT_EQ(world.motor_effort(gearbox), 0);
+}
+
 TEST_P(Gearbox, CarriesTorqueByItsRatio) {
   const Gears& gears = GetParam();
   constexpr double kRatio = 2;

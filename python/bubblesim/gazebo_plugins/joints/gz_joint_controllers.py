@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gz-sim's JointController and JointPositionController: a joint commanded by a std_msgs/Float64."""
+"""gz-sim's JointController, JointPositionController and ApplyJointForce: a joint commanded by a std_msgs/Float64."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class GzJointController(Plugin):
         super().__init__(context)
         p = self.parameters
         self._joint = self.joint("joint_name", "")
-        self._first = p.number(self.initial, 0.0)
+        self._first = p.number(self.initial, 0.0) if self.initial else 0.0
         p.ignore("use_force_commands", "use_velocity_commands", "use_actuator_msg", "actuator_number")
         p.ignore(*(f"{gain}_gain" for gain in "pid"), "i_max", "i_min", "cmd_max", "cmd_min", "cmd_offset")
         default = f"/model/{self.world.name(context.model)}/joint/{self.world.name(self._joint)}/{self.default_topic()}"
@@ -61,3 +61,15 @@ class GzJointPositionController(GzJointController):
     def actuate(self) -> None:
         """Command the joint."""
         self.world.set_target_position(self._joint, self._target)
+
+
+class GzApplyJointForce(GzJointController):
+    """Force or torque, N or N m, within the limit of the joint's motor."""
+
+    mode = MotorMode.EFFORT
+    initial = ""
+    command_topic = "cmd_force"
+
+    def actuate(self) -> None:
+        """Command the joint."""
+        self.world.set_target_effort(self._joint, self._target)
