@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "rays/simd.hpp"
@@ -341,18 +342,20 @@ BUBBLESIM_SIMD void add_light(const Colors& surface, const Color& light, const A
 }
 
 BUBBLESIM_SIMD void to_bytes(const Colors& colors, std::size_t count, std::uint8_t* rgb) {
-  alignas(64) std::uint8_t levels[3][kLanes];
+  alignas(64) std::int32_t levels[3][kLanes];
   const float* const parts[3] = {colors.r, colors.g, colors.b};
   for (std::size_t part = 0; part < 3; ++part) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       const float value = parts[part][i] > 0 ? parts[part][i] : 0;
       const double limited = value < 1 ? value : 1;
-      levels[part][i] = static_cast<std::uint8_t>(static_cast<int>(255 * limited + 0.5));
+      levels[part][i] = static_cast<std::int32_t>(255 * limited + 0.5);
     }
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t part = 0; part < 3; ++part) rgb[3 * i + part] = levels[part][i];
-  }
+  alignas(64) std::int32_t pixels[kLanes];  // red in the lowest byte
+  for (std::size_t i = 0; i < kLanes; ++i) pixels[i] = levels[0][i] | levels[1][i] << 8 | levels[2][i] << 16;
+  // Four bytes at a time, of which the next pixel overwrites the last.
+  for (std::size_t i = 0; i + 1 < count; ++i) std::memcpy(rgb + 3 * i, &pixels[i], 4);
+  if (count > 0) std::memcpy(rgb + 3 * (count - 1), &pixels[count - 1], 3);
 }
 
 }  // namespace bubblesim::lanes
