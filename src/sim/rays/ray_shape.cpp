@@ -173,10 +173,9 @@ GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
 }
 
 GeometryHandle make_any(const RayShape& shape) {
-  const auto* box = std::get_if<Box>(&shape.geometry);
-  if (box != nullptr && !shape.houses_sensor) return make_box(*box, shape.pose);
-  if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return make_mesh(*mesh->triangles, shape.pose);
-  return make_round();
+  if (is_traced_as_round(shape)) return make_round();
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) return make_box(*box, shape.pose);
+  return make_mesh(*std::get<Mesh>(shape.geometry).triangles, shape.pose);
 }
 
 }  // namespace
@@ -193,6 +192,11 @@ void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
 }
 
 bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
+
+bool is_traced_as_round(const RayShape& shape) {
+  if (std::holds_alternative<Box>(shape.geometry)) return shape.houses_sensor;
+  return !std::holds_alternative<Mesh>(shape.geometry);
+}
 
 GeometryHandle make_geometry(const RayShape& shape) {
   GeometryHandle geometry = make_any(shape);
