@@ -17,12 +17,8 @@ struct HitGroup {
 
 class HitGroups {
  public:
-  explicit HitGroups(const RayPacket& packet) {
-    RayMask left;
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      hits_.use[i] = packet.mask.use[i] != 0 && packet.hit(i) ? kUsed : 0;
-      left.use[i] = hits_.use[i];
-    }
+  explicit HitGroups(const RayPacket& packet) : all_hit_(find_hits(packet.data.hit, packet.mask, hits_)) {
+    RayMask left = hits_;
     for (std::size_t i = 0; i < kPacket; ++i) {
       if (left.use[i] == 0) continue;
       groups_[count_].ray = i;
@@ -33,16 +29,13 @@ class HitGroups {
 
   /// The rays that hit something.
   const RayMask& hits() const { return hits_; }
-  bool all_hit() const {
-    int all = kUsed;
-    for (const int hit : hits_.use) all &= hit;
-    return all != 0;
-  }
+  bool all_hit() const { return all_hit_; }
   const HitGroup* begin() const { return groups_.data(); }
   const HitGroup* end() const { return groups_.data() + count_; }
 
  private:
   RayMask hits_;
+  bool all_hit_;
   std::size_t count_ = 0;
   std::array<HitGroup, kPacket> groups_;
 };

@@ -58,6 +58,33 @@ BUBBLESIM_SIMD void meet(const double* normal, double offset, unsigned geometry,
   }
 }
 
+BUBBLESIM_SIMD bool reach_sphere(const RTCRay16& ray, const int* use, const double* centre, double radius, int* can) {
+  alignas(64) float margin[kPacket];  // negative: the sphere is out of reach
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const double x = centre[0] - static_cast<double>(ray.org_x[i]);
+    const double y = centre[1] - static_cast<double>(ray.org_y[i]);
+    const double z = centre[2] - static_cast<double>(ray.org_z[i]);
+    const double dx = ray.dir_x[i];
+    const double dy = ray.dir_y[i];
+    const double dz = ray.dir_z[i];
+    const double along = x * dx + y * dy + z * dz;
+    const double square = dx * dx + dy * dy + dz * dz;
+    const double end = static_cast<double>(ray.tfar[i]) * square;
+    const double ahead = along < 0 ? 0 : along;
+    const double nearest = (ahead < end ? ahead : end) / square;
+    const double rx = x - nearest * dx;
+    const double ry = y - nearest * dy;
+    const double rz = z - nearest * dz;
+    margin[i] = static_cast<float>(radius * radius - (rx * rx + ry * ry + rz * rz));
+  }
+  int any = 0;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    can[i] = margin[i] >= 0 ? use[i] : 0;
+    any |= can[i];
+  }
+  return any != 0;
+}
+
 BUBBLESIM_SIMD int from_inside(const RTCRay16& ray, const RTCHit16& hit, const int* use, unsigned first_other,
                                int* inside, int* moving) {
   int any = 0;
@@ -82,9 +109,23 @@ void meet_plane(const PlaneEquation& plane, unsigned geometry, unsigned instance
   meet(normal, plane.offset, geometry, instance, mask.use, packet);
 }
 
+bool can_meet_sphere(const RTCRay16& rays, const int* use, const Vector3& centre, double radius, RayMask& can) {
+  const double place[3] = {centre.X(), centre.Y(), centre.Z()};
+  return reach_sphere(rays, use, place, radius * (1 + 1e-4) + 1e-4, can.use);
+}
+
 int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned first_other, RayMask& inside,
                      int& moving) {
   return from_inside(packet.ray, packet.hit, mask.use, first_other, inside.use, &moving);
+}
+
+BUBBLESIM_SIMD bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask& found) {
+  int all = kUsed;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    found.use[i] = hits.geomID[i] != RTC_INVALID_GEOMETRY_ID ? mask.use[i] : 0;
+    all &= found.use[i];
+  }
+  return all != 0;
 }
 
 BUBBLESIM_SIMD void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same) {
@@ -95,6 +136,15 @@ BUBBLESIM_SIMD void take_same(const RTCHit16& hits, std::size_t i, RayMask& left
     same.use[ray] = equal ? left.use[ray] : 0;
     left.use[ray] = equal ? 0 : left.use[ray];
   }
+}
+
+BUBBLESIM_SIMD void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count,
+                                   float* distances) {
+  for (std::size_t i = 0; i < count; ++i) distances[i] = mask.use[i] != 0 ? rays.tfar[i] : none;
+}
+
+BUBBLESIM_SIMD void keep_object(ObjectId object, const RayMask& mask, std::size_t count, ObjectId* objects) {
+  for (std::size_t i = 0; i < count; ++i) objects[i] = mask.use[i] != 0 ? object : objects[i];
 }
 
 }  // namespace bubblesim::rays

@@ -6,6 +6,7 @@
 #include <ignition/math/Matrix3.hh>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/scene_tree.hpp"
 #include "rays/ray_packet.hpp"
 
 namespace bubblesim::rays {
@@ -33,12 +34,24 @@ struct PlaneEquation {
 void meet_plane(const PlaneEquation& plane, unsigned geometry, unsigned instance, const RayMask& mask,
                 RTCRayHit16& packet);
 
+/// Marks those of the used rays that can meet a sphere before they end; a margin covers rounding. Returns whether any
+/// can.
+bool can_meet_sphere(const RTCRay16& rays, const int* use, const Vector3& centre, double radius, RayMask& can);
+
 /// Marks the used rays whose hit on a still face is from inside. Returns the marks of all rays combined, and in
 /// `moving` whether a ray hit an instance, which has an id below `first_other`.
 int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned first_other, RayMask& inside,
                      int& moving);
 
+/// Marks the used rays that hit something. Returns whether all do.
+bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask& found);
+
 /// Moves the rays that hit the same shape as ray `i` from `left` to `same`.
 void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same);
+
+/// Writes the distances of the marked rays, and `none` for others, of the first `count` rays.
+void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count, float* distances);
+/// Writes `object` for the marked rays of the first `count`.
+void keep_object(ObjectId object, const RayMask& mask, std::size_t count, ObjectId* objects);
 
 }  // namespace bubblesim::rays

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bubblesim/triangle_mesh.hpp"
+#include "rays/housing.hpp"
 #include "rays/packet_math.hpp"
 #include "rays/ray_shapes.hpp"
 
@@ -14,16 +14,6 @@ namespace {
 using namespace rays;
 
 constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits on planes_
-
-/// Column-major, 3 rows and 4 columns.
-std::array<float, 12> to_matrix(const ignition::math::Matrix3d& turn, const Vector3& position) {
-  std::array<float, 12> matrix;
-  for (std::size_t column = 0; column < 3; ++column) {
-    for (std::size_t row = 0; row < 3; ++row) matrix[3 * column + row] = static_cast<float>(turn(row, column));
-  }
-  for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(position[row]);
-  return matrix;
-}
 
 QueryContext make_context(bool coherent, ObjectId ignored) {
   QueryContext context;
@@ -49,31 +39,6 @@ void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   } else {
     keep_hits_from_outside(arguments);
   }
-}
-
-/// The positions of a model's sensors, in the world.
-std::vector<Vector3> sensor_positions(const World& world, ObjectId model) {
-  std::vector<Vector3> positions;
-  for (const ObjectKind carrier : {ObjectKind::kLink, ObjectKind::kJoint}) {
-    for (const ObjectId part : world.tree().parts(model, carrier)) {
-      for (const ObjectId sensor : world.tree().children(part, ObjectKind::kSensor)) {
-        positions.push_back(world.pose(sensor).Pos());
-      }
-    }
-  }
-  return positions;
-}
-
-/// Whether a sensor is inside a shape at `pose` in the world; inside its bounding box in case of a mesh.
-bool houses(const Geometry& geometry, const Pose& pose, const std::vector<Vector3>& sensors) {
-  return std::any_of(sensors.begin(), sensors.end(), [&](const Vector3& sensor) {
-    const Vector3 place = pose.Rot().RotateVectorReverse(sensor - pose.Pos());
-    const auto* mesh = std::get_if<Mesh>(&geometry);
-    if (mesh == nullptr) return is_inside(place, geometry);
-    const Vector3& low = mesh->triangles->low;
-    const Vector3& high = mesh->triangles->high;
-    return is_inside(place - (low + high) / 2, Box{high - low});
-  });
 }
 
 }  // namespace
@@ -103,8 +68,10 @@ struct RayScene::ModelShapes {
 // Of all build qualities and flags, these commit a scene of instances fastest: twice as fast as the lowest quality.
 RayScene::RayScene()
     : statics_(make_scene(RTC_BUILD_QUALITY_HIGH)),
+      housings_(make_scene(RTC_BUILD_QUALITY_HIGH)),
       movers_(make_scene(RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_DYNAMIC)) {
   rtcCommitScene(statics_.get());
+  rtcCommitScene(housings_.get());
   rtcCommitScene(movers_.get());
 }
 
@@ -154,8 +121,19 @@ void RayScene::add_static(ModelShapes& model, std::size_t first) {
       continue;
     }
     const GeometryHandle geometry = make_geometry(shape);
-    const unsigned id = rtcAttachGeometry(statics_.get(), geometry.get());
-    static_shapes_.resize(std::max<std::size_t>(static_shapes_.size(), id + 1));
+    auto id = static_cast<unsigned>(static_shapes_.size());
+    if (free_ids_.empty()) {
+      static_shapes_.push_back(nullptr);
+    } else {
+      id = free_ids_.back();
+      free_ids_.pop_back();
+    }
+    if (is_traced_as_round(shape) && shape.houses_sensor) {
+      rtcAttachGeometryByID(housings_.get(), geometry.get(), id);
+      housing_shapes_.push_back(&shape);
+    } else {
+      rtcAttachGeometryByID(statics_.get(), geometry.get(), id);
+    }
     static_shapes_[id] = &shape;
     model.statics.push_back(id);
     statics_changed_ = true;
@@ -186,8 +164,11 @@ void RayScene::remove_model(ObjectId model) {
   const auto found = models_.find(model);
   if (found == models_.end()) return;
   for (const unsigned id : found->second->statics) {
-    rtcDetachGeometry(statics_.get(), id);
+    const auto housing = std::find(housing_shapes_.begin(), housing_shapes_.end(), static_shapes_[id]);
+    rtcDetachGeometry(housing == housing_shapes_.end() ? statics_.get() : housings_.get(), id);
+    if (housing != housing_shapes_.end()) housing_shapes_.erase(housing);
     static_shapes_[id] = nullptr;
+    free_ids_.push_back(id);
     statics_changed_ = true;
   }
   for (const unsigned id : found->second->instances) {
@@ -208,15 +189,27 @@ void RayScene::refresh(const World& world) {
     link->pose = pose;
     link->frame = {ignition::math::Matrix3d(pose.Rot()), pose.Pos()};
     link->placed = true;
-    const std::array<float, 12> matrix = to_matrix(link->frame.turn, pose.Pos());
+    const std::array<float, 12> matrix = to_matrix(link->frame);
     rtcSetGeometryTransform(link->instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
     rtcCommitGeometry(link->instance.get());
     movers_changed_ = true;
   }
   if (statics_changed_) rtcCommitScene(statics_.get());
+  if (statics_changed_) rtcCommitScene(housings_.get());
   if (movers_changed_) rtcCommitScene(movers_.get());
   if (statics_changed_ || movers_changed_) check_embree();
   statics_changed_ = movers_changed_ = false;
+}
+
+/// Whether no ray can hit a housing: there is none, or all rays start in all of them.
+bool RayScene::starts_in_housings(const RayPacket& packet, const QueryContext& context) const {
+  if (housing_shapes_.empty()) return true;
+  if ((context.embree.flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) == 0) return false;
+  const RTCRay16& ray = packet.data.ray;
+  const Vector3 start(ray.org_x[0], ray.org_y[0], ray.org_z[0]);
+  return std::all_of(housing_shapes_.begin(), housing_shapes_.end(), [&](const RayShape* shape) {
+    return is_inside(shape->turn_back * (start - shape->pose.Pos()), shape->geometry);
+  });
 }
 
 void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
@@ -225,6 +218,9 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
     meet_plane(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance, mask, packet.data);
   }
   rtcIntersect16(mask.use, statics_.get(), &context.embree, &packet.data);
+  if (!starts_in_housings(packet, context)) {
+    rtcIntersect16(mask.use, housings_.get(), &context.embree, &packet.data);
+  }
   if (!links_.empty()) rtcIntersect16(mask.use, movers_.get(), &context.embree, &packet.data);
 }
 
@@ -266,6 +262,7 @@ void RayScene::occlude(RTCRay16& rays, const RayMask& mask) const {
   // Incoherent: with Embree's coherent flag an occlusion query may not return.
   QueryContext context = make_context(false, kNoObject);
   rtcOccluded16(mask.use, statics_.get(), &context.embree, &rays);
+  if (!housing_shapes_.empty()) rtcOccluded16(mask.use, housings_.get(), &context.embree, &rays);
   if (!links_.empty()) rtcOccluded16(mask.use, movers_.get(), &context.embree, &rays);
 }
 

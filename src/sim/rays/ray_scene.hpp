@@ -4,26 +4,17 @@
 // inside its own housing sees through it.
 #pragma once
 
-#include <ignition/math/Matrix3.hh>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
+#include "rays/link_frame.hpp"
 #include "rays/ray_packet.hpp"
 #include "rays/ray_shape.hpp"
 
 namespace bubblesim {
-namespace rays {
-
-/// Pose of a moving link in the world; the rotation as a matrix, which is faster for many points.
-struct LinkFrame {
-  ignition::math::Matrix3d turn;
-  Vector3 position;
-};
-
-}  // namespace rays
 
 class RayScene {
  public:
@@ -65,12 +56,16 @@ class RayScene {
   void add_static(ModelShapes& model, std::size_t first);
   void add_moving(ModelShapes& model, std::size_t first, ObjectId link);
   void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
+  bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 
   std::map<ObjectId, std::unique_ptr<ModelShapes>> models_;
   std::vector<InfinitePlane> planes_;
   rays::SceneHandle statics_;
-  std::vector<const rays::RayShape*> static_shapes_;  // by geometry id
+  rays::SceneHandle housings_;                        // static shapes around sensors, whose rays skip them
+  std::vector<const rays::RayShape*> static_shapes_;  // of both, by geometry id; null where one was removed
+  std::vector<unsigned> free_ids_;
+  std::vector<const rays::RayShape*> housing_shapes_;
   rays::SceneHandle movers_;
   std::vector<MovingLink*> links_;  // by instance id; null where one was removed
   bool statics_changed_ = false;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bubblesim/triangle_mesh.hpp"
+#include "rays/packet_math.hpp"
 #include "rays/ray_shapes.hpp"
 
 namespace bubblesim::rays {
@@ -70,24 +71,36 @@ bool ignored(const RayShape& shape, const RTCIntersectContext* context) {
   return shape.model == reinterpret_cast<const QueryContext*>(context)->ignored_model;
 }
 
+/// Marks the rays of a callback that can meet the shape's bounding sphere. Returns whether any can.
+bool near_shape(const RayShape& shape, const int* valid, unsigned count, const RTCRayN* rays, RayMask& near) {
+  if (count != kPacket) {
+    std::copy_n(valid, count, near.use);
+    return true;
+  }
+  const double radius = std::visit(HalfExtent{}, shape.geometry).Length();
+  return can_meet_sphere(*reinterpret_cast<const RTCRay16*>(rays), valid, shape.pose.Pos(), radius, near);
+}
+
 void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   if (ignored(shape, arguments->context)) return;
   const unsigned count = arguments->N;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
   RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
-  const bool one_origin = (arguments->context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0;
-  std::optional<Vector3> origin;
+  std::optional<Vector3> common_origin;
+  if ((arguments->context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0) {
+    const auto first = std::find_if(arguments->valid, arguments->valid + count, [](int use) { return use != 0; });
+    if (first == arguments->valid + count) return;
+    common_origin = origin_in_shape(shape, rays, count, static_cast<unsigned>(first - arguments->valid));
+    if (is_inside(*common_origin, shape.geometry)) return;  // a lidar in its housing
+  }
+  RayMask near;
+  if (!near_shape(shape, arguments->valid, count, rays, near)) return;
   for (unsigned i = 0; i < count; ++i) {
-    if (arguments->valid[i] == 0) continue;
-    if (!origin || !one_origin) {
-      origin = origin_in_shape(shape, rays, count, i);
-      if (is_inside(*origin, shape.geometry)) {
-        if (one_origin) return;  // a lidar in its housing
-        continue;
-      }
-    }
-    const std::optional<ShapeHit> hit = meet(shape, *origin, rays, count, i);
+    if (near.use[i] == 0) continue;
+    const Vector3 origin = common_origin ? *common_origin : origin_in_shape(shape, rays, count, i);
+    if (!common_origin && is_inside(origin, shape.geometry)) continue;
+    const std::optional<ShapeHit> hit = meet(shape, origin, rays, count, i);
     if (!hit) continue;
     RTCRayN_tfar(rays, count, i) = static_cast<float>(hit->distance);
     RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.X());
@@ -103,8 +116,10 @@ void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   if (!shape.cast_shadows) return;
   const unsigned count = arguments->N;
+  RayMask near;
+  if (!near_shape(shape, arguments->valid, count, arguments->ray, near)) return;
   for (unsigned i = 0; i < count; ++i) {
-    if (arguments->valid[i] == 0) continue;
+    if (near.use[i] == 0) continue;
     const Vector3 origin = origin_in_shape(shape, arguments->ray, count, i);
     if (is_inside(origin, shape.geometry) || !meet(shape, origin, arguments->ray, count, i)) continue;
     RTCRayN_tfar(arguments->ray, count, i) = -std::numeric_limits<float>::infinity();
@@ -158,10 +173,9 @@ GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
 }
 
 GeometryHandle make_any(const RayShape& shape) {
-  const auto* box = std::get_if<Box>(&shape.geometry);
-  if (box != nullptr && !shape.houses_sensor) return make_box(*box, shape.pose);
-  if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) return make_mesh(*mesh->triangles, shape.pose);
-  return make_round();
+  if (is_traced_as_round(shape)) return make_round();
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) return make_box(*box, shape.pose);
+  return make_mesh(*std::get<Mesh>(shape.geometry).triangles, shape.pose);
 }
 
 }  // namespace
@@ -178,6 +192,11 @@ void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
 }
 
 bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
+
+bool is_traced_as_round(const RayShape& shape) {
+  if (std::holds_alternative<Box>(shape.geometry)) return shape.houses_sensor;
+  return !std::holds_alternative<Mesh>(shape.geometry);
+}
 
 GeometryHandle make_geometry(const RayShape& shape) {
   GeometryHandle geometry = make_any(shape);

@@ -37,6 +37,9 @@ void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments);
 /// Infinite planes have no bounding box: RayScene intersects them itself.
 bool is_infinite(const Geometry& geometry);
 
+/// Whether the shape is traced by its exact formulas, not as faces.
+bool is_traced_as_round(const RayShape& shape);
+
 /// Creates the Embree geometry of a shape; it keeps a pointer to the shape.
 GeometryHandle make_geometry(const RayShape& shape);
 

@@ -146,13 +146,10 @@ class Camera final : public Sensor {
 
   static void measure_depth(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups,
                             std::size_t count, float* depth, ObjectId* objects) {
-    for (std::size_t i = 0; i < count; ++i) {
-      depth[i] = groups.hits().use[i] != 0 ? packet.data.ray.tfar[i] : kNoDepth;
-      objects[i] = kNoObject;
-    }
+    rays::keep_distances(packet.data.ray, groups.hits(), kNoDepth, count, depth);
+    std::fill_n(objects, count, kNoObject);
     for (const rays::HitGroup& group : groups) {
-      const ObjectId link = scene.shape(packet, group.ray).link;
-      for (std::size_t i = 0; i < count; ++i) objects[i] = group.members.use[i] != 0 ? link : objects[i];
+      rays::keep_object(scene.shape(packet, group.ray).link, group.members, count, objects);
     }
   }
 

@@ -74,9 +74,9 @@ class Lidar final : public Sensor {
       packet.start(origin, min_range, max_range, count);
       rays::aim(packet.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
       scene.trace(packet, true);
-      for (std::size_t i = 0; i < count; ++i) {
-        scan.ranges[first + i] = packet.hit(i) ? packet.data.ray.tfar[i] : kNoRange;
-      }
+      rays::RayMask hits;
+      rays::find_hits(packet.data.hit, packet.mask, hits);
+      rays::keep_distances(packet.data.ray, hits, kNoRange, count, &scan.ranges[first]);
       for (std::size_t i = 0; i < count && scene.has_retro(); ++i) {
         scan.intensities[first + i] = packet.hit(i) ? scene.shape(packet, i).laser_retro : 0;
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arithmetic of shading on the sixteen rays of a packet at once. Places, and the rays to the lights, are in double
-// precision, so that shadows and checkerboards are exact far from the origin; colours are in single precision.
+// Arithmetic on the surfaces that the sixteen rays of a packet hit. Places are in double precision, so that shadows and
+// checkerboards are exact far from the origin; colours are in single precision.
 #pragma once
 
 #include <array>
@@ -33,12 +33,6 @@ struct alignas(64) CornerNormals {
   Normals corner[3];
   float second[kLanes], third[kLanes];
 };
-/// Light at each place.
-struct alignas(64) Arrivals {
-  Places to_light;         // unit vectors
-  float distance[kLanes];  // m
-  float strength[kLanes];  // 0: none arrives, or from behind the surface
-};
 using Turn = std::array<double, 9>;  // a rotation matrix, row by row
 using Mask = rays::RayMask;
 
@@ -60,28 +54,6 @@ void paint_checker(const Material& material, const Places& in_shape, const Mask&
 void paint_texture(const Texture& texture, const ImagePlaces& places, const Mask& mask, Colors& colors);
 /// Each face of a box shows the whole image: upright on the sides, the upper edge at +x on top and bottom.
 void place_on_box(const Vector3& size, const Places& in_shape, ImagePlaces& places);
-
-/// Adds `weight` times the sky's colour to the rays that are not in `mask`.
-void add_sky(const RTCRay16& rays, const Mask& mask, float weight, Colors& sum);
-/// Adds `weight` times a colour to the rays that are not in `mask`.
-void add_beside(const Color& color, const Mask& mask, float weight, Colors& sum);
-/// Adds `weight` * (surface * light + glow) to the rays in `mask`.
-void add_ambient(const Colors& surface, const Color& light, const Colors& glow, const Mask& mask, float weight,
-                 Colors& sum);
-
-/// Light from one direction. Returns whether any arrives.
-bool arrive_along(const Vector3& to_light, const Normals& normals, const Mask& mask, Arrivals& arrivals);
-/// Light from a point or a spotlight. Returns whether any arrives.
-bool arrive_from(const Light& light, const Places& places, const Normals& normals, const Mask& mask,
-                 Arrivals& arrivals);
-
-/// Rays from the places to the light; `lit` marks those to trace.
-void aim_at_light(const RTCRay16& rays, const Places& places, const Normals& normals, const Arrivals& arrivals,
-                  RTCRay16& shadows, Mask& lit);
-/// Removes the light of places in shadow: those whose ray was found to be blocked.
-void remove_shadows(const RTCRay16& shadows, Arrivals& arrivals);
-/// Adds `weight` * surface * light * strength.
-void add_light(const Colors& surface, const Color& light, const Arrivals& arrivals, float weight, Colors& sum);
 
 /// Converts values from 0 to 1 to bytes, of `count` pixels.
 void to_bytes(const Colors& colors, std::size_t count, std::uint8_t* rgb);

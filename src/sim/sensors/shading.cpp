@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/shading.hpp"
 
+#include "sensors/light_lanes.hpp"
 #include "sensors/surface_color.hpp"
 
 namespace bubblesim {

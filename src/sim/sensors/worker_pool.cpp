@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/worker_pool.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <csignal>
 #include <memory>
@@ -25,6 +27,14 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
+/// Those that this process may use: taskset and containers can leave it a part of the machine's.
+std::size_t usable_cores() {
+  cpu_set_t usable;
+  CPU_ZERO(&usable);
+  if (sched_getaffinity(0, sizeof usable, &usable) == 0) return static_cast<std::size_t>(CPU_COUNT(&usable));
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
 }  // namespace
 
 struct WorkerPool::Job {
@@ -38,8 +48,7 @@ struct WorkerPool::Job {
 
 WorkerPool& WorkerPool::shared() {
   // Never destroyed: a process may end, or a fork of it without the threads, while threads wait.
-  static WorkerPool& pool =
-      *std::make_unique<WorkerPool>(std::max(1U, std::thread::hardware_concurrency()) - 1).release();
+  static WorkerPool& pool = *std::make_unique<WorkerPool>(usable_cores() - 1).release();
   return pool;
 }
 

@@ -135,14 +135,27 @@ TEST(Lidar, LooksOutOfHousingsOfAnyShape) {
 }
 
 TEST(Lidar, SeesTheHousingOfAnotherLidar) {
-  ModelDescription other = model("Other", link_with(Box{{0.4, 0.5, 0.3}}), Pose(2, 0, 0, 0, 0, M_PI / 2));
-  SensorDescription housed;
-  housed.name = "Housed";
-  housed.kind = turn_of(3);
-  other.links[0].sensors.push_back(housed);
-  std::vector<ModelDescription> others = room();
-  others.push_back(other);
-  EXPECT_NEAR(Scan(with_lidar(turn_of(361), others))->ranges[180], 1.75, kExact);
+  for (const bool moves : {false, true}) {
+    ModelDescription other = model("Other", link_with(Box{{0.4, 0.5, 0.3}}), Pose(2, 0, 0, 0, 0, M_PI / 2));
+    other.is_static = !moves;
+    SensorDescription housed;
+    housed.name = "Housed";
+    housed.kind = turn_of(3);
+    other.links[0].sensors.push_back(housed);
+    Simulation simulation(with_lidar(turn_of(361), room()));
+    const auto ahead = [&] {
+      const auto reading = simulation.measure(simulation.world().tree().find("/Lidar"));
+      return std::get<LidarScan>(reading->measurement).ranges[180];
+    };
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_NEAR(ahead(), 4, kExact);
+      const ObjectId added = simulation.add_model(other);
+      EXPECT_NEAR(ahead(), 1.75, kExact);
+      const auto reading = simulation.measure(simulation.world().tree().find("/Housed"));
+      EXPECT_NEAR(std::get<LidarScan>(reading->measurement).ranges[1], 2, kExact) << "the left wall";
+      simulation.remove_model(added);
+    }
+  }
 }
 
 TEST(Lidar, OfManyRaysMeasuresAsOneOfFew) {
