@@ -85,8 +85,8 @@ class RosBridge final : public messages::Bridge {
   /// Waits until process_input() has something to deliver, or for `timeout` seconds.
   void wait_for_arrival(double timeout);
 
-  /// Call once per step. Publishes the simulation time [s] on /clock and makes now() return it under /use_sim_time.
-  /// While a script advertises /clock itself, does not publish.
+  /// Publishes the time of the simulation's state [s] on /clock and makes now() return it under /use_sim_time. While a
+  /// script advertises /clock itself, does not publish.
   void publish_clock(double sim_time);
 
   /// Publishes on /diagnostics immediately, for the final report of a simulation. Waits until the message is sent, at

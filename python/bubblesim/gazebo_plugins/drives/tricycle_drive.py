@@ -39,7 +39,7 @@ class TricycleDrive(Plugin):
         diameter, separation = p.length("encoderWheelDiameter", 0.15), p.length("encoderWheelSeparation", 0.5)
         self._axle = DifferentialDrive(diameter / 2, separation)
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
-        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation)
         p.check()
         self._odometry = Odometry(
             self,
@@ -90,6 +90,6 @@ class TricycleDrive(Plugin):
             motion = motion_on_plane(self._encoder.pose, self._encoder.velocity)
         else:
             motion = motion_in_world(self.world, self.context.model)
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion)
             self._wheels.publish()
