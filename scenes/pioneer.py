@@ -21,7 +21,6 @@ def sysCall_init():
     joints = [f'Pioneer_p3dx_caster_freeJoint{i}' for i in (1, 2)]
     self.joints = self.motors + [sim.getObject(f'./{name}') for name in joints]
     self.lidar = sim.getObject(f'./{LIDAR}')
-    self.last_scan = None  # time of its measurement
     self.last_command = None  # its time; None while the robot stands
     noise = 0.0
     if simROS:
@@ -75,8 +74,8 @@ def sysCall_sensing():
         return
     now = simROS.getTime()
     publish_motion(now)
-    if simROS.wantsMessages(self.cloud_topic) and sim.getReadingTime(self.lidar) != self.last_scan:
-        self.last_scan = sim.getReadingTime(self.lidar)
+    # The end of this step, if the lidar has measured in it.
+    if simROS.wantsMessages(self.cloud_topic) and sim.getReadingTime(self.lidar) > sim.getSimulationTime():
         simROS.publish(self.cloud_topic, ros_messages.point_cloud(now, LIDAR, sim.readLidarPoints(self.lidar)))
 
 

@@ -28,7 +28,6 @@ def find_parts():
     self.sonar = sim.getObject('/FrontSonar')
     self.camera = sim.getObject('/Camera')
     self.gps = sim.getObject('/Gps')
-    self.published = {}  # time of the last published measurement of camera and GPS receiver
     start_odometry()
     if simROS:
         self.sonar_topic = simROS.advertise('/front_sonar', 'std_msgs/Float32')
@@ -116,5 +115,5 @@ def publish_fix(now):
 
 
 def is_new(sensor):
-    before, self.published[sensor] = self.published.get(sensor), sim.getReadingTime(sensor)
-    return before != self.published[sensor]
+    """Whether the sensor was due in this step: its measurement shows the end of the step."""
+    return sim.getReadingTime(sensor) > sim.getSimulationTime()

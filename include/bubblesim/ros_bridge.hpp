@@ -93,8 +93,8 @@ class RosBridge final : public messages::Bridge {
   messages::BridgeTime now() const override;
   bool clock_reaches_others() const override;
 
-  /// Call once per step. Publishes the simulation time [s] on /clock and makes now() return it under /use_sim_time.
-  /// While a script advertises /clock itself, does not publish.
+  /// Publishes the time of the simulation's state [s] on /clock and makes now() return it under /use_sim_time. While a
+  /// script advertises /clock itself, does not publish.
   void publish_clock(double sim_time);
 
   /// Publishes on /diagnostics immediately, for the final report of a simulation. Waits until the message is sent, at

@@ -2,26 +2,34 @@
 // The ROS bridge as a system of a simulation.
 #pragma once
 
+#include <utility>
+
 #include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/simulation.hpp"
 
 namespace bubblesim {
 
-/// Delivers messages at the start of a step, all with the step's time stamp. Add it before the scripts that receive the
-/// messages.
+/// Delivers messages at the start of a step, and publishes /clock after the physics, before the messages that are
+/// stamped with that time. Add it before the systems that receive and publish messages.
 class RosSystem final : public System {
  public:
   /// The bridge and the simulation must outlive this object.
   RosSystem(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
 
   void process_input() override {
-    bridge_.publish_clock(simulation_.time());
+    if (!std::exchange(published_, false)) bridge_.publish_clock(simulation_.state_time());  // also during a pause
     bridge_.process_input();
   }
+  void sense(const World&, double time) override {
+    bridge_.publish_clock(time);
+    published_ = true;
+  }
+  void reset() override { bridge_.publish_clock(simulation_.state_time()); }
 
  private:
   RosBridge& bridge_;
   const Simulation& simulation_;
+  bool published_ = false;  // since the last step
 };
 
 }  // namespace bubblesim

@@ -21,7 +21,7 @@ namespace bubblesim {
 class RayScene;
 
 struct Reading {
-  double time = 0;  ///< s, simulation time of the measurement
+  double time = 0;  ///< s, Simulation::state_time() of the measurement: the time of the state that it shows
   Measurement measurement;
 };
 
@@ -29,7 +29,7 @@ struct Reading {
 struct MeasurementContext {
   const World& world;
   RayScene& rays;
-  double time = 0;         ///< s
+  double time = 0;         ///< s, of the state of `world`
   std::uint64_t seed = 0;  ///< of the simulation; noise depends on it, the sensor and the time only
 };
 

@@ -15,14 +15,15 @@
 namespace bubblesim {
 
 /// Extends the simulation step, such as child scripts and the ROS bridge. The phases are called in the order below.
+/// `time` is state_time(), s: the time of the state of `world`.
 class System {
  public:
   virtual ~System() = default;
   /// Processes pending input. Also called while the simulation is paused.
   virtual void process_input() {}
-  /// Commands the world, before the physics.
+  /// Commands the world, before the physics: at the start of the step.
   virtual void actuate(World& world, double time);
-  /// Reads the world, after physics and sensors.
+  /// Reads the world, after physics and sensors: at the end of the step.
   virtual void sense(const World& world, double time);
   /// Publishes results.
   virtual void publish(const World& world, double time);
@@ -70,8 +71,12 @@ class Simulation {
   /// Calls model_removing() of the systems, and removes a model with its sensors. Throws like World::remove_model.
   void remove_model(ObjectId model);
 
-  /// Simulation time in s; 0 in the first step, constant during a step.
-  double time() const { return time_before_ + static_cast<double>(steps_ - steps_before_) * scene_.time_step; }
+  /// Simulation time in s: the start of the current step, constant during a step, 0 in the first one. Between steps it
+  /// equals state_time().
+  double time() const { return after_physics_ ? step_start_ : state_time(); }
+  /// Time in s of the state that the world shows: time(), and after the physics of a step the end of the step. Readings
+  /// and messages are stamped with it (docs/time.md).
+  double state_time() const { return time_before_ + static_cast<double>(steps_ - steps_before_) * scene_.time_step; }
   double time_step() const { return scene_.time_step; }
   /// Sets the time step in s, from 1e-4 to 10, from the current step on until reset(). Physics substeps keep their
   /// length or become shorter. Throws InvalidInput for other values.
@@ -87,11 +92,13 @@ class Simulation {
   World& world() { return world_; }
   const World& world() const { return world_; }
 
-  /// The measurement of the sensor's last due step. A sensor without recent readers measures on this call. Throws
-  /// WrongObject when the object is not a sensor.
+  /// The last due measurement of the sensor. A sensor with a rate is due at multiples of its period, counted from time
+  /// 0 or from when it was added; without a rate after the physics of each step. A sensor without recent readers
+  /// measures on this call. Throws WrongObject when the object is not a sensor.
   std::shared_ptr<const Reading> read(ObjectId sensor);
-  /// Simulation time in s at which the sensor was last due, or of the last measure(). A new time means a new reading.
-  /// Does not measure. Throws WrongObject when the object is not a sensor.
+  /// The state_time() of the sensor's last measurement; for a sensor without readers, of when it was last due. Equal to
+  /// state_time() when there is a reading of the current state. Does not measure. Throws WrongObject when the object is
+  /// not a sensor.
   double reading_time(ObjectId sensor);
   /// Measures now, regardless of the sensor's rate.
   std::shared_ptr<const Reading> measure(ObjectId sensor);
@@ -119,6 +126,7 @@ class Simulation {
   void check_may_change() const;
   void make_sensors(ObjectId model);
   void make_all_sensors();
+  void remake_sensors();
   SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);
@@ -131,8 +139,10 @@ class Simulation {
   std::vector<SensorSlot> sensors_;
   std::uint64_t measurements_ = 0;
   std::vector<System*> systems_;
-  std::uint64_t steps_ = 0;
-  double first_time_step_;  // s, of the scene
+  std::uint64_t steps_ = 0;     // whose physics have run
+  double first_time_step_;      // s, of the scene
+  bool after_physics_ = false;  // of the current step
+  double step_start_ = 0;       // s, of the current step
   // Before the time step was last changed:
   std::uint64_t steps_before_ = 0;
   double time_before_ = 0;  // s

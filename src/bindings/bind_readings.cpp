@@ -68,7 +68,7 @@ void bind_scan(py::module_& module) {
   py::class_<HeldScan>(module, "LidarScan",
                        "One turn of a lidar, ring by ring from the lowest up. Its arrays are read-only.")
       .def_property_readonly(
-          "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldScan& s) { return s.reading->time; }, "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "ranges", [](const py::object& s) { return in_rings(s.cast<const HeldScan&>()->ranges, s); },
           "Metres, rings x samples of float32: at least min_range; inf if nothing is in range.")
@@ -112,7 +112,7 @@ void bind_scan(py::module_& module) {
 void bind_image(py::module_& module) {
   py::class_<HeldImage>(module, "CameraImage", "Image of a camera, top row first. Its arrays are read-only.")
       .def_property_readonly(
-          "time", [](const HeldImage& i) { return i.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldImage& i) { return i.reading->time; }, "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "rgb",
           [](const py::object& image) -> py::object {
@@ -145,7 +145,7 @@ void bind_image(py::module_& module) {
 void bind_imu(py::module_& module) {
   py::class_<HeldImu>(module, "ImuReading", "Reading of an IMU, in its own frame (REP 145).")
       .def_property_readonly(
-          "time", [](const HeldImu& i) { return i.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldImu& i) { return i.reading->time; }, "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "orientation", [](const HeldImu& i) { return to_numpy(i->orientation); },
           "Orientation of the sensor in the world, exact; quaternion x, y, z, w.")
@@ -159,7 +159,7 @@ void bind_imu(py::module_& module) {
 void bind_navsat(py::module_& module) {
   py::class_<HeldNavSat>(module, "NavSatReading", "Reading of a GPS receiver.")
       .def_property_readonly(
-          "time", [](const HeldNavSat& n) { return n.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldNavSat& n) { return n.reading->time; }, "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "latitude", [](const HeldNavSat& n) { return n->latitude; }, "Degrees.")
       .def_property_readonly(
@@ -173,7 +173,8 @@ void bind_navsat(py::module_& module) {
 void bind_altimeter(py::module_& module) {
   py::class_<HeldAltimeter>(module, "AltimeterReading", "Reading of an altimeter.")
       .def_property_readonly(
-          "time", [](const HeldAltimeter& a) { return a.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldAltimeter& a) { return a.reading->time; },
+          "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "height", [](const HeldAltimeter& a) { return a->height; }, "Metres above the sensor's initial position.")
       .def_property_readonly(
@@ -183,7 +184,8 @@ void bind_altimeter(py::module_& module) {
 void bind_magnetometer(py::module_& module) {
   py::class_<HeldMagnetometer>(module, "MagnetometerReading", "Reading of a magnetometer, in its own frame.")
       .def_property_readonly(
-          "time", [](const HeldMagnetometer& m) { return m.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldMagnetometer& m) { return m.reading->time; },
+          "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "field", [](const HeldMagnetometer& m) { return to_numpy(m->field); }, "T.");
 }
@@ -210,7 +212,8 @@ void bind_contacts(py::module_& module) {
       .def_readonly("points", &Contact::points, "Contact points in the physics substep of their last contact.");
   py::class_<HeldContacts>(module, "ContactReading", "Contacts of a link.")
       .def_property_readonly(
-          "time", [](const HeldContacts& c) { return c.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldContacts& c) { return c.reading->time; },
+          "Simulated seconds of the state that it shows.")
       .def_property_readonly("contacts", [](const HeldContacts& c) { return c->contacts; });
 }
 
@@ -218,7 +221,8 @@ void bind_force_torque(py::module_& module) {
   py::class_<HeldForceTorque>(module, "ForceTorqueReading",
                               "Force and torque that a joint transmits, the mean over the last step.")
       .def_property_readonly(
-          "time", [](const HeldForceTorque& f) { return f.reading->time; }, "Simulated seconds.")
+          "time", [](const HeldForceTorque& f) { return f.reading->time; },
+          "Simulated seconds of the state that it shows.")
       .def_property_readonly(
           "force", [](const HeldForceTorque& f) { return to_numpy(f->force); }, "N.")
       .def_property_readonly(

@@ -73,7 +73,7 @@ void bind_sensors(py::module_& core) {
       "Measure now; return the same as read_proximity().");
   module.def(
       "reading_time", [](Simulation& s, ObjectId sensor) { return s.reading_time(sensor); },
-      "Return the simulated seconds at which the sensor was last due; do not measure.");
+      "Return the state_time of the last measurement, or without readers of when it was last due; do not measure.");
   module.def(
       "read_lidar", [](Simulation& s, ObjectId sensor) { return hold<LidarScan>(s, sensor, s.read(sensor)); },
       "Return the lidar's last scan.");

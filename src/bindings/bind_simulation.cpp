@@ -233,7 +233,10 @@ Equal seeds and equal commands give bitwise equal states in every process.
       .def_property_readonly("world", py::overload_cast<>(&Simulation::world),
                              "The same objects by handle, as child scripts use them.");
   Guarded(simulation)
-      .def_property_readonly("time", &Simulation::time, "Simulated seconds.")
+      .def_property_readonly("time", &Simulation::time, "Simulated seconds at the start of the current step.")
+      .def_property_readonly("state_time", &Simulation::state_time,
+                             "Simulated seconds of the state that the world shows: `time`, and after the physics of a\n"
+                             "step its end. Time stamps of readings and messages.")
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds per step.")
       .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
            "Set the seconds per step, 1e-4 to 10, until `reset`.")

@@ -177,7 +177,8 @@ def test_a_script_in_place_of_its_own_finds_the_points_of_its_lidar_in_the_signa
     )
     assert (run.stderr, run.returncode) == ("", 0)
     scans = [np.array(line.split(), float) for line in run.stdout.splitlines()]
-    assert [scan[0] for scan in scans] == pytest.approx([0.0, 0.1, 0.2, 0.3])  # 10 Hz, and none after it was cleared
+    # At the ends of steps it measures when it is read first, and at 0.1 s, 0.2 s, ...; none after it was cleared.
+    assert [scan[0] + 0.05 for scan in scans] == pytest.approx([0.05, 0.1, 0.2, 0.3])
     for scan in scans:
         points = scan[1:].reshape(-1, 3)
         ranges = np.linalg.norm(points, axis=1)

@@ -32,19 +32,21 @@ def test_types_of_sensors_are_told_apart(tmp_path: Path) -> None:
     assert (run.stderr, run.returncode) == ("", 0)
 
 
-def test_a_reading_has_the_time_of_its_measurement(tmp_path: Path) -> None:
+def test_a_reading_has_the_time_of_the_state_that_it_shows(tmp_path: Path) -> None:
     code = """\
         def sysCall_init():
             self.times = []
 
         def sysCall_sensing():
-            self.times.append(round(sim.getReadingTime(sim.getObject('/Lidar')), 6))  # 10 Hz in steps of 50 ms
+            measured, start = sim.getReadingTime(sim.getObject('/Lidar')), sim.getSimulationTime()
+            self.times.append(round(measured, 6))  # 10 Hz in steps of 50 ms
+            assert (measured > start) == (len(self.times) % 2 == 0), 'a reading of this step shows its end'
 
         def sysCall_cleanup():
             print(self.times)
         """
     run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.4)
-    assert "[0.0, 0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3" in run.stdout
+    assert (run.stderr, run.stdout) == ("", "[0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.4]\n")
 
 
 def test_altimeters_and_magnetometers_are_read(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import NAME, Node, write
+from node_support import NAME, PREFIX, Node, write
 from ros_support import RosCore, wait_until
 
 Start = Callable[[str], Node]
@@ -93,6 +93,25 @@ def test_reset_simulation_starts_scripts_and_time_afresh(start: Start, roscore: 
     assert re.findall(r"^init (.*)", node.output, re.MULTILINE) == ["0.0 1 None"] * 3
     assert len(times(node.output, "cleanup")) == 2
     assert "error" not in node.output
+
+
+def test_after_a_reset_stamps_start_at_0_at_once(start: Start, roscore: RosCore) -> None:
+    roscore.set_param("/use_sim_time", True)
+    node = start("""\
+        def tell(phase): print('stamp in', phase, simROS.getTime())
+        def sysCall_init(): tell('init')
+        def sysCall_actuation():
+            if sim.getSimulationTime() == 0: tell('actuation')
+        def sysCall_sensing():
+            if sim.getSimulationTime() == 0: tell('sensing')
+        """)
+    expected = ["stamp in init 0.0", "stamp in actuation 0.0", "stamp in sensing 0.05"]
+    for starts in (1, 2):
+        wait_until(lambda starts=starts: node.output.count("stamp in sensing") == starts, "the first step")
+        if starts == 1:
+            roscore.run("rosservice", "call", f"{NAME}/reset_simulation")
+    told = [line for line in PREFIX.sub("", node.output).splitlines() if line.startswith("stamp")]
+    assert told == 2 * expected
 
 
 def test_a_script_that_asks_in_the_middle_of_itself_is_told_so(start: Start) -> None:

@@ -59,6 +59,20 @@ CLOCK_LATER = """heard = threading.Event()
     time.sleep(1.0)
     rospy.Subscriber("/clock", Clock, lambda message: heard.set())"""
 
+BY_THE_CLOCK = """\
+    import rospy
+    from std_msgs.msg import Float32
+    rospy.init_node("mine")
+    speed = rospy.Publisher("/speed", Float32, queue_size=1)
+    rospy.Subscriber("/front_sonar", Float32, lambda message: None)
+    while speed.get_num_connections() == 0:
+        rospy.rostime.wallsleep(0.01)
+    rate = rospy.Rate(20)
+    while not rospy.is_shutdown():
+        speed.publish(rospy.get_time())
+        rate.sleep()
+"""
+
 
 @pytest.fixture
 def ten(tmp_path: Path) -> str:
@@ -129,6 +143,18 @@ def test_a_controller_may_hear_the_clock(
     tricycle = sim("tricycle", lockstep=["/speed"])
     tricycle.run(0.5)
     assert tricycle.time == pytest.approx(0.5)
+
+
+def test_a_controller_with_a_rate_answers_each_time_of_the_clock(
+    tmp_path: Path, controller: StartController, sim: StartSimulator
+) -> None:
+    controller(f"/usr/bin/python3 {write(tmp_path / 'mine.py', BY_THE_CLOCK)}")
+    tricycle = sim("tricycle", lockstep=["/speed"])
+    tricycle.run(2.0)
+    speeds = tricycle.messages("/speed")
+    # From the end of the first step on; each arrives before the step that starts at the time that it shows.
+    assert [time for time, _ in speeds] == pytest.approx([0.05 * n for n in range(1, 40)])
+    assert [message.data for _, message in speeds] == pytest.approx([time for time, _ in speeds], abs=1e-5)
 
 
 def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartController, sim: StartSimulator) -> None:

@@ -105,7 +105,8 @@ class Bridge {
   /// example to run the simulation while it works.
   virtual void process_input() = 0;
 
-  /// Time for time stamps of messages: simulation time when /use_sim_time is set, else wall clock time.
+  /// Time for time stamps of messages: when /use_sim_time is set, the time of the simulation's state, else wall clock
+  /// time.
   virtual BridgeTime now() const = 0;
   /// Whether another node receives this node's /clock; true when nodes use the wall clock.
   virtual bool clock_reaches_others() const = 0;

@@ -20,7 +20,7 @@ FASTEST = 1e6  # rad/s or m/s: limit of the physics
 
 
 class StepTime:
-    """The time stamp of all messages of a step. ROS time may advance during the step."""
+    """The time stamp of all messages of plugins in a step: the end of the step. Wall time advances during the step."""
 
     def __init__(self, bridge: Any) -> None:
         """Read the time from this bridge."""

@@ -17,6 +17,7 @@ from bubblesim.observers.bag_file import BagFile
 from bubblesim.output import write_line
 
 _CLOCK = "rosgraph_msgs/Clock"
+_Message = tuple[str, str, bytes, genpy.Time]  # topic, type, content, time
 
 
 @dataclass(frozen=True)
@@ -30,8 +31,9 @@ class _Definition:
 class BagRecorder:
     """An observer of a bridge.
 
-    All messages of a step are stamped with its time. Received messages are written first, sorted by topic. So equal
-    runs write equal bags, independent of the delays of connections.
+    Messages are stamped with ROS time when they were received or published: in simulated time with the start of the
+    step, those published after the physics and /clock with its end. At each time, received messages are written first,
+    sorted by topic, and then /clock. So equal runs write equal bags, independent of the delays of connections.
     """
 
     def __init__(self, file: Path, bridge: Any) -> None:
@@ -43,8 +45,8 @@ class BagRecorder:
         self._file = file
         self._bridge = bridge
         self._definitions: dict[str, _Definition] = {}
-        self._received: list[tuple[str, str, bytes]] = []
-        self._published: list[tuple[str, str, bytes, genpy.Time]] = []
+        self._received: list[_Message] = []
+        self._published: list[_Message] = []
 
     def advertised(self, publisher: int) -> None:
         """Do nothing."""
@@ -54,20 +56,22 @@ class BagRecorder:
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
         """Store the message until the end of the step."""
-        if self._bag is None:
-            return
-        self._published.append((topic, message_type, _core.messages.encode(message_type, message), self._now()))
+        if self._bag is not None:
+            self._published.append(self._message(topic, message_type, message))
 
     def received(self, topic: str, message_type: str, message: Any) -> None:
         """Store the message until the end of the step."""
         if self._bag is not None:
-            self._received.append((topic, message_type, _core.messages.encode(message_type, message)))
+            self._received.append(self._message(topic, message_type, message))
+
+    def _message(self, topic: str, message_type: str, message: Any) -> _Message:
+        return topic, message_type, _core.messages.encode(message_type, message), self._now()
 
     def input_processed(self) -> None:
         """Do nothing."""
 
     def step_done(self) -> None:
-        """Write the messages of the step, and its time."""
+        """Write the messages of the step, and the time at its end."""
         if self._bag is not None:
             with self._stopped_on_error():
                 self._write_step(self._bag)
@@ -87,11 +91,10 @@ class BagRecorder:
 
     def _write_step(self, bag: BagFile) -> None:
         sec, nanosec = self._bridge.now()
-        clock = _core.messages.encode(_CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
+        clock = self._message("/clock", _CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
         self._received.sort(key=lambda message: message[0])
-        now = self._now()
-        of_now = [(*message, now) for message in [("/clock", _CLOCK, clock), *self._received]]
-        for topic, message_type, data, time in [*of_now, *self._published]:
+        messages = sorted([*self._received, clock, *self._published], key=lambda message: message[3])
+        for topic, message_type, data, time in messages:
             definition = self._definition(message_type)
             bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
 

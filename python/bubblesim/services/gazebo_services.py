@@ -73,7 +73,7 @@ class GazeboServices:
 
     def _get_model_state(self, request: Message) -> Message:
         model = find_entity(self._world, request["model_name"], "model")
-        header = {"stamp": self._simulation.time, "frame_id": request["relative_entity_name"]}
+        header = {"stamp": self._simulation.state_time, "frame_id": request["relative_entity_name"]}
         state = self._state(model, request["relative_entity_name"])
         return {"header": header, **state, "status_message": "GetModelState: got properties"}
 
@@ -94,7 +94,7 @@ class GazeboServices:
 
     def _get_world_properties(self, request: Message) -> Message:
         return {
-            "sim_time": self._simulation.time,
+            "sim_time": self._simulation.state_time,
             "model_names": [self._world.name(model) for model in self._world.models],
             "rendering_enabled": True,
             "status_message": "GetWorldProperties: got properties",

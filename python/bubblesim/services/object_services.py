@@ -40,7 +40,7 @@ class ObjectServices:
         pose, linear, angular = state_in(self._world, handle, reference)
         return {
             "success": True,
-            "header": {"stamp": self._simulation.time, "frame_id": request["reference"]},
+            "header": {"stamp": self._simulation.state_time, "frame_id": request["reference"]},
             "pose": pose_message(pose),
             "twist": twist_message(linear, angular),
         }

@@ -26,8 +26,8 @@ struct Simulation::SensorSlot {
   ObjectId id = kNoObject;
   std::unique_ptr<Sensor> sensor;
   double period = 0;    // s
-  double due = 0;       // s of simulation time
-  double time = 0;      // s, when it was last due, or last measured on request
+  double due = 0;       // s, state_time() of the next measurement
+  double time = 0;      // s, state_time() when it was last due, or last measured on request; at first of its creation
   bool wanted = false;  // it was read since its last measurement
   bool measured = false;
   bool shows = false;  // the image was replaced by override_image()
@@ -53,6 +53,8 @@ void Simulation::make_sensors(ObjectId model) {
       slot.id = id;
       slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
       slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
+      slot.time = state_time();
+      slot.due = slot.time + slot.period;
       ++sensor;
     }
   };
@@ -67,6 +69,16 @@ void Simulation::make_sensors(ObjectId model) {
 void Simulation::make_all_sensors() {
   sensors_.clear();
   for (const ObjectId model : world_.tree().models()) make_sensors(model);
+}
+
+/// After a world reset. The sensors keep their rates, because time goes on.
+void Simulation::remake_sensors() {
+  const std::vector<SensorSlot> before = std::exchange(sensors_, {});
+  make_all_sensors();
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    sensors_[i].due = before[i].due;
+    sensors_[i].wanted = before[i].wanted;
+  }
 }
 
 Simulation::~Simulation() = default;
@@ -112,7 +124,7 @@ void Simulation::set_time_step(double seconds) {
   if (!(seconds >= kMinTimeStep && seconds <= kMaxTimeStep)) {
     throw InvalidInput("a time step of " + text(seconds) + " s is not usable: it must be from 1e-4 to 10 s");
   }
-  time_before_ = time();
+  time_before_ = state_time();
   steps_before_ = steps_;
   scene_.time_step = seconds;
 }
@@ -125,13 +137,15 @@ void Simulation::step() {
   process_input();
   const AccessLock::Hold hold(world_.access());
   const Noted in_pass(in_step_);
-  const double now = time();  // process_input() may reset it
-  for (System* system : systems_) system->actuate(world_, now);
+  step_start_ = state_time();  // process_input() may reset it
+  for (System* system : systems_) system->actuate(world_, step_start_);
   advance_physics(scene_.time_step == first_time_step_ ? scene_.substep : substep(scene_));
+  ++steps_;  // the world shows the end of the step from here on
+  const Noted after_physics(after_physics_);
+  const double end = state_time();
   update_sensors();
-  for (System* system : systems_) system->sense(world_, now);
-  for (System* system : systems_) system->publish(world_, now);
-  ++steps_;
+  for (System* system : systems_) system->sense(world_, end);
+  for (System* system : systems_) system->publish(world_, end);
 }
 
 void Simulation::check_may_change() const {
@@ -147,12 +161,7 @@ void Simulation::reset_world() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
-  std::vector<SensorSlot> before = std::exchange(sensors_, {});
-  make_all_sensors();
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // the sensors keep their rates, because time goes on
-    sensors_[i].due = before[i].due;
-    sensors_[i].wanted = before[i].wanted;
-  }
+  remake_sensors();
   for (System* system : systems_) system->reset();
 }
 
@@ -160,10 +169,10 @@ void Simulation::reset() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
-  make_all_sensors();
   steps_ = steps_before_ = 0;
   time_before_ = 0;
   scene_.time_step = first_time_step_;
+  make_all_sensors();
   for (System* system : systems_) system->reset();
 }
 
@@ -194,14 +203,15 @@ void Simulation::remove_model_now(ObjectId model) {
 
 void Simulation::update_sensors() {
   // Half a step of tolerance: rounding must not move a due time from one step to the next.
-  const double until = time() + scene_.time_step / 2;
+  const double now = state_time();
+  const double until = now + scene_.time_step / 2;
   std::vector<SensorSlot*> with_rays;
   std::size_t rays = 0;
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
-    slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
+    slot.due = std::max(slot.due + slot.period, now);
+    slot.time = now;
     if (slot.shows) continue;
-    slot.time = time();
     slot.measured = slot.wanted;  // without readers, it measures on the next read
     if (!std::exchange(slot.wanted, false)) continue;
     if (slot.sensor->ray_count() == 0) {
@@ -217,13 +227,14 @@ void Simulation::update_sensors() {
   }
   rays_->refresh(world_);
   WorkerPool::shared().run(with_rays.size(), [&](std::size_t i) {
-    with_rays[i]->sensor->update({world_, *rays_, time(), seed_});
+    with_rays[i]->sensor->update({world_, *rays_, state_time(), seed_});
   });
   measurements_ += with_rays.size();
 }
 
 void Simulation::update(SensorSlot& slot) {
-  slot.sensor->update({world_, *rays_, time(), seed_});
+  slot.time = state_time();
+  slot.sensor->update({world_, *rays_, slot.time, seed_});
   ++measurements_;
 }
 
@@ -247,7 +258,6 @@ std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
   SensorSlot& found = slot(sensor);
   if (found.shows) return found.sensor->reading();
   update(found);
-  found.time = time();
   return found.sensor->reading();
 }
 
@@ -265,9 +275,9 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
   }
   CameraImage picture = *image;
   picture.rgb = rgb;
-  found.sensor->replace(time(), std::move(picture));
+  found.time = state_time();
+  found.sensor->replace(found.time, std::move(picture));
   found.shows = true;
-  found.time = time();
 }
 
 double Simulation::reading_time(ObjectId sensor) { return slot(sensor).time; }

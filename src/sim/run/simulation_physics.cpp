@@ -48,7 +48,7 @@ void Simulation::handle(const Diverged& divergence) {
   if (scene_.on_divergence == OnDivergence::kReset) {
     warn(what + "; world reset");
     world_.reset();
-    make_all_sensors();
+    remake_sensors();
     for (System* system : systems_) system->reset();
   } else if (scene_.on_divergence == OnDivergence::kRemove && !lost.empty()) {
     for (const ObjectId model : lost) {

@@ -50,7 +50,7 @@ class AckermannDrive(AckermannPlugin):
             steering_track=track,
             radius=radius,
         )
-        self._rate = Rate(p.number("update_rate", 100.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("update_rate", 100.0, least=0.0), self.simulation)
         variances = (p.number("covariance_x", 1e-5), p.number("covariance_y", 1e-5), p.number("covariance_yaw", 1e-3))
         publishes = p.flag("publish_odom", default=False)
         p.check()

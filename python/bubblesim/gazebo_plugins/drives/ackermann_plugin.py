@@ -30,5 +30,5 @@ class AckermannPlugin(Plugin):
 
     def publish(self) -> None:
         """Publish the odometry."""
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion_in_world(self.world, self.context.model))

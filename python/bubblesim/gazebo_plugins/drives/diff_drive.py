@@ -35,7 +35,7 @@ class DiffDrive(Plugin):
             left, right = right, left
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
         rate = p.number("updateRate", 100.0, least=0.0)
-        self._rate = Rate(rate, self.simulation.time_step)
+        self._rate = Rate(rate, self.simulation)
         diameters, separations = p.lengths("wheelDiameter", 0.15, pairs), p.lengths("wheelSeparation", 0.34, pairs)
         torque = p.number("wheelTorque", p.number("max_wheel_torque", 5.0, least=0.0), least=0.0)
         acceleration = p.number("wheelAcceleration", p.number("max_wheel_acceleration", 0.0, least=0.0), least=0.0)
@@ -79,7 +79,7 @@ class DiffDrive(Plugin):
     def publish(self) -> None:
         """Publish the odometry and, if subscribed, the wheels' topics."""
         motion = self._drive.moved(by_wheels=self._by_wheels)
-        if not self._rate.due(self.simulation.time):
+        if not self._rate.due():
             return
         if self._publishes_odometry:
             self._odometry.publish(motion)

@@ -37,7 +37,7 @@ class GzAckermannSteering(AckermannPlugin):
         self._max_steering = p.length("steering_limit", 0.5)
         self._max_speed = p.number("max_velocity", math.inf, least=0.0)
         p.ignore("tf_topic", "min_velocity", "min_acceleration", "max_acceleration", "min_jerk", "max_jerk")
-        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation)
         p.check()
         self._odometry = drive_odometry(self)
         self.subscribe(p.text("topic", f"/model/{model}/cmd_vel"), "geometry_msgs/Twist", self._command)

@@ -25,7 +25,7 @@ class GzDiffDrive(Plugin):
         geometry = DifferentialDrive(p.length("wheel_radius", 0.2), p.length("wheel_separation", 1.0), FASTEST)
         self._max_velocities = [self._limit(kind, "velocity") for kind in ("linear", "angular")]
         accelerations = self._limit("linear", "acceleration"), self._limit("angular", "acceleration")
-        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation)
         p.ignore("tf_topic", "min_jerk", "max_jerk", "min_linear_jerk", "max_linear_jerk")
         p.check()
         self._drive = TwoSidedDrive(self, WheelGroup(geometry, self._left, self._right), velocity_rates=accelerations)
@@ -58,5 +58,5 @@ class GzDiffDrive(Plugin):
     def publish(self) -> None:
         """Publish the odometry of the wheels."""
         motion = self._drive.moved(by_wheels=True)
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion)

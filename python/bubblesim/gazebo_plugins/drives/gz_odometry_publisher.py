@@ -16,7 +16,7 @@ class GzOdometryPublisher(Plugin):
         super().__init__(context)
         p = self.parameters
         model = self.world.name(context.model)
-        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("odom_publish_frequency", 50.0, least=0.0), self.simulation)
         p.ignore("tf_topic", "dimensions", "odom_covariance_topic", "xyz_offset", "rpy_offset", "gaussian_noise")
         p.check()
         self._odometry = Odometry(
@@ -34,5 +34,5 @@ class GzOdometryPublisher(Plugin):
 
     def publish(self) -> None:
         """Publish pose and velocity."""
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion_in_world(self.world, self.context.model))

@@ -17,7 +17,7 @@ class PlanarMove(Plugin):
         super().__init__(context)
         p = self.parameters
         self.enter_namespace()
-        self._rate = Rate(p.number("odometryRate", 20.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("odometryRate", 20.0, least=0.0), self.simulation)
         self._timeout = p.number("cmdTimeout", -1.0)  # s; negative: no timeout
         p.ignore("update_rate", "publish_rate", "publish_odom", "publish_odom_tf")
         p.check()
@@ -54,5 +54,5 @@ class PlanarMove(Plugin):
 
     def publish(self) -> None:
         """Publish the odometry, which is exact."""
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion_in_world(self.world, self.context.model))

@@ -23,7 +23,7 @@ class SkidSteerDrive(Plugin):
         geometry = DifferentialDrive(p.length("wheelDiameter", 0.15) / 2, p.length("wheelSeparation", 0.4), FASTEST)
         torque = p.number("torque", 5.0, least=0.0)
         rate = p.number("updateRate", 100.0, least=0.0)
-        self._rate = Rate(rate, self.simulation.time_step)
+        self._rate = Rate(rate, self.simulation)
         variances = (p.number("covariance_x", 1e-4), p.number("covariance_y", 1e-4), p.number("covariance_yaw", 1e-2))
         p.check()
         self._drive = TwoSidedDrive(self, WheelGroup(geometry, left, right), torque=torque, rate=rate)
@@ -45,5 +45,5 @@ class SkidSteerDrive(Plugin):
 
     def publish(self) -> None:
         """Publish the odometry."""
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(self._drive.moved(by_wheels=False))

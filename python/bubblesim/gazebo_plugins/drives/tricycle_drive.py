@@ -39,7 +39,7 @@ class TricycleDrive(Plugin):
         self._axle = DifferentialDrive(diameter / 2, separation)
         self._by_wheels = p.choice("odometrySource", "world", SOURCES) == "encoder"
         rate = p.number("updateRate", 100.0, least=0.0)
-        self._rate = Rate(rate, self.simulation.time_step)
+        self._rate = Rate(rate, self.simulation)
         p.check()
         outputs = [(self._wheel, MotorMode.VELOCITY, [1.0, 0.0]), (self._steering, MotorMode.POSITION, [0.0, 1.0])]
         self._ramps = JointRamps(self.world, context.model, rate, rates, outputs)
@@ -80,6 +80,6 @@ class TricycleDrive(Plugin):
             motion = motion_on_plane(self._encoder.pose, self._encoder.velocity)
         else:
             motion = motion_in_world(self.world, self.context.model)
-        if self._rate.due(self.simulation.time):
+        if self._rate.due():
             self._odometry.publish(motion)
             self._wheels.publish()

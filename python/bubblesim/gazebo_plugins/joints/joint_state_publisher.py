@@ -19,7 +19,7 @@ class JointStatePublisher(Plugin):
         p = self.parameters
         self.enter_namespace(of_model=True)
         self._joints = [self.joint_named(name, self.names) for name in p.names(self.names)] or self._moving_joints()
-        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("updateRate", 100.0, least=0.0), self.simulation)
         p.check()
         self._publisher = self.advertise(self.default_topic(), "sensor_msgs/JointState", 1000)
 
@@ -37,7 +37,7 @@ class JointStatePublisher(Plugin):
 
     def publish(self) -> None:
         """Publish the joints' states."""
-        if self.is_needed(self._publisher) and self._rate.due(self.simulation.time):
+        if self.is_needed(self._publisher) and self._rate.due():
             self.bridge.publish(self._publisher, joint_states(self, self._joints))
 
 

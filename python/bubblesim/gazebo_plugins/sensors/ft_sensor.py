@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from bubblesim._core import read_sensor
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
-from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.ros_messages import vector_message
 
 
@@ -22,22 +22,21 @@ class FtSensor(Plugin):
         sensors = [part for part in self.world.children(joint) if self.world.kind(part) == "sensor"]
         if not sensors:
             raise p.fail("jointName", "names a joint without a <sensor type='force_torque'>: add one to the joint")
-        self._sensor = sensors[0]
         self._frame = self.world.name(self.world.joint_links(joint)[1])
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
-        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        rate = p.number("updateRate", 0.0, least=0.0)
+        self._readings = NewReadings(self, lambda *sensor: read_sensor(*sensor)[1], rate, sensors[0])
         p.check()
         self._publisher = self.advertise(p.text("topicName", "wrench"), "geometry_msgs/WrenchStamped", 1)
 
     def reset(self) -> None:
-        """Reset rate and noise."""
-        self._rate.reset()
+        """Reset readings and noise."""
+        self._readings.reset()
         self._noise.reset()
 
     def publish(self) -> None:
-        """Publish force and torque."""
-        if self.is_needed(self._publisher) and self._rate.due(self.simulation.time):
-            _, reading = read_sensor(self.simulation, self._sensor)
+        """Publish a new reading."""
+        if self.is_needed(self._publisher) and (reading := self._readings.take()):
             force, torque = self._noise.on(reading.force.tolist()), self._noise.on(reading.torque.tolist())
             wrench = {"force": vector_message(force), "torque": vector_message(torque)}
             self.bridge.publish(self._publisher, {"header": self.header(self._frame), "wrench": wrench})

@@ -22,7 +22,7 @@ class HectorSensor(Plugin):
         self._frame = p.text("frameId", self.world.name(self._link))
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
         p.ignore("offset", "drift", "driftFrequency")
-        self._rate = Rate(p.number("updateRate", self.default_rate, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("updateRate", self.default_rate, least=0.0), self.simulation)
 
     def reset(self) -> None:
         """Reset rate and noise."""
@@ -31,4 +31,4 @@ class HectorSensor(Plugin):
 
     def is_due(self, *publishers: int) -> bool:
         """Return whether publishing is due and a topic has subscribers."""
-        return any(map(self.is_needed, publishers)) and self._rate.due(self.simulation.time)
+        return any(map(self.is_needed, publishers)) and self._rate.due()

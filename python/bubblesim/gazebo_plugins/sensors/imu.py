@@ -67,7 +67,7 @@ class LinkImu(Plugin):
         p.ignore("xyzOffset", "imu")
         noise = Noise(self, *p.deviations("gaussianNoise"))
         self.noises = noise, noise  # of angular velocity and acceleration
-        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation)
         service = self.topic(p.text("serviceName", self.default_service))
         p.check()
         self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", 1)
@@ -85,7 +85,7 @@ class LinkImu(Plugin):
 
     def publish(self) -> None:
         """Publish the motion of the link."""
-        if not (self.is_needed(self._publisher) and self._rate.due(self.simulation.time)):
+        if not (self.is_needed(self._publisher) and self._rate.due()):
             return
         pose = self.world.pose(self._link)
         pose[3:] = product(self._turn, pose[3:])

@@ -27,7 +27,7 @@ class P3D(Plugin):
         self._offset = p.numbers("xyzOffset", p.numbers("xyzOffsets", (0.0, 0.0, 0.0)))
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", p.numbers("rpyOffsets", (0.0, 0.0, 0.0))))
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
-        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation.time_step)
+        self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation)
         p.check()
         self._publisher = self.advertise(p.text("topicName", "odom"), "nav_msgs/Odometry", 1)
 
@@ -38,7 +38,7 @@ class P3D(Plugin):
 
     def publish(self) -> None:
         """Publish pose and velocity; the velocity is along the axes of the frame."""
-        if not (self.is_needed(self._publisher) and self._rate.due(self.simulation.time)):
+        if not (self.is_needed(self._publisher) and self._rate.due()):
             return
         pose, linear, angular = state_in(self.world, self._link, self._reference)
         position = [at + offset for at, offset in zip(pose[:3], self._offset, strict=True)]

@@ -12,7 +12,10 @@ from bubblesim.gazebo_plugins.rate import Rate
 
 
 class NewReadings:
-    """Returns each measurement once. The sensor measures only on request."""
+    """The measurements of the steps in which the sensor was due. The sensor measures only on request.
+
+    A measurement shows the state with whose time messages of this step are stamped.
+    """
 
     def __init__(
         self, plugin: Plugin, read: Callable[[Any, int], Any], hertz: float = 0.0, sensor: int | None = None
@@ -24,8 +27,7 @@ class NewReadings:
         self._plugin = plugin
         self._sensor = plugin.context.owner if sensor is None else sensor
         self._read = read
-        self._rate = Rate(hertz, plugin.simulation.time_step)
-        self._time: float | None = None
+        self._rate = Rate(hertz, plugin.simulation)
 
     def take(self) -> Any | None:
         """Return the reading of this step, None if the sensor is not due; call it in each step with subscribers."""
@@ -33,13 +35,13 @@ class NewReadings:
 
     def due(self) -> bool:
         """Return whether there is a new reading in this step, without triggering the measurement."""
-        time = reading_time(self._plugin.simulation, self._sensor)
-        if time == self._time:
-            return False
-        self._time = time
-        return self._rate.due(self._plugin.simulation.time)
+        return is_new(self._plugin.simulation, self._sensor) and self._rate.due()
 
     def reset(self) -> None:
-        """Reset after simulated time restarted."""
-        self._time = None
+        """Reset the rate."""
         self._rate.reset()
+
+
+def is_new(simulation: Any, sensor: int) -> bool:
+    """Return whether a sensor was due in this step, or measured on request; call it after the physics."""
+    return bool(reading_time(simulation, sensor) == simulation.state_time)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim._core import CameraImage, camera_optics, read_sensor, reading_time
+from bubblesim._core import CameraImage, camera_optics, read_sensor
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
 from bubblesim.gazebo_plugins.sensors.bumper import contact_state
@@ -18,6 +18,7 @@ from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
 from bubblesim.gazebo_plugins.sensors.imu import imu_message
 from bubblesim.gazebo_plugins.sensors.laser import laser_scan
 from bubblesim.gazebo_plugins.sensors.noise import Noise
+from bubblesim.gazebo_plugins.sensors.readings import is_new
 from bubblesim.ros_messages import vector_message
 
 MakeMessage = Callable[[Any], Message]  # of a reading, without the header
@@ -47,7 +48,6 @@ class SensorTopic(Plugin):
         """Advertise the topics."""
         super().__init__(context)
         self._topic, self._frame = self.place_of_topic()
-        self._time: float | None = None
         self._info = CameraInfo(self.parameters)
         _, reading = read_sensor(self.simulation, context.owner)
         self._outputs = [
@@ -70,19 +70,11 @@ class SensorTopic(Plugin):
         """Return the camera info output."""
         return topic, "sensor_msgs/CameraInfo", self._optics
 
-    def reset(self) -> None:
-        """Reset after simulated time restarted."""
-        self._time = None
-
     def publish(self) -> None:
         """Publish a new measurement; subscribers of the camera info alone do not trigger one."""
         needed = [output for output in self._outputs if self.is_needed(output[0])]
-        if not needed:
+        if not needed or not is_new(self.simulation, self.context.owner):
             return
-        time = reading_time(self.simulation, self.context.owner)
-        if time == self._time:
-            return
-        self._time = time
         header = self.header(self._frame)
         optics_alone = all(message == self._optics for _, message in needed)
         reading = None if optics_alone else read_sensor(self.simulation, self.context.owner)[1]

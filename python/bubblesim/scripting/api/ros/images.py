@@ -34,7 +34,7 @@ class RosImages(RosTopics, RosParameters):
         self._compressed: dict[int, tuple[int, str, int]] = {}  # by raw publisher: publisher, format, level
 
     def imageTransportPublish(self, publisher: RosHandle, data: Pixels, width: int, height: int, frame_id: str) -> None:
-        """Publish an image given as bytes or a numpy array of uint8, stamped with ROS time.
+        """Publish an image given as bytes or a numpy array of uint8, stamped with getTime.
 
         Raises a ValueError if it does not hold width * height * 3 bytes.
         """

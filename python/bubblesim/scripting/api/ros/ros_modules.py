@@ -91,7 +91,10 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         self._shutdown_subscriber(subscriber)
 
     def getTime(self, flag: int = 0) -> float:
-        """Return ROS time in seconds: simulated time with /use_sim_time, else wall clock time."""
+        """Return ROS time in seconds, for stamps: with /use_sim_time the time of the state, else wall time.
+
+        The time of the state is the simulated time, and in sysCall_sensing the end of the step.
+        """
         sec, nanosec = self._bridge.now()
         return float(sec + nanosec * 1e-9)
 
@@ -192,7 +195,10 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         """Do nothing; for older scripts: messages are delivered at the start of each step."""
 
     def getTime(self) -> dict[str, int]:
-        """Return ROS time as {sec, nanosec}."""
+        """Return ROS time as {sec, nanosec}, for stamps: with /use_sim_time the time of the state, else wall time.
+
+        The time of the state is the simulated time, and in sysCall_sensing the end of the step.
+        """
         return now(self._bridge)
 
     def getSystemTime(self) -> dict[str, int]:
@@ -200,8 +206,8 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         return self.getTime()
 
     def getSimulationTime(self) -> dict[str, int]:
-        """Return simulated time as {sec, nanosec}."""
-        return _sec_nanosec(round(self._simulation.time * 1e9))
+        """Return the time of the state as {sec, nanosec}, for stamps: that of getTime, also without /use_sim_time."""
+        return _sec_nanosec(round(self._simulation.state_time * 1e9))
 
 
 def _sec_nanosec(nanoseconds: int) -> dict[str, int]:

@@ -47,7 +47,11 @@ class SensorFunctions(ApiContext):
         return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
 
     def getReadingTime(self, sensor: Handle) -> float:
-        """Return the simulated time, s, at which the sensor was last due, without triggering a measurement."""
+        """Return the time, s, of the state that the last measurement shows; do not measure.
+
+        Without readers it is the time at which the sensor was last due. A reading of this step is later than
+        getSimulationTime in sysCall_sensing.
+        """
         return float(reading_time(self._simulation, self._resolve(sensor)))
 
     def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:

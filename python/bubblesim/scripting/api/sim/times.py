@@ -24,10 +24,13 @@ def _seconds_since_start() -> float:
 
 
 class TimeFunctions(ApiContext):
-    """Simulation time in seconds starts at 0 and is constant during a step."""
+    """Simulation time in seconds starts at 0 and is constant during a step.
+
+    After the physics, in sysCall_sensing, objects and readings show the end of the step, one time step later.
+    """
 
     def getSimulationTime(self) -> float:
-        """Return the simulated time in seconds."""
+        """Return the simulated time in seconds: the start of the step, also in sysCall_sensing."""
         return float(self._simulation.time)
 
     def getSimulationTimeStep(self) -> float:
