@@ -38,6 +38,8 @@ class Sensor {
   virtual ~Sensor() = default;
 
   void update(const MeasurementContext& moment);
+  /// Forgets the last measurement.
+  void reset();
   /// Replaces the last measurement.
   void replace(double time, Measurement measurement);
   /// The last measurement. It does not change while a caller holds it; the next one is written to another buffer.

@@ -19,6 +19,7 @@
 #include "bubblesim/ros_system.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
+#include "bubblesim/warnings.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "pacer.hpp"
@@ -92,7 +93,9 @@ bool has_plugins(const SceneDescription& scene) {
 }
 
 int run_scene(const Options& options, int& argc, char** argv) {
-  Simulation simulation(load_scene(options.scene, options.arguments), options.seed);
+  const std::shared_ptr<const Scene> scene = load_scene(options.scene, options.arguments);
+  print_warnings(scene->warnings());
+  Simulation simulation(scene, options.seed);
   watch_stop_signals();  // before this there is nothing to shut down
   if (options.paused) simulation.pause();
   if (!options.ros || options.until) simulation.end_at_stop();  // nothing can or should start it again
@@ -162,6 +165,10 @@ int main(int argc, char** argv) {
   } catch (const bubblesim::Diverged& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kDiverged;
+  } catch (const bubblesim::SceneError& error) {
+    bubblesim::print_warnings(error.warnings);
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kBadInput;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
 
 const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
-  const Object& object = state.tree.at(id);
+  const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kJoint) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
   }
@@ -81,8 +81,8 @@ double World::joint_velocity(ObjectId joint, int axis) const {
 
 double World::motor_effort(ObjectId joint, int axis) {
   const int index = joint_axis(*state_, joint, axis).index;
-  const Object& object = state_->tree.at(joint);
-  PlacedJoint& placed = state_->models.at(state_->tree.outermost_model_of(joint)).joints[object.index];
+  const Object& object = state_->tree().at(joint);
+  PlacedJoint& placed = state_->model_of(joint).joints[object.index];
   const MotorMeter* meter = motor_meter(placed, index, joint_description(joint).type == "prismatic");
   return meter == nullptr || state_->last_duration == 0 ? 0 : meter->sum / state_->last_duration;
 }
@@ -131,7 +131,7 @@ void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
 
 const JointDescription& World::joint_description(ObjectId joint) const {
   placed_joint(*state_, joint);
-  return state_->model_of(joint).description.joints[state_->tree.at(joint).index];
+  return state_->model_of(joint).description.joints[state_->tree().at(joint).index];
 }
 
 void World::set_joint_position(ObjectId joint, double position) {

@@ -40,13 +40,13 @@ PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
 }  // namespace
 
 void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
-  const Object& object = state_->tree.at(model);
+  const Object& object = state_->tree().at(model);
   const std::string name = state_->shown(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
     throw WrongObject(name + " is a " + std::string(kind_name(object.kind)) +
                       ": the planar velocity can be set for outermost models only");
   }
-  PlacedModel& placed = state_->models.at(model);
+  PlacedModel& placed = state_->model_of(model);
   if (placed.description.is_static) throw WrongObject(name + " is static: it cannot be moved");
   if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
     throw InvalidInput(name + ": the planar velocity must be finite and at most 1e6");

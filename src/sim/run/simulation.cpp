@@ -30,17 +30,25 @@ struct Simulation::SensorSlot {
   bool wanted = false;  // it was read since its last measurement
   bool measured = false;
   bool shows = false;  // the image was replaced by override_image()
+
+  void reset() {
+    sensor->reset();
+    due = time = 0;
+    wanted = measured = shows = false;
+  }
 };
 
-Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
     : scene_(std::move(scene)),
       seed_(seed),
-      world_(scene_, seed),
-      rays_(std::make_unique<RayScene>()),
-      first_time_step_(scene_.time_step) {
-  for (const ObjectId model : world_.tree().models()) rays_->add_model(world_, model, world_.description(model));
-  make_all_sensors();
+      world_(*scene_, seed),
+      rays_(std::make_unique<RayScene>(scene_)),
+      time_step_(scene_->description().time_step) {
+  for (const ObjectId model : world_.tree().models()) make_sensors(model);
 }
+
+Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+    : Simulation(std::make_shared<const Scene>(std::move(scene)), seed) {}
 
 void Simulation::make_sensors(ObjectId model) {
   const SceneTree& tree = world_.tree();
@@ -50,7 +58,7 @@ void Simulation::make_sensors(ObjectId model) {
     for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
       SensorSlot& slot = sensors_.emplace_back();
       slot.id = id;
-      slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
+      slot.sensor = make_sensor(*sensor, scene().environment, id, world_);
       slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
       ++sensor;
     }
@@ -63,9 +71,8 @@ void Simulation::make_sensors(ObjectId model) {
   }
 }
 
-void Simulation::make_all_sensors() {
-  sensors_.clear();
-  for (const ObjectId model : world_.tree().models()) make_sensors(model);
+void Simulation::reset_sensors() {
+  for (SensorSlot& slot : sensors_) slot.reset();
 }
 
 Simulation::~Simulation() = default;
@@ -90,10 +97,11 @@ class Noted {
   bool& flag_;
 };
 
-/// Duration of a physics substep in s, after a change of the time step: a step consists of a whole number of substeps.
-double substep(const SceneDescription& scene) {
+/// Duration of a physics substep in s. After a change of the time step, a step consists of a whole number of substeps.
+double substep(const SceneDescription& scene, double time_step) {
+  if (time_step == scene.time_step) return scene.substep;
   constexpr double kRounding = 1e-6;
-  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.substep - kRounding));
+  return time_step / std::max(1.0, std::ceil(time_step / scene.substep - kRounding));
 }
 
 }  // namespace
@@ -104,7 +112,7 @@ void Simulation::set_time_step(double seconds) {
   }
   time_before_ = time();
   steps_before_ = steps_;
-  scene_.time_step = seconds;
+  time_step_ = seconds;
 }
 
 void Simulation::step() {
@@ -117,7 +125,7 @@ void Simulation::step() {
   const Noted in_pass(in_step_);
   const double now = time();  // process_input() may reset it
   for (System* system : systems_) system->actuate(world_, now);
-  advance_physics(scene_.time_step == first_time_step_ ? scene_.substep : substep(scene_));
+  advance_physics(substep(scene(), time_step_));
   update_sensors();
   for (System* system : systems_) system->sense(world_, now);
   for (System* system : systems_) system->publish(world_, now);
@@ -137,11 +145,12 @@ void Simulation::reset_world() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
-  std::vector<SensorSlot> before = std::exchange(sensors_, {});
-  make_all_sensors();
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {  // the sensors keep their rates, because time goes on
-    sensors_[i].due = before[i].due;
-    sensors_[i].wanted = before[i].wanted;
+  for (SensorSlot& slot : sensors_) {  // the sensors keep their rates, because time goes on
+    const double due = slot.due;
+    const bool wanted = slot.wanted;
+    slot.reset();
+    slot.due = due;
+    slot.wanted = wanted;
   }
   for (System* system : systems_) system->reset();
 }
@@ -150,17 +159,17 @@ void Simulation::reset() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
-  make_all_sensors();
+  reset_sensors();
   steps_ = steps_before_ = 0;
   time_before_ = 0;
-  scene_.time_step = first_time_step_;
+  time_step_ = scene().time_step;
   for (System* system : systems_) system->reset();
 }
 
-ObjectId Simulation::add_model(ModelDescription model) {
+ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
-  const ObjectId id = world_.add_model(std::move(model));
+  const ObjectId id = world_.add_model(std::move(model), warnings);
   rays_->add_model(world_, id, world_.description(id));
   make_sensors(id);
   for (System* system : systems_) system->model_added(world_, id);
@@ -184,10 +193,10 @@ void Simulation::remove_model_now(ObjectId model) {
 
 void Simulation::update_sensors() {
   // Half a step of tolerance: rounding must not move a due time from one step to the next.
-  const double until = time() + scene_.time_step / 2;
+  const double until = time() + time_step_ / 2;
   for (SensorSlot& slot : sensors_) {
     if (slot.due > until) continue;
-    slot.due = std::max(slot.due + slot.period, until - scene_.time_step / 2);
+    slot.due = std::max(slot.due + slot.period, until - time_step_ / 2);
     if (slot.shows) continue;
     slot.time = time();
     slot.measured = slot.wanted;  // without readers, it measures on the next read
@@ -232,13 +241,18 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
     throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
                       ", not a camera");
   }
-  if (image->rgb.size() != rgb.size()) {
+  const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
+  const bool has_color = std::get<CameraDescription>(world_.sensor_description(camera).kind).color;
+  const std::size_t bytes = has_color ? 3 * pixels : 0;
+  if (rgb.size() != bytes) {
     throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +
-                       std::to_string(image->height) + " pixels (" + std::to_string(image->rgb.size()) +
-                       " bytes), not one of " + std::to_string(rgb.size()) + " bytes");
+                       std::to_string(image->height) + " pixels (" + std::to_string(bytes) + " bytes), not one of " +
+                       std::to_string(rgb.size()) + " bytes");
   }
   CameraImage picture = *image;
   picture.rgb = rgb;
+  picture.depth.resize(pixels);  // the camera may not have measured yet
+  picture.objects.resize(pixels);
   found.sensor->replace(time(), std::move(picture));
   found.shows = true;
   found.time = time();

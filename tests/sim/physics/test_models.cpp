@@ -116,7 +116,7 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
   Simulation simulation(scene(heap()));
   simulation.step();
   const std::uint64_t before = simulation.state_hash();
-  const std::size_t objects = simulation.world().tree().objects().size();
+  const std::size_t objects = simulation.world().tree().size();
   for (const Case& bad : cases) {
     ModelDescription described = robot(at(5, 6, 7));
     bad.spoil(described);
@@ -124,7 +124,7 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
     EXPECT_NE(error.find(bad.text), std::string::npos) << error;
   }
   EXPECT_EQ(simulation.state_hash(), before);
-  EXPECT_EQ(simulation.world().tree().objects().size(), objects);
+  EXPECT_EQ(simulation.world().tree().size(), objects);
   Simulation untouched(scene(heap()));
   untouched.step();
   EXPECT_EQ(history(simulation), history(untouched));
