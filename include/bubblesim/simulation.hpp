@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -158,6 +159,7 @@ class Simulation {
   void check_may_change() const;
   void make_sensors(ObjectId model);
   void reset_sensors();
+  void index_sensors();
   SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);
@@ -168,6 +170,7 @@ class Simulation {
   World world_;
   std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
+  std::vector<std::size_t> slot_at_;  // index into sensors_ by SceneTree::index_of(); out of range: not a sensor
   std::uint64_t measurements_ = 0;
   std::vector<System*> systems_;
   std::uint64_t steps_ = 0;

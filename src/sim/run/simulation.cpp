@@ -45,6 +45,7 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
       rays_(std::make_unique<RayScene>(scene_)),
       time_step_(scene_->description().time_step) {
   for (const ObjectId model : world_.tree().models()) make_sensors(model);
+  index_sensors();
 }
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
@@ -69,6 +70,12 @@ void Simulation::make_sensors(ObjectId model) {
   for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) {
     make_below(id, description.joints[tree.at(id).index].sensors);
   }
+}
+
+/// Call it after sensors were added or removed.
+void Simulation::index_sensors() {
+  slot_at_.assign(world_.tree().places(), sensors_.size());
+  for (std::size_t i = 0; i < sensors_.size(); ++i) slot_at_[SceneTree::index_of(sensors_[i].id)] = i;
 }
 
 void Simulation::reset_sensors() {
@@ -172,6 +179,7 @@ ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* war
   const ObjectId id = world_.add_model(std::move(model), warnings);
   rays_->add_model(world_, id, world_.description(id));
   make_sensors(id);
+  index_sensors();
   for (System* system : systems_) system->model_added(world_, id);
   return id;
 }
@@ -187,6 +195,7 @@ void Simulation::remove_model_now(ObjectId model) {
   for (System* system : systems_) system->model_removing(world_, model);
   const auto gone = [&](const SensorSlot& slot) { return world_.tree().outermost_model_of(slot.id) == model; };
   sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
+  index_sensors();
   rays_->remove_model(model);
   world_.remove_model(model);
 }
@@ -211,11 +220,11 @@ void Simulation::update(SensorSlot& slot) {
 }
 
 Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
-  for (SensorSlot& slot : sensors_) {
-    if (slot.id == sensor) return slot;
-  }
-  throw WrongObject(world_.tree().short_path(sensor) + " is a " +
-                    std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
+  const Object& object = world_.tree().at(sensor);
+  const std::size_t index = slot_at_[SceneTree::index_of(sensor)];
+  if (index < sensors_.size()) return sensors_[index];
+  throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a " +
+                    wanted);
 }
 
 std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {

@@ -208,6 +208,25 @@ TEST(Reset, PutsTheModelsThatAreThereBackToWhereTheyCame) {
   EXPECT_EQ(history(simulation), history(expected));
 }
 
+TEST(Reset, AfterStaticModelsCameAndWentEqualsANewSimulation) {
+  const auto post = [](const std::string& name, double x) { return still(box(name, at(x, 0, 0.1))); };
+  std::vector<ModelDescription> models = heap();
+  models.push_back(post("First", 1));
+  models.push_back(post("Second", 200));  // removed: the others take less space
+  Simulation simulation(scene(models));
+  history(simulation);
+  simulation.remove_model(simulation.world().tree().find("/Second"));
+  simulation.add_model(post("Third", -1));
+  history(simulation);
+  simulation.reset();
+  models[models.size() - 1] = post("Third", -1);
+  Simulation expected(scene(models));
+  EXPECT_EQ(history(simulation), history(expected));
+  simulation.reset();  // nothing came or went since
+  Simulation again(scene(models));
+  EXPECT_EQ(history(simulation), history(again));
+}
+
 TEST(DivergedWorld, IsResetBeforeModelsComeOrGo) {
   Simulation simulation(
       scene({model("Ball", link("link"), at(999999, 0, 0)), model("Other", link("link"))}, {1e4, 0, 0}));
