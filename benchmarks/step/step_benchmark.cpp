@@ -42,7 +42,7 @@ struct Candidate {
 };
 
 SceneDescription tricycle_without_script() {
-  SceneDescription scene = load_scene("tricycle");
+  SceneDescription scene = read_scene("tricycle");
   for (ModelDescription& model : scene.models) model.child_script.clear();
   return scene;
 }

@@ -23,7 +23,7 @@ struct WrongObject : InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// One error in a scene file.
+/// One error in a scene file, or one warning.
 struct Problem {
   std::string file;
   int line = 0;        ///< 0 when unknown
@@ -36,8 +36,9 @@ struct Problem {
 
 /// A scene cannot be used. Lists all its problems.
 struct SceneError : std::runtime_error {
-  explicit SceneError(std::vector<Problem> found);
+  explicit SceneError(std::vector<Problem> found, std::vector<Problem> warnings = {});
   std::vector<Problem> problems;
+  std::vector<Problem> warnings;  ///< of the parts that could be read
 };
 
 /// The physics diverged: a body left the finite world. The state can no longer be trusted.

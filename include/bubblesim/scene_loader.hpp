@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads SDFormat files, by name or path, into a SceneDescription.
+// Loads SDFormat files, by name or path.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "bubblesim/error.hpp"
+#include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 
 namespace bubblesim {
@@ -21,10 +24,17 @@ using XacroArguments = std::vector<std::string>;
 
 /// Loads a scene by name ("tricycle") or path ("my/robot.sdf"). A model file without a world is placed on a ground
 /// plane. The arguments are used for .xacro files only. Throws SceneError with all problems of the file.
-SceneDescription load_scene(const std::string& name_or_path, const XacroArguments& arguments = {});
+std::shared_ptr<const Scene> load_scene(const std::string& name_or_path, const XacroArguments& arguments = {});
 
-/// Reads a model from the text of an SDFormat or URDF file. Child scripts are searched in `folder`. Throws SceneError
-/// with all problems of the text; the file name in them is <data-string>.
-ModelDescription load_model(const std::string& text, const std::filesystem::path& folder);
+/// Reads and checks a scene like load_scene(), to change it before it is simulated. Adds the warnings to `warnings`,
+/// unless it is null.
+SceneDescription read_scene(const std::string& name_or_path, const XacroArguments& arguments = {},
+                            std::vector<Problem>* warnings = nullptr);
+
+/// Reads a model from the text of an SDFormat or URDF file. Child scripts are searched in `folder`. Adds the warnings
+/// to `warnings`, unless it is null. Throws SceneError with all problems of the text; the file name in them is
+/// <data-string>.
+ModelDescription load_model(const std::string& text, const std::filesystem::path& folder,
+                            std::vector<Problem>* warnings = nullptr);
 
 }  // namespace bubblesim

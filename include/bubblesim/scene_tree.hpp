@@ -5,14 +5,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <deque>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace bubblesim {
 
-/// Handle of an object. Handles count up and are never reused, so a stale handle is detected.
+/// Handle of an object: the index of its place in the tree in the lower 20 bits, the generation of that place in the 11
+/// bits above. The objects of a new tree have the handles 0, 1, 2 and so on. The place of a removed object is taken
+/// again, with the next generation, after 1024 other objects were removed: a stale handle is detected, and a handle
+/// comes back after two million removed objects at the earliest.
 using ObjectId = std::int32_t;
 constexpr ObjectId kNoObject = -1;
 
@@ -33,14 +37,25 @@ std::string as_path(std::string scoped_name);
 
 class SceneTree {
  public:
+  /// Throws InvalidInput when the tree has a million objects.
   ObjectId add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index);
   /// Removes an object and everything below it. Throws NoSuchObject.
   void remove(ObjectId id);
 
-  /// Throws NoSuchObject.
-  const Object& at(ObjectId id) const;
+  /// Throws NoSuchObject, with the path of the removed object if its place is still free.
+  const Object& at(ObjectId id) const {
+    if (!contains(id)) throw_missing(id);
+    return places_[index_of(id)].object;
+  }
+  bool contains(ObjectId id) const {
+    return id >= 0 && index_of(id) < places_.size() && places_[index_of(id)].object.id == id;
+  }
+  /// The place of an object: an index below places(), for tables by object.
+  static std::size_t index_of(ObjectId id) { return static_cast<std::size_t>(id) & ((1U << kIndexBits) - 1); }
+  std::size_t places() const { return places_.size(); }
   /// All objects, in the order in which they were added.
-  const std::map<ObjectId, Object>& objects() const { return objects_; }
+  std::vector<ObjectId> objects() const;
+  std::size_t size() const { return size_; }
   /// The top-level models, in the order in which they were added.
   const std::vector<ObjectId>& models() const { return models_; }
   /// The children of one kind of an object, in the order of the scene file.
@@ -65,13 +80,28 @@ class SceneTree {
   ObjectId outermost_model_of(ObjectId id) const;
 
  private:
+  static constexpr unsigned kIndexBits = 20;
+
+  struct Place {
+    Object object;  // when the place is free: without handle, with the path as its name
+    std::uint32_t generation = 0;
+    std::uint64_t added = 0;  // number of objects that were added before
+  };
+
+  [[noreturn]] void throw_missing(ObjectId id) const;
+  void take_out(ObjectId id, const std::string& parent_path);
   const std::vector<ObjectId>& level_below(ObjectId parent) const;
   std::string indexed_name(const Object& object) const;
   std::vector<ObjectId> matches(std::string_view path, ObjectId from) const;
+  /// The only match of an absolute path whose last name is unique, or kNoObject when the path must be searched.
+  ObjectId unique_match(std::string_view path) const;
 
-  std::map<ObjectId, Object> objects_;
+  std::vector<Place> places_;
+  std::deque<std::size_t> free_;  // places, in the order in which they became free
+  std::unordered_map<std::string, std::vector<ObjectId>> by_name_;
   std::vector<ObjectId> models_;
-  ObjectId next_ = 0;
+  std::size_t size_ = 0;
+  std::uint64_t added_ = 0;
 };
 
 }  // namespace bubblesim

@@ -40,6 +40,8 @@ class Sensor {
   void update(const MeasurementContext& moment);
   /// Rays of a measurement: those with rays may measure in several threads at once, after RayScene::refresh().
   virtual std::size_t ray_count() const { return 0; }
+  /// Forgets the last measurement.
+  void reset();
   /// Replaces the last measurement.
   void replace(double time, Measurement measurement);
   /// The last measurement. It does not change while a caller holds it; the next one is written to another buffer.

@@ -2,12 +2,14 @@
 // A running scene: the world, its sensors, the clock, and the simulation step.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/sensor.hpp"
 #include "bubblesim/world.hpp"
@@ -43,6 +45,8 @@ class System {
 /// during process_input(). The functions that change what is simulated take it themselves; the others do not.
 class Simulation {
  public:
+  explicit Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed = 0);
+  /// Throws SceneError when the description cannot be simulated.
   explicit Simulation(SceneDescription scene, std::uint64_t seed = 0);
   ~Simulation();
 
@@ -66,8 +70,8 @@ class Simulation {
   /// Like reset_world(), and sets time to 0: from here on the simulation equals a new one of these models, bit by bit.
   void reset();
   /// Adds a model with its sensors, and calls model_added() of the systems. Throws like World::add_model; nothing is
-  /// changed then.
-  ObjectId add_model(ModelDescription model);
+  /// changed then. Adds warnings to `warnings`, unless it is null.
+  ObjectId add_model(ModelDescription model, std::vector<Problem>* warnings = nullptr);
   /// Calls model_removing() of the systems, and removes a model with its sensors. Throws like World::remove_model.
   void remove_model(ObjectId model);
 
@@ -76,13 +80,15 @@ class Simulation {
   double time() const { return after_physics_ ? step_start_ : state_time(); }
   /// Time in s of the state that the world shows: time(), and after the physics of a step the end of the step. Readings
   /// and messages are stamped with it (docs/time.md).
-  double state_time() const { return time_before_ + static_cast<double>(steps_ - steps_before_) * scene_.time_step; }
-  double time_step() const { return scene_.time_step; }
+  double state_time() const { return time_before_ + static_cast<double>(steps_ - steps_before_) * time_step_; }
+  double time_step() const { return time_step_; }
   /// Sets the time step in s, from 1e-4 to 10, from the current step on until reset(). Physics substeps keep their
   /// length or become shorter. Throws InvalidInput for other values.
   void set_time_step(double seconds);
   /// The scene as it was loaded.
-  const SceneDescription& scene() const { return scene_; }
+  const SceneDescription& scene() const { return scene_->description(); }
+  /// The same with its prepared parts, for other simulations of it.
+  const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   std::uint64_t seed() const { return seed_; }
 
   /// Call stop() and start() of the systems; for a Runner.
@@ -125,22 +131,24 @@ class Simulation {
   void remove_model_now(ObjectId model);
   void check_may_change() const;
   void make_sensors(ObjectId model);
-  void make_all_sensors();
-  void remake_sensors();
+  void reset_sensors();
+  void restart_sensors();
+  void index_sensors();
   SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);
   void update_sensors();
 
-  SceneDescription scene_;
+  std::shared_ptr<const Scene> scene_;
   std::uint64_t seed_;
   World world_;
   std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
+  std::vector<std::size_t> slot_at_;  // index into sensors_ by SceneTree::index_of(); out of range: not a sensor
   std::uint64_t measurements_ = 0;
   std::vector<System*> systems_;
   std::uint64_t steps_ = 0;     // whose physics have run
-  double first_time_step_;      // s, of the scene
+  double time_step_;            // s
   bool after_physics_ = false;  // of the current step
   double step_start_ = 0;       // s, of the current step
   // Before the time step was last changed:

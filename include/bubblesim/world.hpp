@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "bubblesim/access_lock.hpp"
+#include "bubblesim/error.hpp"
 #include "bubblesim/math.hpp"
+#include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 
@@ -48,8 +50,10 @@ class Device;
 /// object WrongObject.
 class World {
  public:
-  /// Throws InvalidInput when the scene cannot be built.
-  World(const SceneDescription& scene, std::uint64_t seed);
+  /// Shares what is constant with the scene, which may be destroyed before.
+  World(const Scene& scene, std::uint64_t seed);
+  /// Throws SceneError when the scene cannot be built.
+  World(SceneDescription scene, std::uint64_t seed);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -57,15 +61,16 @@ class World {
   /// Lock for callers that share the world with a simulating thread. The functions of World do not take it.
   AccessLock& access() const { return access_; }
 
-  /// The tree of the current objects. A reset invalidates the reference; handles remain valid.
+  /// The tree of the current objects. Adding or removing a model invalidates the reference;
+  /// handles remain valid.
   const SceneTree& tree() const;
 
   /// Another number after each addition and removal of a model.
   std::uint64_t revision() const { return revision_; }
 
   /// Adds a model at the pose of its description. Throws SceneError with all problems of the model, also when its name
-  /// is taken, and Diverged after a divergence.
-  ObjectId add_model(ModelDescription model);
+  /// is taken, and Diverged after a divergence. Adds warnings to `warnings`, unless it is null.
+  ObjectId add_model(ModelDescription model, std::vector<Problem>* warnings = nullptr);
   /// Removes a model with all its objects; their handles become invalid. Throws InvalidInput for objects of other kinds
   /// and for nested models, and Diverged after a divergence, unless the model is one of diverged_models().
   void remove_model(ObjectId model);

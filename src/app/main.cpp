@@ -23,6 +23,7 @@
 #include "bubblesim/runner.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
+#include "bubblesim/warnings.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "stop_signal.hpp"
@@ -128,7 +129,9 @@ RosBridgeOptions ros_options(const Options& options, Runner& runner, const Scrip
 }
 
 int run_scene(const Options& options, int& argc, char** argv) {
-  Simulation simulation(load_scene(options.scene, options.arguments), options.seed);
+  const std::shared_ptr<const Scene> scene = load_scene(options.scene, options.arguments);
+  print_warnings(scene->warnings());
+  Simulation simulation(scene, options.seed);
   watch_stop_signals();  // before this there is nothing to shut down
   ScriptCounts counts;
   Runner runner(simulation, runner_options(options, counts));
@@ -201,6 +204,10 @@ int main(int argc, char** argv) {
   } catch (const bubblesim::Diverged& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kDiverged;
+  } catch (const bubblesim::SceneError& error) {
+    bubblesim::print_warnings(error.warnings);
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return kBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kBadInput;

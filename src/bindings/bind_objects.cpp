@@ -118,7 +118,7 @@ void bind_objects(py::module_& module) {
           "Return the URDF of the object's model, for robot_state_publisher and RViz; each sensor is a separate link.\n"
           "Raise ValueError for models that URDF cannot describe.")
       .def("__repr__", [](const View& v) {
-        if (v.tree().objects().count(v.id()) == 0) {
+        if (!v.tree().contains(v.id())) {
           return "<bubblesim.Object " + std::to_string(v.id()) + " (removed)>";
         }
         return "<bubblesim.Object " + v.tree().path(v.id()) + " (" + std::string(kind_name(v.object().kind)) + ")>";

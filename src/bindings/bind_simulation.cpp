@@ -13,7 +13,9 @@
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/triangle_mesh.hpp"
+#include "bubblesim/warnings.hpp"
 #include "guarded.hpp"
+#include "loaded_scene.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
 
@@ -92,9 +94,7 @@ ObjectView find_object(const py::object& simulation, const std::string& path) {
 
 std::vector<ObjectView> all_objects(const py::object& simulation) {
   std::vector<ObjectView> views;
-  for (const auto& [id, object] : simulation.cast<Simulation&>().world().tree().objects()) {
-    views.emplace_back(simulation, id);
-  }
+  for (const ObjectId id : simulation.cast<Simulation&>().world().tree().objects()) views.emplace_back(simulation, id);
   return views;
 }
 
@@ -116,6 +116,31 @@ void complete_plugins(ModelDescription& model, const std::map<std::string, std::
   }
 }
 
+/// Calls `load` with a list for its warnings, and prints them, also when it fails.
+template <class Load>
+void print_warnings_of(const Load& load) {
+  std::vector<Problem> warnings;
+  try {
+    load(warnings);
+  } catch (const SceneError& error) {
+    print_warnings(warnings);
+    print_warnings(error.warnings);
+    throw;
+  }
+  print_warnings(warnings);
+}
+
+std::unique_ptr<Simulation> simulate_named(const std::string& scene, std::uint64_t seed,
+                                           const NamedArguments& arguments) {
+  std::shared_ptr<const Scene> loaded;
+  print_warnings_of([&](std::vector<Problem>& warnings) {
+    const py::gil_scoped_release others_may_run;
+    loaded = loaded_scene(scene, arguments);
+    warnings = loaded->warnings();
+  });
+  return std::make_unique<Simulation>(std::move(loaded), seed);
+}
+
 ObjectView add_model(const py::object& owner, const std::string& text, const std::string& name,
                      const NumpyArray& position, const NumpyArray& orientation,
                      const std::map<std::string, std::string>& plugin_parameters) {
@@ -124,11 +149,13 @@ ObjectView add_model(const py::object& owner, const std::string& text, const std
   ObjectId id = kNoObject;
   {
     const py::gil_scoped_release others_may_run;
-    ModelDescription model = load_model(text, simulation.scene().file.parent_path());
-    if (!name.empty()) model.name = name;
-    complete_plugins(model, plugin_parameters);
-    model.pose = pose * model.pose;
-    id = simulation.add_model(std::move(model));
+    print_warnings_of([&](std::vector<Problem>& warnings) {
+      ModelDescription model = load_model(text, simulation.scene().file.parent_path(), &warnings);
+      if (!name.empty()) model.name = name;
+      complete_plugins(model, plugin_parameters);
+      model.pose = pose * model.pose;
+      id = simulation.add_model(std::move(model), &warnings);
+    });
   }
   return {owner, id};
 }
@@ -183,19 +210,19 @@ void bind_simulation(py::module_& module) {
 
 Equal seeds and equal commands give bitwise equal states in every process.
 
-:param scene: scene name ("tricycle") or path of an .sdf file.
+:param scene: scene name ("tricycle"), path of an .sdf file, or a Scene, which several simulations may share. The
+    warnings of a file that is given by name or path are printed on stderr.
 :param seed: random seed of the simulation.
 :param arguments: xacro arguments by name, for a .xacro file.
 :raises SceneError: lists all problems of the file, each with file:line and object.)");
   // These lock the simulation themselves, or are thread-safe.
   simulation
-      .def(py::init([](const std::string& scene, std::uint64_t seed, const std::map<std::string, std::string>& named) {
-             XacroArguments arguments;
-             for (const auto& [name, value] : named) arguments.push_back(name + ":=" + value);
-             return std::make_unique<Simulation>(load_scene(scene, arguments), seed);
+      .def(py::init(&simulate_named), py::arg("scene"), py::kw_only(), py::arg("seed") = 0,
+           py::arg("arguments") = NamedArguments())
+      .def(py::init([](const std::shared_ptr<Scene>& scene, std::uint64_t seed) {
+             return std::make_unique<Simulation>(scene, seed);
            }),
-           py::arg("scene"), py::kw_only(), py::arg("seed") = 0,
-           py::arg("arguments") = std::map<std::string, std::string>())
+           py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
       .def(
           "step", &step, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
           "Run `steps` simulation steps of `time_step` seconds, without holding the GIL.\n\n"
@@ -222,8 +249,11 @@ Equal seeds and equal commands give bitwise equal states in every process.
 :raises SceneError: lists all problems of the model, including a name that is in use.)")
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
            "Remove a model and all its objects. Call it where `reset_world` may be called.\n\n"
-           "Handles of its objects become invalid and are not used again.")
+           "Handles of its objects become invalid.")
       .def_property_readonly("seed", &Simulation::seed)
+      .def_property_readonly(
+          "scene", [](const Simulation& s) { return std::const_pointer_cast<Scene>(s.shared_scene()); },
+          "The Scene, for other simulations of it.")
       .def_property_readonly("scene_name", [](const Simulation& s) { return s.scene().name; })
       .def_property_readonly("world_name", [](const Simulation& s) { return s.scene().world_name; })
       .def_property_readonly(

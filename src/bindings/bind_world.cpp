@@ -93,8 +93,8 @@ void bind_world(py::module_& module) {
       .def(
           "find_signal",
           [](const World& w, const std::string& signal) {
-            for (const auto& [id, object] : w.tree().objects()) {
-              if (object.kind != ObjectKind::kSensor) continue;
+            for (const ObjectId id : w.tree().objects()) {
+              if (w.tree().at(id).kind != ObjectKind::kSensor) continue;
               const auto* lidar = std::get_if<LidarDescription>(&w.sensor_description(id).kind);
               if (lidar != nullptr && lidar->signal == signal) return id;
             }

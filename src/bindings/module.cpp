@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, core) {
   bind_readings(core);
   bind_sensors(core);
   bind_objects(core);
+  bind_scene(core);
   bind_simulation(core);
   bind_runner(core);
 }

@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
+
+#include "bubblesim/error.hpp"
 
 namespace bubblesim::test {
 
@@ -28,6 +31,13 @@ class TemporaryFile {
   fs::path folder_;
   fs::path path_;
 };
+
+/// The texts of warnings, one a line.
+inline std::string lines_of(const std::vector<Problem>& warnings) {
+  std::string lines;
+  for (const Problem& warning : warnings) lines += warning.text() + "\n";
+  return lines;
+}
 
 inline std::string in_world(const std::string& text) {
   return "<sdf version='1.9' xmlns:bubblesim='https://bubblesim'><world name='w'>" + text + "</world></sdf>";

@@ -81,17 +81,17 @@ void TimedEfforts::update(World& world, double time, double duration) {
   forget_ended(wrenches_, time);
   forget_ended(efforts_, time);
   // The models may have been removed meanwhile.
-  const auto& objects = world.tree().objects();
+  const SceneTree& tree = world.tree();
   for (const TimedWrench& one : wrenches_) {
     const double part = covered(one.interval, time, duration);
-    if (part == 0 || objects.count(one.link) == 0) continue;
+    if (part == 0 || !tree.contains(one.link)) continue;
     const Wrench mean{one.wrench.force * part, one.wrench.torque * part};
     const auto at = [&](const Vector3& point) { return world.pose(one.link).CoordPositionAdd(point); };
     world.apply_wrench(one.link, mean, one.point ? std::make_optional(at(*one.point)) : std::nullopt);
   }
   for (const TimedEffort& one : efforts_) {
     const double part = covered(one.interval, time, duration);
-    if (part != 0 && objects.count(one.joint) != 0) push_joint(world, one.joint, one.effort, part);
+    if (part != 0 && tree.contains(one.joint)) push_joint(world, one.joint, one.effort, part);
   }
 }
 

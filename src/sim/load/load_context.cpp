@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/load_context.hpp"
 
-#include <cstdio>
 #include <optional>
 #include <regex>
 #include <utility>
@@ -15,8 +14,7 @@ void LoadContext::report(const Source& source, const std::string& object, std::s
 }
 
 void LoadContext::warn(const Source& source, const std::string& object, std::string message) {
-  const Problem problem{source.file, source.line, object, std::move(message)};
-  std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
+  warnings_.push_back({source.file, source.line, object, std::move(message)});
 }
 
 namespace {

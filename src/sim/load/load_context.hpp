@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared state of the readers of SDFormat's elements: the file that is being read and its problems.
+// Shared state of the readers of SDFormat's elements: the file that is being read, its problems and warnings.
 #pragma once
 
 #include <filesystem>
@@ -28,11 +28,11 @@ class LoadContext {
   /// The folder of the scene's files.
   const std::filesystem::path& folder() const { return folder_; }
   std::vector<Problem>& problems() { return problems_; }
+  std::vector<Problem>& warnings() { return warnings_; }
   MeshReader& meshes() { return meshes_; }
 
   void report(const Source& source, const std::string& object, std::string message);
-  /// Prints a warning on stderr.
-  static void warn(const Source& source, const std::string& object, std::string message);
+  void warn(const Source& source, const std::string& object, std::string message);
   /// Adds SDFormat's errors of the object at that path, or of the whole file when the path is empty.
   void take(const sdf::Errors& errors, const std::string& object);
 
@@ -52,6 +52,7 @@ class LoadContext {
   std::filesystem::path folder_;
   bool frames_broken_ = false;  // SDFormat found errors that concern no single object
   std::vector<Problem> problems_;
+  std::vector<Problem> warnings_;
   MeshReader meshes_;
 };
 

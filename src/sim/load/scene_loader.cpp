@@ -20,6 +20,7 @@
 #include "load/parser_messages.hpp"
 #include "load/scene_limits.hpp"
 #include "load/scene_text.hpp"
+#include "load/sdf/sdf_document.hpp"
 #include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_models.hpp"
 #include "load/sdf/sdf_plugins.hpp"
@@ -61,8 +62,8 @@ class SceneLoader {
     sdf::Root root;
     parse(
         [&](const sdf::ParserConfig& config, const std::optional<std::string>& repaired) {
-          if (repaired) return root.LoadSdfString(*repaired, config);
-          return text ? root.LoadSdfString(text->text, config) : root.Load(file.string(), config);
+          if (repaired) return load_document_text(root, *repaired, config);
+          return text ? load_document_text(root, text->text, config) : load_document(root, file, config);
         },
         root);
     SceneDescription scene;
@@ -90,7 +91,7 @@ class SceneLoader {
     if (is_read_ || root.WorldCount() > 0) {
       for (Problem& problem : check_scene(scene)) problems_.push_back(std::move(problem));
     }
-    if (!problems_.empty()) throw SceneError(std::move(problems_));
+    fail_with_problems();
     return scene;
   }
 
@@ -98,7 +99,7 @@ class SceneLoader {
     sdf::Root root;
     parse(
         [&](const sdf::ParserConfig& config, const std::optional<std::string>& repaired) {
-          return root.LoadSdfString(repaired.value_or(text), config);
+          return load_document_text(root, repaired.value_or(text), config);
         },
         root);
     read_own_elements(root);
@@ -112,11 +113,17 @@ class SceneLoader {
     if (is_read_ && root.Model() != nullptr) {
       for (Problem& problem : check_model(model)) problems_.push_back(std::move(problem));
     }
-    if (!problems_.empty()) throw SceneError(std::move(problems_));
+    fail_with_problems();
     return model;
   }
 
+  std::vector<Problem>& warnings() { return reading_.warnings(); }
+
  private:
+  void fail_with_problems() {
+    if (!problems_.empty()) throw SceneError(std::move(problems_), std::move(warnings()));
+  }
+
   sdf::ParserConfig parser_config() const {
     sdf::ParserConfig config;
     config.SetFindCallback([this](const std::string& uri) { return find_model(uri, reading_.folder()).string(); });
@@ -163,7 +170,7 @@ class SceneLoader {
     for (const std::string& file : included) {
       try {
         sdf::Root root;
-        root.Load(file, parser_config());
+        load_document(root, file, parser_config());
       } catch (const sdf::Exception&) {
         return file;
       } catch (const std::exception&) {
@@ -178,7 +185,7 @@ class SceneLoader {
     const Source file{reading_.xml().file(), 0};
     for (const std::string& message : messages) {
       if (failed) reading_.report(file, "", message);
-      if (!failed && problems_.empty()) LoadContext::warn(file, "", message);
+      if (!failed && problems_.empty()) reading_.warn(file, "", message);
     }
   }
 
@@ -247,7 +254,7 @@ class SceneLoader {
     }
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
     if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
-    report_left_out(world.Element(), "");
+    report_left_out(world.Element(), "", reading_);
     std::vector<Light> lights;
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
       const sdf::Light& light = *world.LightByIndex(i);
@@ -258,18 +265,22 @@ class SceneLoader {
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (model.Static() && model.LinkCount() == 0 && model.ModelCount() == 0) {
-        LoadContext::warn(source_of(model.Element()), "/" + model.Name(), "has no link: ignored");
+        reading_.warn(source_of(model.Element()), "/" + model.Name(), "has no link: ignored");
         continue;
       }
       scene.models.push_back(read_model(model, reading_.resolved(model, "/" + model.Name()), reading_));
     }
-    apply_state(world, scene.models);
+    apply_state(world, scene.models, reading_);
   }
 
   LoadContext reading_;
   std::vector<Problem>& problems_ = reading_.problems();
   bool is_read_ = false;  // SDFormat found no errors
 };
+
+void append(std::vector<Problem>* all, const std::vector<Problem>& found) {
+  if (all != nullptr) all->insert(all->end(), found.begin(), found.end());
+}
 
 /// Calls `load` and converts its exceptions to a SceneError of the file.
 template <class Load>
@@ -287,18 +298,32 @@ auto telling_of(const std::string& file, const Load& load) {
 
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path, const XacroArguments& arguments) {
+SceneDescription read_scene(const std::string& name_or_path, const XacroArguments& arguments,
+                            std::vector<Problem>* warnings) {
   const fs::path file = find_scene(name_or_path);
   check_size(file);
   return telling_of(file.string(), [&] {
     const std::optional<SceneText> text = scene_text(file, arguments);
-    if (!text) return SceneLoader(file).load_scene(file, text);
-    return SceneLoader(text->text, text->name, file.parent_path()).load_scene(file, text);
+    SceneLoader loader = text ? SceneLoader(text->text, text->name, file.parent_path()) : SceneLoader(file);
+    SceneDescription scene = loader.load_scene(file, text);
+    append(warnings, loader.warnings());
+    return scene;
   });
 }
 
-ModelDescription load_model(const std::string& text, const fs::path& folder) {
-  return telling_of(kText, [&] { return SceneLoader(text, kText, folder).load_model(text); });
+std::shared_ptr<const Scene> load_scene(const std::string& name_or_path, const XacroArguments& arguments) {
+  std::vector<Problem> warnings;
+  SceneDescription scene = read_scene(name_or_path, arguments, &warnings);
+  return Scene::of_checked(std::move(scene), std::move(warnings));
+}
+
+ModelDescription load_model(const std::string& text, const fs::path& folder, std::vector<Problem>* warnings) {
+  return telling_of(kText, [&] {
+    SceneLoader loader(text, kText, folder);
+    ModelDescription model = loader.load_model(text);
+    append(warnings, loader.warnings());
+    return model;
+  });
 }
 
 }  // namespace bubblesim

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/scene_text.hpp"
 
-#include <tinyxml2.h>
-
 #include <fstream>
 #include <iterator>
 
@@ -11,14 +9,6 @@
 
 namespace bubblesim {
 namespace {
-
-/// Keeps line breaks, unlike printing the XML.
-void rename_root(std::string& text, const std::string& from, const std::string& to) {
-  const std::size_t opening = text.find("<" + from);
-  if (opening != std::string::npos) text.replace(opening + 1, from.size(), to);
-  const std::size_t closing = text.rfind("</" + from);
-  if (closing != std::string::npos) text.replace(closing + 2, from.size(), to);
-}
 
 /// Some files are in Latin-1, regardless of their declaration: all other readers expect UTF-8.
 bool is_utf8(const std::string& text) {
@@ -61,13 +51,7 @@ std::optional<SceneText> scene_text(const std::filesystem::path& file, const Xac
   const std::string original = text;
   text = without_late_declaration(std::move(text));
   if (!is_utf8(text)) text = from_latin1(text);
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;  // reported later
-  const tinyxml2::XMLElement* root = document.RootElement();
-  const std::string old_name = "gazebo";
-  const bool is_old = root != nullptr && root->Name() == old_name;
-  if (!is_old && text == original) return std::nullopt;
-  if (is_old) rename_root(text, old_name, "sdf");
+  if (text == original) return std::nullopt;
   return SceneText{text, file.string()};
 }
 

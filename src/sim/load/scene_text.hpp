@@ -15,8 +15,8 @@ struct SceneText {
   std::string name;  ///< its name in errors
 };
 
-/// The text to read in place of a file: a .xacro file expanded by xacro; a scene before SDFormat 1.3, whose root was
-/// <gazebo>; a file that is not in UTF-8; a file with a comment before its XML declaration. Empty for all others.
+/// The text to read in place of a file: a .xacro file expanded by xacro; a file that is not in UTF-8; a file with a
+/// comment before its XML declaration. Empty for all others.
 /// Throws SceneError.
 std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments);
 

@@ -32,6 +32,10 @@ using ThreadingHandle =
 /// instead of aborting the process.
 void prepare_this_thread();
 
+/// One substep with the iterative solver, whose random numbers continue from `random`. Threads do not wait for each
+/// other: see docs/adr/0019.
+void step_iteratively(dWorldID world, double step, unsigned long& random);
+
 /// Whether an ODE solver reported a warning on this thread since the last call.
 bool solver_warned();
 

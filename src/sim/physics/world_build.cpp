@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds bodies, joints and shapes in ODE from the description of a model.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
-#include "meshes/made_meshes.hpp"
 #include "physics/contact_defaults.hpp"
 #include "physics/world_state.hpp"
 
 namespace bubblesim {
 namespace {
 
-constexpr int kIterations = 50;       // of the iterative solver
-constexpr int kSleepSamples = 10;     // substeps over which the speed of a body is averaged
-constexpr double kSleepSpeed = 3e-3;  // m/s and rad/s; a slower body is at rest
-constexpr double kSleepTime = 0.5;    // s at rest before a body sleeps
+constexpr unsigned kLeastMemory = 4096;  // bytes of working memory of a world; by default ODE takes 64 kB
+constexpr int kIterations = 50;          // of the iterative solver
+constexpr int kSleepSamples = 10;        // substeps over which the speed of a body is averaged
+constexpr double kSleepSpeed = 3e-3;     // m/s and rad/s; a slower body is at rest
+constexpr double kSleepTime = 0.5;       // s at rest before a body sleeps
 
 void set_pose(dGeomID geom, const Pose& pose) {
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
@@ -26,9 +25,10 @@ void set_pose(dGeomID geom, const Pose& pose) {
   dGeomSetQuaternion(geom, rotation);
 }
 
-dGeomID make_geom(Collider& collider, const Pose& pose) {
+/// `mesh` is that of the prepared model.
+dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pose& pose) {
   struct Maker {
-    Collider& collider;
+    const CollisionMesh* mesh;
     const Pose& pose;
     dGeomID operator()(const Box& box) const { return dCreateBox(nullptr, box.size.X(), box.size.Y(), box.size.Z()); }
     dGeomID operator()(const Sphere& sphere) const { return dCreateSphere(nullptr, sphere.radius); }
@@ -37,23 +37,18 @@ dGeomID make_geom(Collider& collider, const Pose& pose) {
     }
     dGeomID operator()(const Capsule& capsule) const { return dCreateCapsule(nullptr, capsule.radius, capsule.length); }
     dGeomID operator()(const Ellipsoid& ellipsoid) const {
-      const Vector3& radii = ellipsoid.radii;
-      if (radii.X() == radii.Y() && radii.Y() == radii.Z()) return dCreateSphere(nullptr, radii.X());
-      return surface(tessellate(ellipsoid));  // ODE has no ellipsoids
+      return is_ball(ellipsoid) ? dCreateSphere(nullptr, ellipsoid.radii.X()) : surface();
     }
-    dGeomID operator()(const Mesh& mesh) const { return surface(mesh.triangles); }
+    dGeomID operator()(const Mesh&) const { return surface(); }
     dGeomID operator()(const Plane& plane) const {
       const Vector3 normal = pose.Rot().RotateVector(plane.normal.Normalized());
       return dCreatePlane(nullptr, normal.X(), normal.Y(), normal.Z(), normal.Dot(pose.Pos()));
     }
 
    private:
-    dGeomID surface(const std::shared_ptr<const TriangleMesh>& mesh) const {
-      collider.mesh = collision_mesh(mesh);
-      return dCreateTriMesh(nullptr, collider.mesh->data.get(), nullptr, nullptr, nullptr);
-    }
+    dGeomID surface() const { return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr); }
   };
-  return std::visit(Maker{collider, pose}, collider.geometry);
+  return std::visit(Maker{mesh, pose}, geometry);
 }
 
 void place_body(dBodyID body, const LinkDescription& link, const Pose& pose) {
@@ -75,17 +70,6 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
   return body;
 }
 
-/// Whether nothing commands or observes the model: it may sleep when it is at rest.
-bool is_prop(const ModelDescription& model) {
-  const auto quiet = [](const NestedModelDescription& nested) {
-    return nested.child_script.empty() && nested.plugins.empty();
-  };
-  return model.child_script.empty() && model.plugins.empty() && model.joints.empty() &&
-         std::all_of(model.nested.begin(), model.nested.end(), quiet) &&
-         std::all_of(model.links.begin(), model.links.end(),
-                     [](const LinkDescription& link) { return link.sensors.empty(); });
-}
-
 bool is_watched(const LinkDescription& link, const std::string& collision) {
   return std::any_of(link.sensors.begin(), link.sensors.end(), [&](const SensorDescription& sensor) {
     const auto* contact = std::get_if<ContactDescription>(&sensor.kind);
@@ -96,17 +80,16 @@ bool is_watched(const LinkDescription& link, const std::string& collision) {
 /// Creates the ODE objects of one model; its objects are in the tree already.
 class ModelBuilder {
  public:
-  ModelBuilder(const World::State& state, ObjectId id, ModelDescription description) : state_(state), id_(id) {
-    model_.description = std::move(description);
+  ModelBuilder(const World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> prepared)
+      : state_(state), id_(id), placed_(std::make_unique<PlacedModel>(id, std::move(prepared))), model_(*placed_) {
     if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.movers.get()));
-    is_prop_ = is_prop(model_.description);
   }
 
-  PlacedModel build() {
+  std::unique_ptr<PlacedModel> build() {
     const ModelDescription& description = model_.description;
-    const std::vector<ObjectId> links = state_.tree.parts(id_, ObjectKind::kLink);
+    const std::vector<ObjectId> links = state_.tree().parts(id_, ObjectKind::kLink);
     for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
-    const std::vector<ObjectId> joints = state_.tree.parts(id_, ObjectKind::kJoint);
+    const std::vector<ObjectId> joints = state_.tree().parts(id_, ObjectKind::kJoint);
     for (std::size_t i = 0; i < joints.size(); ++i) add_joint(description.joints[i], joints[i]);
     connect_mimics();
     model_.frame = frame_at(description.canonical_link, description.pose);
@@ -114,7 +97,7 @@ class ModelBuilder {
       model_.nested.push_back(frame_at(nested.canonical_link, description.pose * nested.pose));
     }
     for (std::size_t i = 0; i < links.size(); ++i) start_at(description.links[i], model_.links[i]);
-    return std::move(model_);
+    return std::move(placed_);
   }
 
  private:
@@ -138,19 +121,12 @@ class ModelBuilder {
     link.pose = pose;
     if (!model_.description.is_static) {
       link.body = make_body(state_.world.get(), description, pose);
-      dBodySetAutoDisableFlag(link.body.get(), is_prop_ && state_.gravity != Vector3::Zero ? 1 : 0);
+      dBodySetAutoDisableFlag(link.body.get(), model_.prepared->is_prop && state_.gravity != Vector3::Zero ? 1 : 0);
     }
     for (const CollisionDescription& collision : description.collisions) {
       add_collider(link, collision, is_watched(description, collision.name));
     }
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
-  }
-
-  void tell_remark(const CollisionMesh& mesh, const CollisionDescription& collision) const {
-    if (mesh.remark.empty()) return;
-    const std::string path = "/" + model_.description.name + "/" + collision.name;
-    const Problem problem{collision.source.file, collision.source.line, path, mesh.remark};
-    std::fprintf(stderr, "warning: %s\n", problem.text().c_str());
   }
 
   /// Sets the initial pose. Call it after the joints are created: their zero positions are those of the description.
@@ -161,15 +137,11 @@ class ModelBuilder {
 
   void add_collider(const Link& link, const CollisionDescription& description, bool watched) {
     const Pose pose = link.pose * description.pose;
-    Collider& collider = model_.colliders.emplace_back();
-    collider.geometry = description.geometry;
-    collider.geom.reset(make_geom(collider, pose));
-    if (collider.mesh != nullptr && collider.mesh.use_count() == 1) tell_remark(*collider.mesh, description);
+    const CollisionMesh* mesh = model_.prepared->meshes[model_.colliders.size()].get();
+    Collider& collider = model_.colliders.emplace_back(description);
+    collider.geom.reset(make_geom(description.geometry, mesh, pose));
     collider.link = &link;
-    collider.name = description.name;
     collider.watched = watched;
-    collider.surface = description.surface;
-    collider.in_link = description.pose;
     dGeomID geom = collider.geom.get();
     dGeomSetData(geom, &collider);
     // Pairs of shapes without a common bit are skipped before any other test.
@@ -266,8 +238,8 @@ class ModelBuilder {
 
   const World::State& state_;
   ObjectId id_;
-  bool is_prop_ = false;
-  PlacedModel model_;
+  std::unique_ptr<PlacedModel> placed_;
+  PlacedModel& model_;
 };
 
 }  // namespace
@@ -279,6 +251,11 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_)
   world.reset(dWorldCreate());
   dWorldSetStepThreadingImplementation(world.get(), dThreadingImplementationGetFunctions(threading.get()),
                                        threading.get());
+  dWorldStepReserveInfo memory{};
+  memory.struct_size = sizeof memory;
+  memory.reserve_factor = 1.2F;  // ODE's default
+  memory.reserve_minimum = kLeastMemory;
+  dWorldSetStepMemoryReservationPolicy(world.get(), &memory);
   dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
   dWorldSetERP(world.get(), kErrorReduction);
   dWorldSetCFM(world.get(), kConstraintSoftness);
@@ -294,8 +271,10 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_)
   contacts.reset(dJointGroupCreate(0));
 }
 
-void place_model(World::State& state, ObjectId id, ModelDescription model) {
-  state.models.emplace(id, ModelBuilder(state, id, std::move(model)).build());
+void place_model(World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> model) {
+  state.models.push_back(ModelBuilder(state, id, std::move(model)).build());
+  state.model_at.resize(state.tree().places());
+  state.model_at[SceneTree::index_of(id)] = state.models.back().get();
 }
 
 }  // namespace bubblesim

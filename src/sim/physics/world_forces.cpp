@@ -124,8 +124,8 @@ void gather_forces(World::State& state, double step) {
 }
 
 std::vector<Contact> World::contacts(ObjectId link) const {
-  if (state_->tree.at(link).kind != ObjectKind::kLink)
-    throw WrongObject(state_->shown(link) + " is a " + std::string(kind_name(state_->tree.at(link).kind)) +
+  if (state_->tree().at(link).kind != ObjectKind::kLink)
+    throw WrongObject(state_->shown(link) + " is a " + std::string(kind_name(state_->tree().at(link).kind)) +
                       ", not a link");
   std::vector<Contact> contacts;
   for (const Touch& touch : state_->touches) {
@@ -137,7 +137,7 @@ std::vector<Contact> World::contacts(ObjectId link) const {
 }
 
 Wrench World::joint_wrench(ObjectId joint) const {
-  const Object& object = state_->tree.at(joint);
+  const Object& object = state_->tree().at(joint);
   const PlacedJoint* placed =
       object.kind == ObjectKind::kJoint ? &state_->model_of(joint).joints[object.index] : nullptr;
   if (placed != nullptr && placed->joint == nullptr) return {};  // of a static model

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
 
 const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
-  const Object& object = state.tree.at(id);
+  const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kJoint) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
   }
@@ -151,7 +151,7 @@ void World::set_target_effort(ObjectId joint, double effort, int axis) {
 
 const JointDescription& World::joint_description(ObjectId joint) const {
   placed_joint(*state_, joint);
-  return state_->model_of(joint).description.joints[state_->tree.at(joint).index];
+  return state_->model_of(joint).description.joints[state_->tree().at(joint).index];
 }
 
 void World::set_joint_position(ObjectId joint, double position) {

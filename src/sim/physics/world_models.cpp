@@ -11,9 +11,16 @@
 namespace bubblesim {
 namespace {
 
-// Static shapes of finite size are in a quadtree, so a moving shape is tested only against those near it. 6 levels: its
-// cells are 1/64 of the scene.
+// Static shapes of finite size are in a quadtree, so a moving shape is tested only against those near it. With 6 levels
+// its cells are 1/64 of the scene and take 350 kB.
 constexpr int kQuadtreeDepth = 6;
+
+/// Levels for a number of shapes: up to sixteen times as many cells as shapes.
+int quadtree_depth(std::size_t shapes) {
+  int depth = 2;
+  for (; shapes > 1 && depth < kQuadtreeDepth; shapes = (shapes + 3) / 4) ++depth;
+  return depth;
+}
 
 /// Bounding box of the finite static shapes; grows with the shapes.
 struct Extent {
@@ -66,12 +73,12 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
 void list_moving(World::State& state) {
   state.moving.clear();
   const Vector3 down = state.gravity.Normalized();
-  for (auto& [id, model] : state.models) {
-    const bool moves = model.space != nullptr;
+  for (const auto& model : state.models) {
+    const bool moves = model->space != nullptr;
     const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
-    if (moves) state.moving.push_back(&model);
-    for (Collider& collider : model.colliders) collider.island = number;
-    for (const Link& link : model.links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
+    if (moves) state.moving.push_back(model.get());
+    for (Collider& collider : model->colliders) collider.island = number;
+    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
   }
 }
 
@@ -84,8 +91,8 @@ void wake(World::State& state) {
 void gather_statics(World::State& state) {
   Extent extent;
   std::vector<dGeomID> geoms;
-  for (const auto& [id, model] : state.models) {
-    for (const Collider& collider : model.colliders) {
+  for (const auto& model : state.models) {
+    for (const Collider& collider : model->colliders) {
       dGeomID geom = collider.geom.get();
       if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
       if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.statics.get(), geom);
@@ -97,8 +104,9 @@ void gather_statics(World::State& state) {
   const Vector3 half = (extent.high - extent.low) / 2;
   const dVector3 ode_centre = {centre.X(), centre.Y(), centre.Z()};
   const dVector3 ode_half = {half.X(), half.Y(), half.Z()};
-  state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, kQuadtreeDepth));
+  state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(geoms.size())));
   for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
+  state.statics_stale = false;
 }
 
 }  // namespace bubblesim

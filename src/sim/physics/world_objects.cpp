@@ -14,7 +14,7 @@ namespace {
 
 /// The links of a model, or the link itself; throws for other objects and for static models.
 std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
-  const Object& object = state.tree.at(id);
+  const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                       ": it cannot be moved on its own; move its link or model");
@@ -24,7 +24,7 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   }
   if (object.kind == ObjectKind::kLink) return {&state.link(id)};
   std::vector<const Link*> links;
-  for (const ObjectId link : state.tree.parts(id, ObjectKind::kLink)) links.push_back(&state.link(link));
+  for (const ObjectId link : state.tree().parts(id, ObjectKind::kLink)) links.push_back(&state.link(link));
   return links;
 }
 
@@ -38,7 +38,7 @@ ObjectId carrier(const World::State& state, const Object& object) {
     case ObjectKind::kJoint:
       return state.model_of(object.id).joints[object.index].parent;
     case ObjectKind::kSensor:
-      if (const Object& above = state.tree.at(object.parent); above.kind == ObjectKind::kJoint) {
+      if (const Object& above = state.tree().at(object.parent); above.kind == ObjectKind::kJoint) {
         return state.model_of(object.id).joints[above.index].child;
       }
       return object.parent;
@@ -71,7 +71,7 @@ Pose link_pose(const Link& link) {
 }
 
 Pose World::pose(ObjectId object) const {
-  const Object& found = state_->tree.at(object);
+  const Object& found = state_->tree().at(object);
   const ObjectId link = carrier(*state_, found);
   const Pose base = link == kNoObject ? Pose::Zero : link_pose(state_->link(link));
   switch (found.kind) {
@@ -83,7 +83,7 @@ Pose World::pose(ObjectId object) const {
       return base * state_->model_of(object).joints[found.index].in_parent;
     case ObjectKind::kSensor: {
       const PlacedModel& model = state_->model_of(object);
-      const Object& above = state_->tree.at(found.parent);
+      const Object& above = state_->tree().at(found.parent);
       const Pose& in_carrier = model.sensors[found.index];
       return above.kind == ObjectKind::kJoint ? base * model.joints[above.index].in_child * in_carrier
                                               : base * in_carrier;
@@ -93,7 +93,7 @@ Pose World::pose(ObjectId object) const {
 }
 
 Twist World::velocity(ObjectId object) const {
-  const ObjectId link = carrier(*state_, state_->tree.at(object));
+  const ObjectId link = carrier(*state_, state_->tree().at(object));
   dBodyID body = link == kNoObject ? nullptr : state_->link(link).body.get();
   if (body == nullptr) return {};
   const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
@@ -102,7 +102,7 @@ Twist World::velocity(ObjectId object) const {
 }
 
 Vector3 World::acceleration(ObjectId object) const {
-  const ObjectId id = carrier(*state_, state_->tree.at(object));
+  const ObjectId id = carrier(*state_, state_->tree().at(object));
   if (id == kNoObject || state_->last_duration == 0) return {};
   const Link& link = state_->link(id);
   dBodyID body = link.body.get();
@@ -161,10 +161,10 @@ void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) 
 
 std::vector<Light> World::link_lights() const {
   std::vector<Light> lights;
-  for (const auto& [id, model] : state_->models) {
-    for (std::size_t i = 0; i < model.links.size(); ++i) {
-      for (Light light : model.description.links[i].lights) {
-        const Pose pose = link_pose(model.links[i]);
+  for (const auto& model : state_->models) {
+    for (std::size_t i = 0; i < model->links.size(); ++i) {
+      for (Light light : model->description.links[i].lights) {
+        const Pose pose = link_pose(model->links[i]);
         light.position = pose.CoordPositionAdd(light.position);
         light.direction = pose.Rot().RotateVector(light.direction);
         lights.push_back(std::move(light));

@@ -40,16 +40,15 @@ PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
 }  // namespace
 
 void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
-  const Object& object = state_->tree.at(model);
-  const std::string name = state_->shown(model);
+  const Object& object = state_->tree().at(model);
   if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
-    throw WrongObject(name + " is a " + std::string(kind_name(object.kind)) +
+    throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                       ": the planar velocity can be set for outermost models only");
   }
-  PlacedModel& placed = state_->models.at(model);
-  if (placed.description.is_static) throw WrongObject(name + " is static: it cannot be moved");
+  PlacedModel& placed = state_->model_of(model);
+  if (placed.description.is_static) throw WrongObject(state_->shown(model) + " is static: it cannot be moved");
   if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
-    throw InvalidInput(name + ": the planar velocity must be finite and at most 1e6");
+    throw InvalidInput(state_->shown(model) + ": the planar velocity must be finite and at most 1e6");
   }
   const Link& link = state_->link(placed.frame.canonical_link);
   dBodyID body = link.body.get();

@@ -9,9 +9,9 @@ namespace bubblesim {
 std::optional<RayHit> World::cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,
                                       ObjectId ignored_model) const {
   std::optional<RayHit> nearest;
-  for (const auto& [id, model] : state_->models) {
-    if (id == ignored_model) continue;
-    for (const Collider& collider : model.colliders) {
+  for (const auto& model : state_->models) {
+    if (model->object == ignored_model) continue;
+    for (const Collider& collider : model->colliders) {
       const Pose pose = link_pose(*collider.link) * collider.in_link;
       const Ray ray{pose.Rot().RotateVectorReverse(origin - pose.Pos()),
                     pose.Rot().RotateVectorReverse(unit_direction)};

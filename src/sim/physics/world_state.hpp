@@ -6,20 +6,20 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
-#include "physics/collision_mesh.hpp"
 #include "physics/contact_thinning.hpp"
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
 #include "physics/joints/motor_meter.hpp"
 #include "physics/ode_handles.hpp"
+#include "physics/prepared_model.hpp"
 
 namespace bubblesim {
 
@@ -34,13 +34,18 @@ struct Link {
 
 /// A collision shape. ODE's geom points back at it.
 struct Collider {
-  std::shared_ptr<const CollisionMesh> mesh;  // of a mesh geom
+  explicit Collider(const CollisionDescription& description)
+      : name(description.name),
+        geometry(description.geometry),
+        surface(description.surface),
+        in_link(description.pose) {}
+
   ode::GeomHandle geom;
   const Link* link = nullptr;
-  std::string name;
-  Geometry geometry;
-  Surface surface;
-  Pose in_link;
+  const std::string& name;
+  const Geometry& geometry;
+  const Surface& surface;
+  const Pose& in_link;
   bool watched = false;         // observed by a contact sensor
   int island = Islands::kNone;  // index of its model in the islands; kNone when it is static
 };
@@ -101,7 +106,12 @@ struct ModelFrame {
 /// A model with its ODE objects; links, joints and sensors by Object::index. Members are destroyed in reverse order:
 /// joints and geoms before bodies.
 struct PlacedModel {
-  ModelDescription description;
+  PlacedModel(ObjectId object_, std::shared_ptr<const PreparedModel> prepared_)
+      : object(object_), prepared(std::move(prepared_)), description(*prepared->description) {}
+
+  ObjectId object;
+  std::shared_ptr<const PreparedModel> prepared;
+  const ModelDescription& description;
   ModelFrame frame;
   std::vector<ModelFrame> nested;  // of the nested models
   std::deque<Link> links;          // a deque, because pointers to its elements are kept
@@ -143,7 +153,7 @@ struct World::State {
   Vector3 gravity;           // m/s^2
   double last_duration = 0;  // s, of the last advance()
   std::uint64_t seed;
-  SceneTree tree;
+  std::shared_ptr<const SceneTree> shared_tree;
 
   // Destroyed in reverse order: models and spaces before the world, its threading last.
   ode::ThreadingHandle threading;
@@ -152,10 +162,11 @@ struct World::State {
   ode::SpaceHandle statics;  // geoms without a body, of finite size
   ode::SpaceHandle planes;   // infinite geoms would degrade the quadtree of the statics
   ode::JointGroupHandle contacts;
-  std::map<ObjectId, PlacedModel> models;
-  Wrenches wrenches;                      // of the next advance()
-  std::vector<DeviceSlot> devices;        // in the order of their updates
-  DeviceSlot* updating = nullptr;         // the device whose update runs
+  std::vector<std::unique_ptr<PlacedModel>> models;  // in the order in which they were added
+  std::vector<PlacedModel*> model_at;                // by SceneTree::index_of(); null for other objects
+  Wrenches wrenches;                                 // of the next advance()
+  std::vector<DeviceSlot> devices;                   // in the order of their updates
+  DeviceSlot* updating = nullptr;                    // the device whose update runs
   std::deque<TouchReport> touch_reports;  // of this substep; a deque, because ODE keeps pointers to its elements
   std::vector<Touch> touches;             // of the last advance()
   std::uint64_t steps = 0;                // substeps started in the last advance()
@@ -169,22 +180,27 @@ struct World::State {
   std::deque<StateSample> history;        // of the last calls of advance()
   std::vector<ObjectId> lost_models;      // models that diverged
   bool diverged = false;
-  bool interrupted = false;  // ODE threw in the middle of a step
+  bool interrupted = false;    // ODE threw in the middle of a step
+  bool statics_stale = false;  // a static model was removed since gather_statics()
 
-  const PlacedModel& model_of(ObjectId id) const { return models.at(tree.outermost_model_of(id)); }
-  const Link& link(ObjectId id) const { return model_of(id).links[tree.at(id).index]; }
-  const ModelFrame& frame(ObjectId id) const {
-    const Object& object = tree.at(id);
-    return object.parent == kNoObject ? models.at(id).frame : model_of(id).nested[object.index];
+  const SceneTree& tree() const { return *shared_tree; }
+  PlacedModel& model_of(ObjectId id) { return *model_at[SceneTree::index_of(tree().outermost_model_of(id))]; }
+  const PlacedModel& model_of(ObjectId id) const {
+    return *model_at[SceneTree::index_of(tree().outermost_model_of(id))];
   }
-  std::string shown(ObjectId id) const { return tree.short_path(id); }
+  const Link& link(ObjectId id) const { return model_of(id).links[tree().at(id).index]; }
+  const ModelFrame& frame(ObjectId id) const {
+    const Object& object = tree().at(id);
+    return object.parent == kNoObject ? model_of(id).frame : model_of(id).nested[object.index];
+  }
+  std::string shown(ObjectId id) const { return tree().short_path(id); }
 };
 
 /// Adds a model and its objects to the tree.
 ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
 
-/// Builds a validated model whose objects are in the tree already. gather_statics() completes it when it is static.
-void place_model(World::State& state, ObjectId id, ModelDescription model);
+/// Builds a model whose objects are in the tree already. gather_statics() completes it when it is static.
+void place_model(World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> model);
 
 /// Updates the list of moving models and their indices in the islands, after models were added or removed.
 void list_moving(World::State& state);

@@ -2,7 +2,6 @@
 // Advances time in a world, and detects divergence.
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <ostream>
 #include <utility>
 
@@ -32,7 +31,7 @@ void check_bodies(World::State& state) {
     for (const Link& link : model->links) {
       if (is_finite(link.body.get())) continue;
       if (first == nullptr) first = &link;
-      const ObjectId id = state.tree.outermost_model_of(link.object);
+      const ObjectId id = state.tree().outermost_model_of(link.object);
       if (state.lost_models.empty() || state.lost_models.back() != id) state.lost_models.push_back(id);
     }
   }
@@ -40,22 +39,10 @@ void check_bodies(World::State& state) {
   state.diverged = true;
   dBodyID body = first->body.get();
   const Twist velocity = body_velocity(body);
-  throw Diverged("the physics diverged at " + state.tree.path(first->object) + ": position " +
+  throw Diverged("the physics diverged at " + state.tree().path(first->object) + ": position " +
                  text(to_vector(dBodyGetPosition(body))) + " m, velocity " + text(velocity.linear) + " m/s, " +
                  text(velocity.angular) +
                  " rad/s; check masses, inertias, forces and overlapping shapes, or use a smaller physics substep");
-}
-
-/// ODE has one random state for the iterative solvers of all worlds and threads: each world sets its own while it
-/// steps.
-void step_iteratively(World::State& state, double step) {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  const unsigned long others = dRandGetSeed();
-  dRandSetSeed(state.random);
-  dWorldQuickStep(state.world.get(), step);
-  state.random = dRandGetSeed();
-  dRandSetSeed(others);
 }
 
 void substep(World::State& state, const Wrenches& wrenches, double step) {
@@ -73,7 +60,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
     if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
-      step_iteratively(state, step);
+      ode::step_iteratively(state.world.get(), step, state.random);
       state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
     } else {
       dWorldStep(state.world.get(), step);
@@ -130,11 +117,11 @@ std::vector<ObjectId> World::fallen_models() const {
   std::vector<ObjectId> fallen;
   const Vector3 down = state_->gravity.Normalized();
   if (down == Vector3::Zero) return fallen;
-  for (const auto& [id, model] : state_->models) {
-    const bool all_below = std::all_of(model.links.begin(), model.links.end(), [&](const Link& link) {
+  for (const auto& model : state_->models) {
+    const bool all_below = std::all_of(model->links.begin(), model->links.end(), [&](const Link& link) {
       return link.body != nullptr && to_vector(dBodyGetPosition(link.body.get())).Dot(down) > state_->bottom + kFall;
     });
-    if (all_below) fallen.push_back(id);
+    if (all_below) fallen.push_back(model->object);
   }
   return fallen;
 }
@@ -143,12 +130,12 @@ void World::write_last_states(std::ostream& out) const {
   out << "time,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
   for (const StateSample& sample : state_->history) {
     for (const LinkState& link : sample.links) {
-      if (state_->tree.objects().count(link.object) == 0) continue;
+      if (!state_->tree().contains(link.object)) continue;
       const Vector3& p = link.pose.Pos();
       const Quaternion& q = link.pose.Rot();
       const Vector3& v = link.velocity.linear;
       const Vector3& w = link.velocity.angular;
-      out << sample.time << ',' << state_->tree.path(link.object);
+      out << sample.time << ',' << state_->tree().path(link.object);
       for (const double value :
            {p.X(), p.Y(), p.Z(), q.X(), q.Y(), q.Z(), q.W(), v.X(), v.Y(), v.Z(), w.X(), w.Y(), w.Z()}) {
         out << ',' << value;

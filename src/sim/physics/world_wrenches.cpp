@@ -11,7 +11,7 @@ namespace bubblesim {
 namespace {
 
 ObjectId pushed_link(const World::State& state, ObjectId id) {
-  const Object& object = state.tree.at(id);
+  const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                       ": a wrench acts on a link or a model");
@@ -81,7 +81,7 @@ void push_links(const World::State& state, const Wrenches& wrenches) {
 void forget_wrenches(World::State& state) {
   const auto forget = [&](Wrenches& wrenches) {
     for (auto entry = wrenches.begin(); entry != wrenches.end();) {
-      entry = state.tree.objects().count(entry->first) == 0 ? wrenches.erase(entry) : std::next(entry);
+      entry = !state.tree().contains(entry->first) ? wrenches.erase(entry) : std::next(entry);
     }
   };
   forget(state.wrenches);

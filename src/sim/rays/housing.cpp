@@ -8,14 +8,10 @@
 
 namespace bubblesim::rays {
 
-std::vector<Vector3> sensor_positions(const World& world, ObjectId model) {
+std::vector<Vector3> sensor_positions(const ModelDescription& model) {
   std::vector<Vector3> positions;
-  for (const ObjectKind carrier : {ObjectKind::kLink, ObjectKind::kJoint}) {
-    for (const ObjectId part : world.tree().parts(model, carrier)) {
-      for (const ObjectId sensor : world.tree().children(part, ObjectKind::kSensor)) {
-        positions.push_back(world.pose(sensor).Pos());
-      }
-    }
+  for (const LinkDescription& link : model.links) {
+    for (const SensorDescription& sensor : link.sensors) positions.push_back((link.pose * sensor.pose).Pos());
   }
   return positions;
 }

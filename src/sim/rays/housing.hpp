@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "bubblesim/scene.hpp"
-#include "bubblesim/world.hpp"
 
 namespace bubblesim::rays {
 
-/// The positions of a model's sensors, in the world.
-std::vector<Vector3> sensor_positions(const World& world, ObjectId model);
+/// The initial positions of the sensors of a model's links, in the model's frame.
+std::vector<Vector3> sensor_positions(const ModelDescription& model);
 
-/// Whether a sensor is inside a shape at `pose` in the world; inside its bounding box in case of a mesh.
+/// Whether a sensor is inside a shape at `pose`, in the frame of the positions; inside its bounding box in case of a
+/// mesh.
 bool houses(const Geometry& geometry, const Pose& pose, const std::vector<Vector3>& sensors);
 
 }  // namespace bubblesim::rays

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene of all ray-traced sensors: the visuals in Embree, in single precision. Static models are traced directly;
 // each moving link is an instance, moved only when a sensor measures. Rays hit surfaces from outside only, so a sensor
-// inside its own housing sees through it.
+// inside its own housing sees through it. Geometries are shared with the other simulations of a scene.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
+#include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
 #include "rays/link_frame.hpp"
+#include "rays/prepared_rays.hpp"
 #include "rays/ray_packet.hpp"
 #include "rays/ray_shape.hpp"
 
@@ -19,6 +20,8 @@ namespace bubblesim {
 class RayScene {
  public:
   RayScene();
+  /// The models of a scene; prepared at the first refresh().
+  explicit RayScene(std::shared_ptr<const Scene> scene);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -49,26 +52,21 @@ class RayScene {
   const Vector3* plane_normal(const rays::RayPacket& packet, std::size_t i) const;
 
  private:
-  struct InfinitePlane;
   struct MovingLink;
-  struct ModelShapes;
 
-  void add_static(ModelShapes& model, std::size_t first);
-  void add_moving(ModelShapes& model, std::size_t first, ObjectId link);
+  void place(rays::SharedRayModel model);
+  void place_scene(const SceneTree& tree);
   void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
   bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 
-  std::map<ObjectId, std::unique_ptr<ModelShapes>> models_;
-  std::vector<InfinitePlane> planes_;
-  rays::SceneHandle statics_;
-  rays::SceneHandle housings_;                        // static shapes around sensors, whose rays skip them
-  std::vector<const rays::RayShape*> static_shapes_;  // of both, by geometry id; null where one was removed
-  std::vector<unsigned> free_ids_;
-  std::vector<const rays::RayShape*> housing_shapes_;
-  rays::SceneHandle movers_;
-  std::vector<MovingLink*> links_;  // by instance id; null where one was removed
-  bool statics_changed_ = false;
+  std::shared_ptr<const Scene> scene_;  // null when its models are placed
+  std::vector<rays::SharedRayModel> models_;
+  std::vector<rays::RayModel::InfinitePlane> planes_;
+  std::shared_ptr<const rays::StaticRays> statics_;
+  rays::SceneHandle movers_;                        // null without moving links
+  std::vector<std::unique_ptr<MovingLink>> links_;  // by instance id; null where one was removed
+  bool statics_changed_ = true;
   bool movers_changed_ = false;
   bool has_retro_ = false;
 };

@@ -31,17 +31,27 @@ struct Simulation::SensorSlot {
   bool wanted = false;  // it was read since its last measurement
   bool measured = false;
   bool shows = false;  // the image was replaced by override_image()
+
+  void reset(double now) {
+    sensor->reset();
+    time = now;
+    due = now + period;
+    wanted = measured = shows = false;
+  }
 };
 
-Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
     : scene_(std::move(scene)),
       seed_(seed),
-      world_(scene_, seed),
-      rays_(std::make_unique<RayScene>()),
-      first_time_step_(scene_.time_step) {
-  for (const ObjectId model : world_.tree().models()) rays_->add_model(world_, model, world_.description(model));
-  make_all_sensors();
+      world_(*scene_, seed),
+      rays_(std::make_unique<RayScene>(scene_)),
+      time_step_(scene_->description().time_step) {
+  for (const ObjectId model : world_.tree().models()) make_sensors(model);
+  index_sensors();
 }
+
+Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
+    : Simulation(std::make_shared<const Scene>(std::move(scene)), seed) {}
 
 void Simulation::make_sensors(ObjectId model) {
   const SceneTree& tree = world_.tree();
@@ -51,7 +61,7 @@ void Simulation::make_sensors(ObjectId model) {
     for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
       SensorSlot& slot = sensors_.emplace_back();
       slot.id = id;
-      slot.sensor = make_sensor(*sensor, scene_.environment, id, world_);
+      slot.sensor = make_sensor(*sensor, scene().environment, id, world_);
       slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
       slot.time = state_time();
       slot.due = slot.time + slot.period;
@@ -66,18 +76,24 @@ void Simulation::make_sensors(ObjectId model) {
   }
 }
 
-void Simulation::make_all_sensors() {
-  sensors_.clear();
-  for (const ObjectId model : world_.tree().models()) make_sensors(model);
+/// Call it after sensors were added or removed.
+void Simulation::index_sensors() {
+  slot_at_.assign(world_.tree().places(), sensors_.size());
+  for (std::size_t i = 0; i < sensors_.size(); ++i) slot_at_[SceneTree::index_of(sensors_[i].id)] = i;
+}
+
+void Simulation::reset_sensors() {
+  for (SensorSlot& slot : sensors_) slot.reset(state_time());
 }
 
 /// After a world reset. The sensors keep their rates, because time goes on.
-void Simulation::remake_sensors() {
-  const std::vector<SensorSlot> before = std::exchange(sensors_, {});
-  make_all_sensors();
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    sensors_[i].due = before[i].due;
-    sensors_[i].wanted = before[i].wanted;
+void Simulation::restart_sensors() {
+  for (SensorSlot& slot : sensors_) {
+    const double due = slot.due;
+    const bool wanted = slot.wanted;
+    slot.reset(state_time());
+    slot.due = due;
+    slot.wanted = wanted;
   }
 }
 
@@ -112,10 +128,11 @@ class Noted {
   bool& flag_;
 };
 
-/// Duration of a physics substep in s, after a change of the time step: a step consists of a whole number of substeps.
-double substep(const SceneDescription& scene) {
+/// Duration of a physics substep in s. After a change of the time step, a step consists of a whole number of substeps.
+double substep(const SceneDescription& scene, double time_step) {
+  if (time_step == scene.time_step) return scene.substep;
   constexpr double kRounding = 1e-6;
-  return scene.time_step / std::max(1.0, std::ceil(scene.time_step / scene.substep - kRounding));
+  return time_step / std::max(1.0, std::ceil(time_step / scene.substep - kRounding));
 }
 
 }  // namespace
@@ -126,7 +143,7 @@ void Simulation::set_time_step(double seconds) {
   }
   time_before_ = state_time();
   steps_before_ = steps_;
-  scene_.time_step = seconds;
+  time_step_ = seconds;
 }
 
 void Simulation::step() {
@@ -139,7 +156,7 @@ void Simulation::step() {
   const Noted in_pass(in_step_);
   step_start_ = state_time();  // process_input() may reset it
   for (System* system : systems_) system->actuate(world_, step_start_);
-  advance_physics(scene_.time_step == first_time_step_ ? scene_.substep : substep(scene_));
+  advance_physics(substep(scene(), time_step_));
   ++steps_;  // the world shows the end of the step from here on
   const Noted after_physics(after_physics_);
   const double end = state_time();
@@ -161,7 +178,7 @@ void Simulation::reset_world() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
-  remake_sensors();
+  restart_sensors();
   for (System* system : systems_) system->reset();
 }
 
@@ -171,17 +188,18 @@ void Simulation::reset() {
   world_.reset();
   steps_ = steps_before_ = 0;
   time_before_ = 0;
-  scene_.time_step = first_time_step_;
-  make_all_sensors();
+  time_step_ = scene().time_step;
+  reset_sensors();
   for (System* system : systems_) system->reset();
 }
 
-ObjectId Simulation::add_model(ModelDescription model) {
+ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
-  const ObjectId id = world_.add_model(std::move(model));
+  const ObjectId id = world_.add_model(std::move(model), warnings);
   rays_->add_model(world_, id, world_.description(id));
   make_sensors(id);
+  index_sensors();
   for (System* system : systems_) system->model_added(world_, id);
   return id;
 }
@@ -197,6 +215,7 @@ void Simulation::remove_model_now(ObjectId model) {
   for (System* system : systems_) system->model_removing(world_, model);
   const auto gone = [&](const SensorSlot& slot) { return world_.tree().outermost_model_of(slot.id) == model; };
   sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
+  index_sensors();
   rays_->remove_model(model);
   world_.remove_model(model);
 }
@@ -204,7 +223,7 @@ void Simulation::remove_model_now(ObjectId model) {
 void Simulation::update_sensors() {
   // Half a step of tolerance: rounding must not move a due time from one step to the next.
   const double now = state_time();
-  const double until = now + scene_.time_step / 2;
+  const double until = now + time_step_ / 2;
   std::vector<SensorSlot*> with_rays;
   std::size_t rays = 0;
   for (SensorSlot& slot : sensors_) {
@@ -239,11 +258,11 @@ void Simulation::update(SensorSlot& slot) {
 }
 
 Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
-  for (SensorSlot& slot : sensors_) {
-    if (slot.id == sensor) return slot;
-  }
-  throw WrongObject(world_.tree().short_path(sensor) + " is a " +
-                    std::string(kind_name(world_.tree().at(sensor).kind)) + ", not a " + wanted);
+  const Object& object = world_.tree().at(sensor);
+  const std::size_t index = slot_at_[SceneTree::index_of(sensor)];
+  if (index < sensors_.size()) return sensors_[index];
+  throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a " +
+                    wanted);
 }
 
 std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
@@ -268,13 +287,18 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
     throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
                       ", not a camera");
   }
-  if (image->rgb.size() != rgb.size()) {
+  const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
+  const bool has_color = std::get<CameraDescription>(world_.sensor_description(camera).kind).color;
+  const std::size_t bytes = has_color ? 3 * pixels : 0;
+  if (rgb.size() != bytes) {
     throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +
-                       std::to_string(image->height) + " pixels (" + std::to_string(image->rgb.size()) +
-                       " bytes), not one of " + std::to_string(rgb.size()) + " bytes");
+                       std::to_string(image->height) + " pixels (" + std::to_string(bytes) + " bytes), not one of " +
+                       std::to_string(rgb.size()) + " bytes");
   }
   CameraImage picture = *image;
   picture.rgb = rgb;
+  picture.depth.resize(pixels);  // the camera may not have measured yet
+  picture.objects.resize(pixels);
   found.time = state_time();
   found.sensor->replace(found.time, std::move(picture));
   found.shows = true;

@@ -32,7 +32,7 @@ void warn(const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.
 
 void Simulation::advance_physics(double substep) {
   try {
-    world_.advance(scene_.time_step, substep, time());
+    world_.advance(time_step_, substep, time());
   } catch (const Diverged& divergence) {
     handle(divergence);
   }
@@ -45,12 +45,12 @@ void Simulation::advance_physics(double substep) {
 void Simulation::handle(const Diverged& divergence) {
   const std::string what = divergence.what() + dump(world_);
   const std::vector<ObjectId> lost = world_.diverged_models();
-  if (scene_.on_divergence == OnDivergence::kReset) {
+  if (scene().on_divergence == OnDivergence::kReset) {
     warn(what + "; world reset");
     world_.reset();
-    remake_sensors();
+    restart_sensors();
     for (System* system : systems_) system->reset();
-  } else if (scene_.on_divergence == OnDivergence::kRemove && !lost.empty()) {
+  } else if (scene().on_divergence == OnDivergence::kRemove && !lost.empty()) {
     for (const ObjectId model : lost) {
       warn(what + "; " + world_.tree().path(model) + " removed");
       remove_model_now(model);

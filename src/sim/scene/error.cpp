@@ -22,6 +22,7 @@ std::string Problem::text() const {
   return text + message;
 }
 
-SceneError::SceneError(std::vector<Problem> found) : std::runtime_error(joined(found)), problems(std::move(found)) {}
+SceneError::SceneError(std::vector<Problem> found, std::vector<Problem> warned)
+    : std::runtime_error(joined(found)), problems(std::move(found)), warnings(std::move(warned)) {}
 
 }  // namespace bubblesim

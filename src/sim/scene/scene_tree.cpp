@@ -58,6 +58,10 @@ std::vector<std::string_view> split(std::string_view path) {
   return parts;
 }
 
+// Free places that are kept, so that handles come back late.
+constexpr std::size_t kMostFree = 1024;
+constexpr std::uint32_t kGenerations = 1U << 11U;
+
 }  // namespace
 
 std::string_view kind_name(ObjectKind kind) {
@@ -82,25 +86,69 @@ std::string as_path(std::string scoped_name) {
 }
 
 ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index) {
-  const ObjectId id = next_++;
-  objects_[id] = {id, kind, std::move(name), parent, {}, index};
-  (parent == kNoObject ? models_ : objects_.at(parent).children).push_back(id);
+  if (parent != kNoObject) at(parent);  // throws
+  const bool is_full = places_.size() >> kIndexBits != 0;
+  if (is_full && free_.empty()) throw InvalidInput("a scene has at most a million objects");
+  std::size_t taken = places_.size();
+  if (is_full || free_.size() > kMostFree) {
+    taken = free_.front();
+    free_.pop_front();
+  } else {
+    places_.emplace_back();
+  }
+  Place& place = places_[taken];
+  const auto id = static_cast<ObjectId>(taken | (place.generation << kIndexBits));
+  (parent == kNoObject ? models_ : places_[index_of(parent)].object.children).push_back(id);
+  by_name_[name].push_back(id);
+  place.object = {id, kind, std::move(name), parent, {}, index};
+  place.added = added_++;
+  ++size_;
   return id;
 }
 
 void SceneTree::remove(ObjectId id) {
-  const Object removed = at(id);
-  for (const ObjectId child : removed.children) remove(child);
-  std::vector<ObjectId>& siblings = removed.parent == kNoObject ? models_ : objects_.at(removed.parent).children;
+  const ObjectId parent = at(id).parent;
+  std::vector<ObjectId>& siblings = parent == kNoObject ? models_ : places_[index_of(parent)].object.children;
+  take_out(id, parent == kNoObject ? "" : path(parent));
   siblings.erase(std::find(siblings.begin(), siblings.end(), id));
-  objects_.erase(id);
 }
 
-const Object& SceneTree::at(ObjectId id) const {
-  const auto found = objects_.find(id);
-  if (found != objects_.end()) return found->second;
-  if (id >= 0 && id < next_) throw NoSuchObject("the object with the handle " + std::to_string(id) + " was removed");
-  throw NoSuchObject("no object has the handle " + std::to_string(id));
+/// Frees the places of an object and of all below it; its parent still lists it.
+void SceneTree::take_out(ObjectId id, const std::string& parent_path) {
+  Object& object = places_[index_of(id)].object;
+  const std::string was = parent_path + "/" + object.name;
+  for (const ObjectId child : object.children) take_out(child, was);
+  const auto named = by_name_.find(object.name);
+  named->second.erase(std::find(named->second.begin(), named->second.end(), id));
+  if (named->second.empty()) by_name_.erase(named);
+  object = {kNoObject, ObjectKind::kModel, was, kNoObject, {}, 0};
+  Place& place = places_[index_of(id)];
+  place.generation = (place.generation + 1) % kGenerations;
+  free_.push_back(index_of(id));
+  --size_;
+}
+
+void SceneTree::throw_missing(ObjectId id) const {
+  const std::string handle = std::to_string(id);
+  const std::size_t index = index_of(id);
+  if (id < 0 || index >= places_.size()) throw NoSuchObject("no object has the handle " + handle);
+  const Place& place = places_[index];
+  const std::uint32_t generation = static_cast<std::uint32_t>(id) >> kIndexBits;
+  if (generation >= place.generation) throw NoSuchObject("no object has the handle " + handle);
+  const bool is_last = place.object.id == kNoObject && generation + 1 == place.generation;
+  throw NoSuchObject("the object with the handle " + handle + (is_last ? " (" + place.object.name + ")" : "") +
+                     " was removed");
+}
+
+std::vector<ObjectId> SceneTree::objects() const {
+  std::vector<ObjectId> ids;
+  ids.reserve(size_);
+  for (const Place& place : places_) {
+    if (place.object.id != kNoObject) ids.push_back(place.object.id);
+  }
+  std::sort(ids.begin(), ids.end(),
+            [this](ObjectId a, ObjectId b) { return places_[index_of(a)].added < places_[index_of(b)].added; });
+  return ids;
 }
 
 std::vector<ObjectId> SceneTree::children(ObjectId parent, ObjectKind kind) const {
@@ -226,7 +274,24 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
   return roots;
 }
 
+ObjectId SceneTree::unique_match(std::string_view path) const {
+  if (path.empty() || path.front() != '/' || path.find_first_of("*[{") != std::string_view::npos) return kNoObject;
+  const std::vector<std::string_view> parts = split(path);
+  const auto named = parts.empty() ? by_name_.end() : by_name_.find(std::string(parts.back()));
+  if (named == by_name_.end() || named->second.size() != 1) return kNoObject;
+  // Each level of the path is the next ancestor of that name.
+  ObjectId above = at(named->second.front()).parent;
+  for (auto part = parts.rbegin() + 1; part != parts.rend(); ++part) {
+    while (above != kNoObject && at(above).name != *part) above = at(above).parent;
+    if (above == kNoObject) return kNoObject;
+    above = at(above).parent;
+  }
+  return named->second.front();
+}
+
 ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index) const {
+  const ObjectId only = unique_match(path);
+  if (only != kNoObject && index == 0) return only;
   const std::vector<ObjectId> found = matches(path, from);
   if (index < found.size()) return found[index];
 
@@ -236,9 +301,9 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
                        "': there is no match with index " + std::to_string(index));
   }
   std::vector<std::string> known;
-  for (const auto& [id, object] : objects_) {
+  for (const ObjectId id : objects()) {
     known.push_back(this->path(id));
-    known.push_back("/" + object.name);
+    known.push_back("/" + at(id).name);
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());

@@ -64,11 +64,7 @@ class Camera final : public Sensor {
     image.horizontal_fov = description.horizontal_fov;
     image.near = description.near;
     image.far = description.far;
-    const auto pixels = static_cast<std::size_t>(description.width) * static_cast<std::size_t>(description.height);
-    image.depth.resize(pixels);
-    image.objects.resize(pixels);
-    if (description.color) image.rgb.resize(3 * pixels);
-    return image;
+    return image;  // without pixels: most simulations never look at most cameras
   }
 
   static std::size_t columns_per_packet(std::size_t columns) {
@@ -77,6 +73,10 @@ class Camera final : public Sensor {
 
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     auto& image = std::get<CameraImage>(measurement);
+    const auto pixels = static_cast<std::size_t>(description_.width) * static_cast<std::size_t>(description_.height);
+    image.depth.resize(pixels);
+    image.objects.resize(pixels);
+    if (description_.color) image.rgb.resize(3 * pixels);
     moment.rays.refresh(moment.world);
     if (description_.color) shading_.place_lights(moment.world);
     const Pose sensor = moment.world.pose(id_);

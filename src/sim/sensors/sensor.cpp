@@ -20,6 +20,12 @@ void Sensor::update(const MeasurementContext& moment) {
   measure(moment, reading_->measurement);
 }
 
+void Sensor::reset() {
+  if (reading_.use_count() > 1) reading_ = std::make_shared<Reading>();  // a caller holds the last one
+  reading_->time = 0;
+  reading_->measurement = empty_;
+}
+
 void Sensor::replace(double time, Measurement measurement) {
   reading_ = std::make_shared<Reading>();
   reading_->time = time;

@@ -9,9 +9,9 @@
 namespace bubblesim::test::test_gz_files {
 namespace {
 
-SceneDescription loaded(const std::string& text) {
+SceneDescription loaded(const std::string& text, std::vector<Problem>* warnings = nullptr) {
   const TemporaryFile file("gz.sdf", text);
-  return load_scene(file.path());
+  return read_scene(file.path(), {}, warnings);
 }
 
 TEST(ModelOfAServer, IsLookedForByItsName) {
@@ -30,7 +30,7 @@ TEST(PbrMaterial, GivesItsAlbedoMap) {
                                     "<geometry><box><size>1 1 1</size></box></geometry><material><pbr><metal>"
                                     "<albedo_map>albedo.ppm</albedo_map></metal></pbr></material></visual>"
                                     "</link></model>"));
-  const Material material = load_scene(file.path()).models.at(0).links.at(0).visuals.at(0).material;
+  const Material material = read_scene(file.path()).models.at(0).links.at(0).visuals.at(0).material;
   ASSERT_NE(material.texture, nullptr);
   EXPECT_NEAR(material.diffuse.r, 0.5, 0.01);
 }
@@ -45,15 +45,16 @@ TEST(Lidar, MayGoRoundByARoundedTurn) {
 }
 
 TEST(Sensor, SaysWhereGzSimPublishesIt) {
-  ::testing::internal::CaptureStderr();
+  std::vector<Problem> warnings;
   const SceneDescription scene = loaded(
       in_world("<model name='m'><link name='l'><sensor name='camera' type='depth'><topic>depth</topic><gz_frame_id>eye"
                "</gz_frame_id><camera><camera_info_topic>optics</camera_info_topic><optical_frame_id>optical"
                "</optical_frame_id></camera></sensor><sensor name='imu' type='imu'><gz_frame_id>gyro</gz_frame_id>"
                "<topic>__default_topic__</topic></sensor><sensor name='touch' type='contact'><contact>"
                "<collision>c</collision><topic>bumps</topic></contact></sensor><collision name='c'><geometry><sphere>"
-               "<radius>1</radius></sphere></geometry></collision></link></model>"));
-  const std::string told = ::testing::internal::GetCapturedStderr();
+               "<radius>1</radius></sphere></geometry></collision></link></model>"),
+      &warnings);
+  const std::string told = lines_of(warnings);
   EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
   const std::vector<SensorDescription>& sensors = scene.models.at(0).links.at(0).sensors;
   ASSERT_EQ(sensors.size(), 3U);
@@ -71,12 +72,13 @@ TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
     return "<joint name='" + name + "' type='revolute'><parent>a</parent><child>" + child + "</child><axis><xyz>0 0 1" +
            "</xyz>" + more + "</axis></joint>";
   };
-  ::testing::internal::CaptureStderr();
+  std::vector<Problem> warnings;
   const SceneDescription scene =
       loaded("<sdf version='1.9'><world name='w'><model name='m'><link name='a'/><link name='b'/><link name='c'/>" +
-             joint("one", "b", "") + joint("two", "c", "<mimic joint='one'><multiplier>2</multiplier></mimic>") +
-             "</model></world></sdf>");
-  const std::string told = ::testing::internal::GetCapturedStderr();
+                 joint("one", "b", "") + joint("two", "c", "<mimic joint='one'><multiplier>2</multiplier></mimic>") +
+                 "</model></world></sdf>",
+             &warnings);
+  const std::string told = lines_of(warnings);
   EXPECT_EQ(scene.models.at(0).joints.at(1).axes.at(0).mimic->multiplier, 2);
   EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
 }

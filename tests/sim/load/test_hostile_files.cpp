@@ -34,7 +34,7 @@ class HostileFiles : public ::testing::Test {
           "<sdf version='" + version + "'>\n<model name='" + name + "'>" + content + "</model></sdf>");
   }
   std::string complaint(const std::string& text, const std::string& name = "scene.sdf") const {
-    return complaint_of([&] { load_scene(write(name, text)); });
+    return complaint_of([&] { read_scene(write(name, text)); });
   }
   template <class Load>
   static std::string complaint_of(const Load& load) {
@@ -135,7 +135,7 @@ TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
               "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry>"
               "</collision></link></model>";
   }
-  EXPECT_EQ(load_scene(write("many.sdf", in_world(models))).models.size(), 3000U);
+  EXPECT_EQ(read_scene(write("many.sdf", in_world(models))).models.size(), 3000U);
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   EXPECT_LT(used.ru_maxrss, 500'000) << "kB";

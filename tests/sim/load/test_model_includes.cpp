@@ -40,8 +40,8 @@ class ModelIncludes : public ::testing::Test {
     write(folder / "own.py", "");
   }
 
-  SceneDescription load(const std::string& includes) const {
-    return load_scene(write("scene/scene.sdf", in_world(includes)).string());
+  SceneDescription load(const std::string& includes, std::vector<Problem>* warnings = nullptr) const {
+    return read_scene(write("scene/scene.sdf", in_world(includes)).string(), {}, warnings);
   }
 
   std::string complaint(const std::string& includes) const {
@@ -110,9 +110,9 @@ TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
 }
 
 TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndTellWhereWasSearched) {
-  testing::internal::CaptureStderr();
-  EXPECT_TRUE(load("\n<include><uri>model://nothing</uri></include>").models.empty());
-  const std::string told = testing::internal::GetCapturedStderr();
+  std::vector<Problem> warnings;
+  EXPECT_TRUE(load("\n<include><uri>model://nothing</uri></include>", &warnings).models.empty());
+  const std::string told = lines_of(warnings);
   EXPECT_NE(told.find("scene.sdf:2: model not found: 'model://nothing', ignored"), std::string::npos) << told;
   EXPECT_NE(told.find((folder_ / "scene" / "models").string()), std::string::npos) << told;
   EXPECT_NE(told.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << told;

@@ -37,7 +37,7 @@ constexpr const char* kCart = R"(
 class NestedModels : public ::testing::Test {
  protected:
   TemporaryFile file_{"cart.sdf", in_world("<gravity>0 0 0</gravity>" + std::string(kCart))};
-  World world_{load_scene(file_.path()), 0};
+  World world_{read_scene(file_.path()), 0};
 
   ObjectId find(const char* path) const { return world_.tree().find(path); }
 };
@@ -86,7 +86,7 @@ TEST_F(NestedModels, AreBuiltAnewByAReset) {
 }
 
 TEST_F(NestedModels, HaveSensorsThatWork) {
-  Simulation simulation(load_scene(file_.path()));
+  Simulation simulation(read_scene(file_.path()));
   EXPECT_FALSE(simulation.measure_proximity(simulation.world().tree().find("/Eye")).detected);
 }
 
@@ -94,7 +94,7 @@ TEST(NestedModel, ThatIsStaticHoldsInTheWorld) {
   const TemporaryFile file("held.sdf",
                            in_world("<model name='m'><link name='a'/><model name='post'><static>true</static>"
                                     "<pose>0 0 2 0 0 0</pose><link name='l'/></model></model>"));
-  World world(load_scene(file.path()), 0);
+  World world(read_scene(file.path()), 0);
   world.advance(1, 0.005);
   EXPECT_NEAR(world.pose(world.tree().find("/post")).Pos().Z(), 2, 1e-6);
   EXPECT_LT(world.pose(world.tree().find("/m/a")).Pos().Z(), -4) << "the rest falls";
@@ -104,7 +104,7 @@ TEST(NestedModel, MergedByAnIncludeIsPartOfItsParent) {
   const TemporaryFile inner("model.sdf", "<sdf version='1.9'><model name='inner'><link name='l'/></model></sdf>");
   const std::string include = "<include merge='true'><uri>file://" + inner.path() + "</uri></include>";
   const TemporaryFile file("outer.sdf", in_world("<model name='m'><link name='a'/>" + include + "</model>"));
-  const World world(load_scene(file.path()), 0);
+  const World world(read_scene(file.path()), 0);
   EXPECT_EQ(world.tree().path(world.tree().find("/l")), "/m/l");
 }
 
@@ -115,7 +115,7 @@ TEST(NestedModel, ProblemsNameItsPathAndLine) {
                                     "</geometry></collision></link>"
                                     "</model></model>"));
   try {
-    load_scene(file.path());
+    read_scene(file.path());
     FAIL();
   } catch (const SceneError& error) {
     ASSERT_FALSE(error.problems.empty());

@@ -14,9 +14,10 @@ namespace {
 const std::string kInertial =
     "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
 
-SceneDescription loaded(const std::string& text, const std::string& name = "odd.sdf") {
+SceneDescription loaded(const std::string& text, const std::string& name = "odd.sdf",
+                        std::vector<Problem>* warnings = nullptr) {
   const TemporaryFile file(name, text);
-  SceneDescription scene = load_scene(file.path());
+  SceneDescription scene = read_scene(file.path(), {}, warnings);
   World world(scene, 0);
   world.advance(0.1, 0.005);
   return scene;
@@ -147,9 +148,9 @@ TEST(Model, NamedWithASlashGetsANameForPaths) {
 }
 
 TEST(Elements, ThatSdformatDoesNotKnowAreTold) {
-  testing::internal::CaptureStderr();
-  loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>");
-  const std::string told = testing::internal::GetCapturedStderr();
+  std::vector<Problem> warnings;
+  loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>", "odd.sdf", &warnings);
+  const std::string told = lines_of(warnings);
   EXPECT_TRUE(holds(told, "odd.sdf:3: <contact> is not an element of <link>: ignored\n")) << told;
 }
 
@@ -236,7 +237,7 @@ TEST(Urdf, FindsPackagesAsRoslaunchWritesThem) {
   const std::string mesh = "<geometry><mesh filename='file://$(find odd_robot)/wedge.obj'/></geometry>";
   std::ofstream(fs::path(manifest.folder()) / "robot.urdf")
       << robot("<link name='a'>" + kInertial + "<collision>" + mesh + "</collision></link>");
-  const SceneDescription scene = load_scene(manifest.folder() + "/robot.urdf");
+  const SceneDescription scene = read_scene(manifest.folder() + "/robot.urdf");
   EXPECT_EQ(the_robot(scene).links[0].collisions.size(), 1U);
 }
 

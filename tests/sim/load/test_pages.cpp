@@ -51,7 +51,7 @@ TEST(Pages, WhatTheyShowLoadsAndSteps) {
   for (const Snippet& snippet : all) {
     SCOPED_TRACE(snippet.page);
     const TemporaryFile file("page.sdf", completed(snippet.xml));
-    World world(load_scene(file.path()), 0);
+    World world(read_scene(file.path()), 0);
     EXPECT_NO_THROW(world.advance(1, 0.005));
   }
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// An installed scene without obstacles for its robot.
 SceneDescription open_field(const std::string& name) {
-  SceneDescription scene = load_scene(name);
+  SceneDescription scene = read_scene(name);
   const auto in_the_way = [](const ModelDescription& m) { return m.name == "Room"; };
   scene.models.erase(std::remove_if(scene.models.begin(), scene.models.end(), in_the_way), scene.models.end());
   return scene;

@@ -15,7 +15,7 @@ std::vector<VisualDescription> visuals(const std::string& link, bool is_static =
   const TemporaryFile file("model.sdf",
                            in_world(std::string("<model name='m'><static>") + (is_static ? "true" : "false") +
                                     "</static><link name='l'>" + link + "</link></model>"));
-  return load_scene(file.path()).models.at(0).links.at(0).visuals;
+  return read_scene(file.path()).models.at(0).links.at(0).visuals;
 }
 
 Material material(const std::string& text) {
@@ -26,7 +26,7 @@ Material material(const std::string& text) {
 
 Environment environment(const std::string& text) {
   const TemporaryFile file("world.sdf", in_world(text));
-  return load_scene(file.path()).environment;
+  return read_scene(file.path()).environment;
 }
 
 void expect_color(const Color& color, float r, float g, float b) {

@@ -41,7 +41,7 @@ class SceneFiles : public ::testing::Test {
 
   static std::string complaint(const std::string& file) {
     try {
-      load_scene(file);
+      read_scene(file);
     } catch (const SceneError& error) {
       return error.what();
     }
@@ -60,7 +60,7 @@ TEST_F(SceneFiles, OfAMeshAreFoundByEachKindOfUri) {
   for (const std::string& uri :
        {std::string("package://my_robot/meshes/a.stl"), std::string("model://thing/meshes/a.stl"),
         "file://" + (folder_ / "models/thing/meshes/a.stl").string(), std::string("../models/thing/meshes/a.stl")}) {
-    const SceneDescription scene = load_scene(write("scene/s.sdf", model_with(mesh(uri))));
+    const SceneDescription scene = read_scene(write("scene/s.sdf", model_with(mesh(uri))));
     const auto& geometry = scene.models.at(1).links.at(0).collisions.at(0).geometry;
     EXPECT_EQ(std::get<Mesh>(geometry).triangles->triangles.size(), 1U) << uri;
   }
@@ -68,15 +68,15 @@ TEST_F(SceneFiles, OfAMeshAreFoundByEachKindOfUri) {
 
 TEST_F(SceneFiles, OfAModelAreFoundBesideItWhateverItsFolderIsCalled) {
   write("copy_of_thing/meshes/a.stl", kStl);
-  load_scene(write("copy_of_thing/model.sdf", model_with(mesh("model://thing/meshes/a.stl"))));
+  read_scene(write("copy_of_thing/model.sdf", model_with(mesh("model://thing/meshes/a.stl"))));
   write("around/meshes/a.stl", kStl);
-  load_scene(write("around/model.sdf", model_with(mesh("model://around/meshes/a.stl"))));
+  read_scene(write("around/model.sdf", model_with(mesh("model://around/meshes/a.stl"))));
 }
 
 TEST_F(SceneFiles, OfAPackageAreFoundFromWithinIt) {
   write("pkg/package.xml", "<package><name>my_robot</name></package>");
   write("pkg/meshes/a.stl", kStl);
-  load_scene(write("pkg/urdf/deep/model.sdf", model_with(mesh("package://my_robot/meshes/a.stl"))));
+  read_scene(write("pkg/urdf/deep/model.sdf", model_with(mesh("package://my_robot/meshes/a.stl"))));
 }
 
 TEST_F(SceneFiles, BrokenMeshIsAnErrorOfACollisionAndAWarningOfAVisual) {
@@ -85,9 +85,10 @@ TEST_F(SceneFiles, BrokenMeshIsAnErrorOfACollisionAndAWarningOfAVisual) {
   EXPECT_NE(told.find("s.sdf:1: /m/l/s: "), std::string::npos) << told;
   EXPECT_NE(told.find("a.stl cannot be read as a mesh"), std::string::npos) << told;
   const std::string sphere = "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>";
-  ::testing::internal::CaptureStderr();
-  const SceneDescription scene = load_scene(write("s.sdf", model_with(sphere + mesh("a.stl", "visual"))));
-  const std::string warning = ::testing::internal::GetCapturedStderr();
+  std::vector<Problem> warnings;
+  const SceneDescription scene =
+      read_scene(write("s.sdf", model_with(sphere + mesh("a.stl", "visual"))), {}, &warnings);
+  const std::string warning = lines_of(warnings);
   EXPECT_NE(warning.find("using the link's collision shapes instead"), std::string::npos) << warning;
   EXPECT_TRUE(std::holds_alternative<Sphere>(scene.models.at(1).links.at(0).visuals.at(0).geometry));
 }
@@ -103,7 +104,7 @@ TEST_F(SceneFiles, MaterialScriptGivesItsColorAndItsTexture) {
         "<visual name='v'><geometry><box><size>1 1 1</size></box></geometry><material><script>"
         "<uri>model://thing/materials/scripts</uri><uri>model://thing/materials/textures</uri><name>" +
         name + "</name></script></material></visual>";
-    return load_scene(write("thing/model.sdf", model_with(visual))).models.at(1).links.at(0).visuals.at(0).material;
+    return read_scene(write("thing/model.sdf", model_with(visual))).models.at(1).links.at(0).visuals.at(0).material;
   };
   const Material base = material("Thing/Base");
   EXPECT_FLOAT_EQ(base.diffuse.g, 0.4F);
@@ -119,7 +120,7 @@ TEST_F(SceneFiles, MaterialScriptGivesItsColorAndItsTexture) {
 
 TEST_F(SceneFiles, InvisibleVisualsAreLeftOut) {
   EXPECT_TRUE(
-      load_scene(write("s.sdf", model_with("<visual name='v'><transparency>1</transparency><geometry><box><size>1 1 1"
+      read_scene(write("s.sdf", model_with("<visual name='v'><transparency>1</transparency><geometry><box><size>1 1 1"
                                            "</size></box></geometry></visual>")))
           .models.at(1)
           .links.at(0)
@@ -127,7 +128,7 @@ TEST_F(SceneFiles, InvisibleVisualsAreLeftOut) {
 }
 
 TEST_F(SceneFiles, LinksWithoutWeightFloat) {
-  const SceneDescription scene = load_scene(write("s.sdf", model_with("<gravity>false</gravity>")));
+  const SceneDescription scene = read_scene(write("s.sdf", model_with("<gravity>false</gravity>")));
   World world(scene, 0);
   const ObjectId floating = world.tree().find("/m");
   world.advance(1, 0.005);
@@ -142,7 +143,7 @@ TEST_F(SceneFiles, OfBeforeSdformat13AreReadWithTheirLines) {
     std::string text = old;
     return text.replace(text.find('%'), 1, radius);
   };
-  EXPECT_EQ(load_scene(write("old.sdf", with_radius("1"))).models.at(1).name, "old");
+  EXPECT_EQ(read_scene(write("old.sdf", with_radius("1"))).models.at(1).name, "old");
   EXPECT_NE(complaint(write("old.sdf", with_radius("-1"))).find("old.sdf:4: /old/l/c: the sphere's radius"),
             std::string::npos);
 }
@@ -163,7 +164,7 @@ TEST_F(SceneFiles, OfUrdfAreLoadedWithTheirMeshesMaterialsAndExtensions) {
 <gazebo reference="wheel"><mu1>0.25</mu1></gazebo>
 <gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so"><leftJoint>axle</leftJoint></plugin></gazebo>
 </robot>)";
-  const ModelDescription bot = load_scene(write("pkg/urdf/bot.urdf", urdf)).models.at(1);
+  const ModelDescription bot = read_scene(write("pkg/urdf/bot.urdf", urdf)).models.at(1);
   ASSERT_EQ(bot.links.size(), 2U) << "fixed joints are lumped";
   ASSERT_EQ(bot.links[0].visuals.size(), 1U);
   EXPECT_EQ(std::get<Mesh>(bot.links[0].visuals[0].geometry).triangles->high.X(), 2);
@@ -177,14 +178,14 @@ TEST_F(SceneFiles, OfXacroAreExpanded) {
 <xacro:property name="r" value="${0.25 * 2}"/>
 <link name="base"><inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><geometry><sphere radius="${r}"/></geometry></collision></link></robot>)");
-  const SceneDescription scene = load_scene(file);
+  const SceneDescription scene = read_scene(file);
   EXPECT_EQ(std::get<Sphere>(scene.models.at(1).links.at(0).collisions.at(0).geometry).radius, 0.5);
   const std::string told = complaint(write("bad.xacro", "<robot name='b'><link name='${nothing}'/></robot>"));
   EXPECT_NE(told.find("bad.xacro: xacro failed: "), std::string::npos) << told;
 }
 
 TEST_F(SceneFiles, WorldsIncludeTheSunAndTheGroundWithoutAnyFolder) {
-  const SceneDescription scene = load_scene(
+  const SceneDescription scene = read_scene(
       write("w.world",
             in_world("<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>")));
   EXPECT_EQ(scene.environment.lights.size(), 1U);

@@ -22,7 +22,7 @@ const fs::path kScenes = BUBBLESIM_SCENES;
 /// The problems of a scene, as texts without the file: `12: /Robot: ...`.
 std::vector<std::string> complaints(const std::string& name_or_path) {
   try {
-    load_scene(name_or_path);
+    read_scene(name_or_path);
   } catch (const SceneError& error) {
     std::vector<std::string> texts;
     for (const Problem& problem : error.problems) {
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Files, BadScene, ::testing::ValuesIn(bad_scenes()),
 TEST(SceneError, TextIsAsEditorsReadIt) {
   const fs::path file = kBadScenes / "own_unknown.sdf";
   try {
-    load_scene(file.string());
+    read_scene(file.string());
     FAIL();
   } catch (const SceneError& error) {
     EXPECT_EQ(error.what(), file.string() +
@@ -99,7 +99,7 @@ TEST(SceneFile, FolderIsNoScene) { EXPECT_EQ(all_complaints(kBadScenes.string())
 
 TEST(SceneFile, MissingFileIsNamed) {
   try {
-    load_scene("nowhere/robot.sdf");
+    read_scene("nowhere/robot.sdf");
     FAIL();
   } catch (const SceneError& error) {
     EXPECT_STREQ(error.what(), "nowhere/robot.sdf: file not found");
@@ -126,7 +126,7 @@ TEST(SceneName, ShippedScenesAreFoundByName) {
     if (entry.path().extension() != ".sdf") continue;
     const std::string name = entry.path().stem().string();
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
-    const SceneDescription scene = load_scene(name);
+    const SceneDescription scene = read_scene(name);
     EXPECT_EQ(scene.name, name);
     EXPECT_TRUE(fs::equivalent(scene.file, entry.path()));
     EXPECT_NO_THROW(World(scene, 0));
@@ -137,7 +137,7 @@ TEST(SceneName, FoldersOfTheEnvironmentComeFirst) {
   const TemporaryFile own("tricycle.sdf", in_world("<model name='Mine'><link name='l'/></model>"));
   ::setenv("BUBBLESIM_SCENE_PATH", ("/nowhere::" + own.folder()).c_str(), 1);
   const std::vector<fs::path> folders = scene_folders();
-  const SceneDescription scene = load_scene("tricycle");
+  const SceneDescription scene = read_scene("tricycle");
   ::unsetenv("BUBBLESIM_SCENE_PATH");
   ASSERT_GE(folders.size(), 3u);
   EXPECT_EQ(folders[0], "/nowhere");
@@ -151,7 +151,7 @@ TEST(LoadedScene, FileWithAModelAloneGetsGround) {
                            "<sdf version='1.9'><model name='Ball'><pose>0 0 0.6 0 0 0</pose><link name='l'>"
                            "<collision name='c'><geometry><sphere><radius>0.5</radius></sphere></geometry></collision>"
                            "</link></model></sdf>");
-  World world(load_scene(file.path()), 0);
+  World world(read_scene(file.path()), 0);
   world.advance(2, 0.001);
   EXPECT_NEAR(world.pose(world.tree().find("/Ball")).Pos().Z(), 0.5, 0.003);
 }
@@ -180,7 +180,7 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
           <limit><lower>-1</lower><upper>2</upper><effort>5</effort><velocity>6</velocity></limit>
           <dynamics><damping>0.7</damping><friction>0.8</friction></dynamics></axis></joint>
     </model>)"));
-  const SceneDescription scene = load_scene(file.path());
+  const SceneDescription scene = read_scene(file.path());
   EXPECT_EQ(scene.name, "all");
   EXPECT_EQ(scene.gravity, Vector3(1, 2, -3));
   EXPECT_EQ(scene.substep, 0.002);
@@ -225,7 +225,7 @@ TEST(LoadedScene, AxisWithoutLimitsHasNone) {
   const TemporaryFile file("free.sdf", in_world("<model name='R'><link name='a'/><link name='b'/>"
                                                 "<joint name='j' type='revolute'><parent>a</parent><child>b</child>"
                                                 "<axis><xyz>0 0 1</xyz></axis></joint></model>"));
-  const AxisDescription axis = load_scene(file.path()).models[0].joints[0].axes[0];
+  const AxisDescription axis = read_scene(file.path()).models[0].joints[0].axes[0];
   EXPECT_EQ(axis.lower, -kInfinity);
   EXPECT_EQ(axis.upper, kInfinity);
   EXPECT_EQ(axis.max_force, kInfinity);
@@ -234,7 +234,7 @@ TEST(LoadedScene, AxisWithoutLimitsHasNone) {
 }
 
 TEST(LoadedScene, FindsTheChildScriptBesideTheFile) {
-  EXPECT_TRUE(fs::equivalent(load_scene("tricycle").models.back().child_script, kScenes / "tricycle.py"));
+  EXPECT_TRUE(fs::equivalent(read_scene("tricycle").models.back().child_script, kScenes / "tricycle.py"));
 }
 
 /// The same for the text of a model.

@@ -30,7 +30,7 @@ TEST(Plugins, StandInWorldsModelsAndSensors) {
   const TemporaryFile file("plugins.sdf", in_world(plugin("world") + "<model name='m'>" + plugin("drive") +
                                                    "<link name='l'><sensor name='s' type='imu'>" + plugin("imu") +
                                                    "</sensor></link></model>"));
-  const SceneDescription scene = load_scene(file.path());
+  const SceneDescription scene = read_scene(file.path());
   expect_plugin(scene.plugins, "world", 2);
   expect_plugin(scene.models.at(0).plugins, "drive", 3);
   expect_plugin(scene.models.at(0).links.at(0).sensors.at(0).plugins, "imu", 4);

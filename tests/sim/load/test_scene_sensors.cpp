@@ -11,7 +11,7 @@ namespace {
 
 SensorDescription loaded(const std::string& sensor) {
   const TemporaryFile file("sensor.sdf", in_world("<model name='m'><link name='l'>" + sensor + "</link></model>"));
-  return load_scene(file.path()).models.at(0).links.at(0).sensors.at(0);
+  return read_scene(file.path()).models.at(0).links.at(0).sensors.at(0);
 }
 
 std::string lidar(const std::string& type, const std::string& element) {
@@ -115,11 +115,11 @@ TEST(Sonar, OfAFileHasTheVolumeNamed) {
 }
 
 TEST(Sensors, OfAKindThatIsNotSimulatedAreLeftOutWithAWarning) {
-  ::testing::internal::CaptureStderr();
+  std::vector<Problem> warnings;
   const TemporaryFile file("logical_camera.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
                                                           "type='logical_camera'/></link></model>"));
-  const SceneDescription scene = load_scene(file.path());
-  const std::string warning = ::testing::internal::GetCapturedStderr();
+  const SceneDescription scene = read_scene(file.path(), {}, &warnings);
+  const std::string warning = lines_of(warnings);
   EXPECT_TRUE(scene.models.at(0).links.at(0).sensors.empty());
   EXPECT_NE(warning.find("logical_camera.sdf:2: /m/l/s: sensors of type 'logical_camera' are not simulated"),
             std::string::npos)
@@ -154,7 +154,7 @@ TEST(Multicamera, IsACameraForEachOfItsOwn) {
       "stereo.sdf",
       in_world("<model name='m'><link name='l'><sensor name='eyes' type='multicamera'><pose>1 0 0 0 0 0</pose>" +
                camera("left", "0 0.1 0 0 0 0") + camera("right", "0 -0.1 0 0 0 0") + "</sensor></link></model>"));
-  const auto sensors = load_scene(file.path()).models.at(0).links.at(0).sensors;
+  const auto sensors = read_scene(file.path()).models.at(0).links.at(0).sensors;
   ASSERT_EQ(sensors.size(), 2U);
   EXPECT_EQ(sensors[0].name, "eyes_left");
   EXPECT_EQ(sensors[1].name, "eyes_right");

@@ -116,7 +116,7 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
   Simulation simulation(scene(heap()));
   simulation.step();
   const std::uint64_t before = simulation.state_hash();
-  const std::size_t objects = simulation.world().tree().objects().size();
+  const std::size_t objects = simulation.world().tree().size();
   for (const Case& bad : cases) {
     ModelDescription described = robot(at(5, 6, 7));
     bad.spoil(described);
@@ -124,7 +124,7 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
     EXPECT_NE(error.find(bad.text), std::string::npos) << error;
   }
   EXPECT_EQ(simulation.state_hash(), before);
-  EXPECT_EQ(simulation.world().tree().objects().size(), objects);
+  EXPECT_EQ(simulation.world().tree().size(), objects);
   Simulation untouched(scene(heap()));
   untouched.step();
   EXPECT_EQ(history(simulation), history(untouched));
@@ -206,6 +206,25 @@ TEST(Reset, PutsTheModelsThatAreThereBackToWhereTheyCame) {
   EXPECT_THROW(simulation.world().tree().find("/Box0"), NoSuchObject);
   Simulation expected(scene({heap()[0], heap()[2], robot(at(5, 6, 7))}));
   EXPECT_EQ(history(simulation), history(expected));
+}
+
+TEST(Reset, AfterStaticModelsCameAndWentEqualsANewSimulation) {
+  const auto post = [](const std::string& name, double x) { return still(box(name, at(x, 0, 0.1))); };
+  std::vector<ModelDescription> models = heap();
+  models.push_back(post("First", 1));
+  models.push_back(post("Second", 200));  // removed: the others take less space
+  Simulation simulation(scene(models));
+  history(simulation);
+  simulation.remove_model(simulation.world().tree().find("/Second"));
+  simulation.add_model(post("Third", -1));
+  history(simulation);
+  simulation.reset();
+  models[models.size() - 1] = post("Third", -1);
+  Simulation expected(scene(models));
+  EXPECT_EQ(history(simulation), history(expected));
+  simulation.reset();  // nothing came or went since
+  Simulation again(scene(models));
+  EXPECT_EQ(history(simulation), history(again));
 }
 
 TEST(DivergedWorld, IsResetBeforeModelsComeOrGo) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_tree.hpp"
@@ -180,7 +182,7 @@ TEST_F(SceneTreePaths, ShortPathIsTheShortestUniqueEnding) {
 }
 
 TEST_F(SceneTreePaths, EveryPathLeadsBackToItsObject) {
-  for (const auto& [id, object] : tree.objects()) {
+  for (const ObjectId id : tree.objects()) {
     EXPECT_EQ(tree.find(tree.path(id)), id) << tree.path(id);
     EXPECT_EQ(tree.find(tree.short_path(id)), id) << tree.short_path(id);
   }
@@ -202,6 +204,54 @@ TEST_F(SceneTreePaths, UnknownHandlesAreNamed) {
       EXPECT_EQ(error.what(), "no object has the handle " + std::to_string(id));
     }
   }
+}
+
+TEST_F(SceneTreePaths, HandlesOfANewTreeCountUp) {
+  EXPECT_EQ(robot, 0);
+  EXPECT_EQ(robot2_arm, 14);
+  EXPECT_EQ(tree.size(), 15U);
+}
+
+TEST_F(SceneTreePaths, RemovedObjectsAreNamed) {
+  const auto error_of = [&](ObjectId id) {
+    try {
+      tree.at(id);
+    } catch (const NoSuchObject& error) {
+      return std::string(error.what());
+    }
+    return std::string("found");
+  };
+  tree.remove(other);
+  EXPECT_EQ(error_of(wheel1), "the object with the handle " + std::to_string(wheel1) + " (/Other/wheel) was removed");
+  EXPECT_EQ(error_of(other_eye),
+            "the object with the handle " + std::to_string(other_eye) + " (/Other/base/eye) was removed");
+  EXPECT_FALSE(tree.contains(other));
+  EXPECT_EQ(tree.find("/base"), base);
+  EXPECT_EQ(tree.size(), 9U);
+}
+
+TEST_F(SceneTreePaths, PlacesAreTakenAgainWithOtherHandles) {
+  std::set<ObjectId> seen;
+  for (int i = 0; i < 10'000; ++i) {
+    const ObjectId id = add(ObjectKind::kModel, "Guest", kNoObject);
+    EXPECT_TRUE(seen.insert(id).second) << id;
+    EXPECT_EQ(tree.at(id).name, "Guest");
+    EXPECT_EQ(tree.find("/Guest"), id);
+    tree.remove(id);
+    EXPECT_FALSE(tree.contains(id));
+  }
+  EXPECT_LT(tree.places(), 2000U);
+  for (const ObjectId id : seen) EXPECT_THROW(tree.at(id), NoSuchObject);
+}
+
+TEST_F(SceneTreePaths, ObjectsComeInTheOrderInWhichTheyWereAdded) {
+  for (int i = 0; i < 2000; ++i) tree.remove(add(ObjectKind::kModel, "Guest", kNoObject));
+  const ObjectId first = add(ObjectKind::kModel, "First", kNoObject);
+  const ObjectId second = add(ObjectKind::kModel, "Second", kNoObject);
+  const std::vector<ObjectId> objects = tree.objects();
+  EXPECT_EQ(objects.front(), robot);
+  EXPECT_EQ(objects[objects.size() - 2], first);
+  EXPECT_EQ(objects.back(), second);
 }
 
 TEST_F(SceneTreePaths, ModelOfAnObjectIsTheOneItStandsIn) {

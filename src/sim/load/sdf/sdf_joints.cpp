@@ -74,11 +74,11 @@ double read_screw_lead(const sdf::Joint& joint, const std::string& path, LoadCon
 
 /// A position limit; `none` when it is out of reach.
 double reachable(double limit, double none, const std::string& name, const sdf::JointAxis& axis,
-                 const std::string& path) {
+                 const std::string& path, LoadContext& reading) {
   if (std::abs(limit) >= kNoLimit) return none;
   if (!(std::abs(limit) > kMaxDistance)) return limit;
-  LoadContext::warn(source_of(axis.Element()->FindElement("limit"), name), path,
-                    "the " + name + " limit is " + text(limit) + ", beyond 1e6: treated as no limit");
+  reading.warn(source_of(axis.Element()->FindElement("limit"), name), path,
+               "the " + name + " limit is " + text(limit) + ", beyond 1e6: treated as no limit");
   return none;
 }
 
@@ -89,8 +89,8 @@ AxisDescription read_axis(const sdf::JointAxis& axis, const sdf::Joint& joint, c
   AxisDescription description;
   reading.take(axis.ResolveXyz(description.direction, joint.Name()), path);
   if (joint.Type() != sdf::JointType::CONTINUOUS) {
-    description.lower = reachable(axis.Lower(), -none, "lower", axis, path);
-    description.upper = reachable(axis.Upper(), none, "upper", axis, path);
+    description.lower = reachable(axis.Lower(), -none, "lower", axis, path, reading);
+    description.upper = reachable(axis.Upper(), none, "upper", axis, path, reading);
   }
   // A negative effort or velocity means no limit; many files have a velocity of 0, which Gazebo's motors ignore.
   description.max_force = axis.Effort() < 0 ? none : limit(axis.Effort(), none);

@@ -51,15 +51,15 @@ const std::vector<LeftOut>& left_out_of(const std::string& owner) {
 
 }  // namespace
 
-void report_left_out(const sdf::ElementPtr& owner, const std::string& path) {
+void report_left_out(const sdf::ElementPtr& owner, const std::string& path, LoadContext& reading) {
   for (const LeftOut& kind : left_out_of(owner->GetName())) {
     if (!owner->HasElement(kind.name)) continue;
     for (auto element = owner->GetElement(kind.name); element != nullptr;
          element = element->GetNextElement(kind.name)) {
       if (!kind.counts(element)) continue;
       const std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
-      LoadContext::warn(source_of(element), name.empty() ? path : path + "/" + name,
-                        "<" + std::string(kind.name) + "> is ignored: " + kind.reason);
+      reading.warn(source_of(element), name.empty() ? path : path + "/" + name,
+                   "<" + std::string(kind.name) + "> is ignored: " + kind.reason);
     }
   }
 }

@@ -39,7 +39,8 @@ Quaternion turn_from_z(const Vector3& direction) {
 /// SDFormat drops shapes with the name of another shape of their link; Gazebo keeps them. Numbers are appended to their
 /// names.
 template <class Shape>
-std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, const std::string& link_path) {
+std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, const std::string& link_path,
+                             LoadContext& reading) {
   std::vector<Shape> found;
   std::map<std::string, int> known;
   if (!link->HasElement(kind)) return found;
@@ -50,8 +51,8 @@ std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, cons
     Shape shape;
     shape.Load(element);  // errors were reported when the file was read
     shape.SetName(name + "_" + std::to_string(number));
-    LoadContext::warn(source_of(element), link_path + "/" + shape.Name(),
-                      "renamed: the name '" + name + "' is used already");
+    reading.warn(source_of(element), link_path + "/" + shape.Name(),
+                 "renamed: the name '" + name + "' is used already");
     found.push_back(std::move(shape));
   }
   return found;
@@ -69,8 +70,8 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
     if (!geometry) return std::nullopt;
     description.geometry = *geometry;
   } catch (const MissingFile& error) {
-    LoadContext::warn(source_of(collision.Element(), "geometry"), path,
-                      std::string(error.what()) + "; this collision is ignored");
+    reading.warn(source_of(collision.Element(), "geometry"), path,
+                 std::string(error.what()) + "; this collision is ignored");
     return std::nullopt;
   } catch (const MeshError& error) {
     reading.report(source_of(collision.Element(), "geometry"), path, error.what());
@@ -121,8 +122,8 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
     link.visuals.push_back(std::move(description));
     return;
   } catch (const MeshError& error) {
-    LoadContext::warn(source_of(visual.Element(), "geometry"), path,
-                      std::string(error.what()) + "; using the link's collision shapes instead");
+    reading.warn(source_of(visual.Element(), "geometry"), path,
+                 std::string(error.what()) + "; using the link's collision shapes instead");
   }
   for (const CollisionDescription& collision : link.collisions) {
     description.pose = collision.pose;
@@ -132,7 +133,7 @@ void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string&
 }
 
 /// Many robots have a zero inertia, with which a body cannot be rotated, or an impossible one.
-void repair_inertia(LinkDescription& link, const std::string& path) {
+void repair_inertia(LinkDescription& link, const std::string& path, LoadContext& reading) {
   const Inertia given{link.inertia_diagonal, link.inertia_products};
   if (!within(given.diagonal, 1e9) || !within(given.products, 1e9)) return;  // the check reports it
   if (is_positive_definite(given.diagonal, given.products)) return;
@@ -145,14 +146,14 @@ void repair_inertia(LinkDescription& link, const std::string& path) {
   if (nearest) {
     link.inertia_diagonal = nearest->diagonal;
     link.inertia_products = nearest->products;
-    LoadContext::warn(link.source, path,
-                      is + ": using the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
-                          text(nearest->products));
+    reading.warn(link.source, path,
+                 is + ": using the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
+                     text(nearest->products));
     return;
   }
   link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
   link.inertia_products = Vector3::Zero;
-  LoadContext::warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
+  reading.warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
 }
 
 }  // namespace
@@ -163,7 +164,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.name = link.Name();
   description.pose = reading.resolved(link, path);
   description.source = source_of(link.Element());
-  report_left_out(link.Element(), path);
+  report_left_out(link.Element(), path, reading);
   description.gravity_enabled = link.Element()->Get<bool>("gravity", true).first;
   const auto& inertial = link.Inertial();
   const ignition::math::Matrix3d inertia = inertial.Moi();
@@ -171,13 +172,13 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.centre_of_mass = inertial.Pose().Pos();
   description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
   description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
-  if (!is_static && description.mass > 0) repair_inertia(description, path);
+  if (!is_static && description.mass > 0) repair_inertia(description, path, reading);
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
     const sdf::Collision& collision = *link.CollisionByIndex(i);
     const Pose pose = reading.resolved(collision, path + "/" + collision.Name());
     if (auto read = read_collision(collision, pose, path, reading)) description.collisions.push_back(std::move(*read));
   }
-  for (const auto& collision : namesakes<sdf::Collision>(link.Element(), "collision", path)) {
+  for (const auto& collision : namesakes<sdf::Collision>(link.Element(), "collision", path, reading)) {
     auto read = read_collision(collision, collision.RawPose(), path, reading);
     if (read) description.collisions.push_back(std::move(*read));
   }
@@ -185,7 +186,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
     const sdf::Visual& visual = *link.VisualByIndex(i);
     read_visual(visual, reading.resolved(visual, path + "/" + visual.Name()), path, is_static, description, reading);
   }
-  for (const auto& visual : namesakes<sdf::Visual>(link.Element(), "visual", path)) {
+  for (const auto& visual : namesakes<sdf::Visual>(link.Element(), "visual", path, reading)) {
     read_visual(visual, visual.RawPose(), path, is_static, description, reading);
   }
   for (std::uint64_t i = 0; i < link.LightCount(); ++i) {

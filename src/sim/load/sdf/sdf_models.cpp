@@ -58,7 +58,7 @@ class ModelReader {
  private:
   void read_inner(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& outer_path) {
     const std::string path = outer_path + "/" + model.Name();
-    report_left_out(model.Element(), path);
+    report_left_out(model.Element(), path, reading_);
     NestedModelDescription nested;
     nested.name = inner + model.Name();
     nested.pose = pose * reading_.resolved(model, path);
@@ -113,20 +113,20 @@ class ModelReader {
 };
 
 /// Replaces '/' in names, because it is the separator of paths.
-std::string name_in_paths(const sdf::Model& model) {
+std::string name_in_paths(const sdf::Model& model, LoadContext& reading) {
   std::string name = model.Name();
   if (name.find('/') == std::string::npos) return name;
   std::replace(name.begin(), name.end(), '/', '_');
-  LoadContext::warn(source_of(model.Element()), "/" + name, "renamed: '/' is the separator of paths");
+  reading.warn(source_of(model.Element()), "/" + name, "renamed: '/' is the separator of paths");
   return name;
 }
 
 }  // namespace
 
 ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading) {
-  const std::string name = name_in_paths(model);
+  const std::string name = name_in_paths(model, reading);
   const std::string path = "/" + name;
-  report_left_out(model.Element(), path);
+  report_left_out(model.Element(), path, reading);
   ModelDescription description;
   description.name = name;
   description.pose = pose;

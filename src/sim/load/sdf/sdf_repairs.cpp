@@ -40,10 +40,6 @@ std::string attribute(const XMLElement& element, const char* name) {
 
 bool is(const XMLElement& element, std::string_view name) { return name == element.Name(); }
 
-void warn(const std::string& file, const XMLElement& element, const std::string& message) {
-  LoadContext::warn({file, element.GetLineNum()}, object_path(element), message);
-}
-
 /// The frames whose names have the longest common suffix with `wanted`.
 std::vector<std::string> ending_as(const std::set<std::string>& frames, const std::string& wanted) {
   for (std::string end = wanted;;) {
@@ -61,6 +57,10 @@ std::vector<std::string> ending_as(const std::set<std::string>& frames, const st
 
 }  // namespace
 
+void SdfRepairs::warn(const std::string& file, const XMLElement& element, const std::string& message) {
+  reading_.warn({file, element.GetLineNum()}, object_path(element), message);
+}
+
 SdfRepairs::~SdfRepairs() {
   std::error_code ignored;
   if (!folder_.empty()) fs::remove_all(folder_, ignored);
@@ -68,7 +68,10 @@ SdfRepairs::~SdfRepairs() {
 
 std::optional<std::string> SdfRepairs::repaired_scene() {
   tinyxml2::XMLDocument& document = reading_.xml().document();
-  if (!repair(*document.RootElement(), reading_.xml().file())) return std::nullopt;
+  XMLElement& root = *document.RootElement();
+  const bool is_old = is(root, "gazebo");  // the name of <sdf> before version 1.3
+  if (is_old) root.SetName("sdf");
+  if (!repair(root, reading_.xml().file()) && !is_old) return std::nullopt;
   return print_in_lines(document);
 }
 
@@ -168,8 +171,8 @@ bool SdfRepairs::number_models(XMLElement& parent, const std::string& file) {
       auto* element = model->FirstChildElement("name");
       (element != nullptr ? element : model->InsertNewChildElement("name"))->SetText(numbered.c_str());
     }
-    LoadContext::warn({file, model->GetLineNum()}, object_path(parent) + "/" + numbered,
-                      "renamed: another model has the name '" + name + "'");
+    reading_.warn({file, model->GetLineNum()}, object_path(parent) + "/" + numbered,
+                  "renamed: another model has the name '" + name + "'");
   }
   return seen.size() < models.size();
 }

@@ -35,6 +35,7 @@ class SdfRepairs {
     std::set<std::string> frames;  // its links, joints, frames and models; those in nested models as inner::link
   };
 
+  void warn(const std::string& file, const tinyxml2::XMLElement& element, const std::string& message);
   bool repair(tinyxml2::XMLElement& sdf, const std::string& file);
   bool repair_below(tinyxml2::XMLElement& parent, const std::string& file);
   bool repair_script(tinyxml2::XMLElement& script, const std::string& file);

@@ -64,27 +64,27 @@ ScanAngles read_angles(unsigned int samples, double resolution, double min, doub
 }
 
 /// Like Gazebo: rings in any order; a single ring, or none, is horizontal.
-void straighten(ScanAngles& vertical, const Source& source, const std::string& path) {
+void straighten(ScanAngles& vertical, const Source& source, const std::string& path, LoadContext& reading) {
   const std::string angles = text(vertical.min) + " to " + text(vertical.max) + " rad";
   if (vertical.samples < 1 || (vertical.samples == 1 && vertical.min != vertical.max)) {
-    LoadContext::warn(
+    reading.warn(
         source, path,
         std::to_string(vertical.samples) + " vertical samples from " + angles + ": using a single ring at 0 rad");
     vertical = {1, 0, 0};
   } else if (vertical.min > vertical.max) {
-    LoadContext::warn(source, path, "the vertical angles are " + angles + ": using them from low to high");
+    reading.warn(source, path, "the vertical angles are " + angles + ": using them from low to high");
     std::swap(vertical.min, vertical.max);
   }
 }
 
-LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path) {
+LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path, LoadContext& reading) {
   LidarDescription description;
   description.horizontal =
       read_angles(lidar.HorizontalScanSamples(), lidar.HorizontalScanResolution(),
                   lidar.HorizontalScanMinAngle().Radian(), lidar.HorizontalScanMaxAngle().Radian());
   description.vertical = read_angles(lidar.VerticalScanSamples(), lidar.VerticalScanResolution(),
                                      lidar.VerticalScanMinAngle().Radian(), lidar.VerticalScanMaxAngle().Radian());
-  straighten(description.vertical, source_of(lidar.Element()), path);
+  straighten(description.vertical, source_of(lidar.Element()), path, reading);
   description.min_range = lidar.RangeMin();
   description.max_range = lidar.RangeMax();
   // Some models have a resolution that would leave no range.
@@ -149,24 +149,24 @@ ContactDescription read_contact(const sdf::ElementPtr& sensor) {
 }
 
 /// Gazebo accepts half a turn, for which the image plane would be infinite.
-void widen_at_most(double& field_of_view, const Source& source, const std::string& path) {
+void widen_at_most(double& field_of_view, const Source& source, const std::string& path, LoadContext& reading) {
   constexpr double kWide = 3.1;
   constexpr double kWidest = 3.13;
   if (!(field_of_view > kWide && field_of_view <= M_PI + 1e-3)) return;
   const std::string taken = field_of_view > kWidest ? ", using " + text(kWidest) : "";
-  LoadContext::warn(source, path,
-                    "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
-                        ": objects ahead are tiny in such an image");
+  reading.warn(source, path,
+               "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
+                   ": objects ahead are tiny in such an image");
   field_of_view = std::min(field_of_view, kWidest);
 }
 
-CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const std::string& path,
-                              const Report& report) {
+CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const std::string& path, const Report& report,
+                              LoadContext& reading) {
   CameraDescription description;
   description.width = static_cast<int>(camera.ImageWidth());
   description.height = static_cast<int>(camera.ImageHeight());
   description.horizontal_fov = camera.HorizontalFov().Radian();
-  widen_at_most(description.horizontal_fov, source_of(camera.Element(), "horizontal_fov"), path);
+  widen_at_most(description.horizontal_fov, source_of(camera.Element(), "horizontal_fov"), path, reading);
   description.near = depth_only && camera.HasDepthNearClip() ? camera.DepthNearClip() : camera.NearClip();
   description.far = depth_only && camera.HasDepthFarClip() ? camera.DepthFarClip() : camera.FarClip();
   // Plugins of depth cameras publish colour images, too.
@@ -209,16 +209,16 @@ bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const
   return true;
 }
 
-void tell_left_out(const Source& source, const std::string& path, const std::string& type) {
-  LoadContext::warn(source, path,
-                    "sensors of type '" + type +
-                        "' are not simulated: this sensor is ignored; simulated types: " + list_of_simulated());
+void tell_left_out(const Source& source, const std::string& path, const std::string& type, LoadContext& reading) {
+  reading.warn(source, path,
+               "sensors of type '" + type +
+                   "' are not simulated: this sensor is ignored; simulated types: " + list_of_simulated());
 }
 
 /// Reads kind and parameters of a sensor into `description`, whose pose is known already. Returns false when the kind
 /// is unknown or not simulated; the reason is reported.
-bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description,
-               const Report& report) {
+bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description, const Report& report,
+               LoadContext& reading) {
   switch (sensor.Type()) {
     case sdf::SensorType::SONAR:
       return read_sonar(sensor, description, report);
@@ -247,7 +247,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::LIDAR:
     case sdf::SensorType::GPU_LIDAR:
       if (const sdf::Lidar* lidar = sensor.LidarSensor()) {
-        description.kind = read_lidar(*lidar, path);
+        description.kind = read_lidar(*lidar, path, reading);
         return true;
       }
       report(description.source, "a lidar needs a <lidar> element with <scan> and <range>");
@@ -257,7 +257,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::RGBD_CAMERA:
     case sdf::SensorType::SEGMENTATION_CAMERA:
       if (const sdf::Camera* camera = sensor.CameraSensor()) {
-        description.kind = read_camera(*camera, sensor.Type() == sdf::SensorType::DEPTH_CAMERA, path, report);
+        description.kind = read_camera(*camera, sensor.Type() == sdf::SensorType::DEPTH_CAMERA, path, report, reading);
         description.pose = description.pose * camera->RawPose();
         return true;
       }
@@ -266,14 +266,14 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::NONE: {
       const auto type = sensor.Element()->Get<std::string>("type");
       if (type == "air_speed" || type == "custom" || type == "dvl") {  // of later SDFormat versions
-        tell_left_out(description.source, path, type);
+        tell_left_out(description.source, path, type, reading);
         return false;
       }
       report(description.source, "SDFormat has no sensor type '" + type + "'" + did_you_mean(type, kSimulated));
       return false;
     }
     default:
-      tell_left_out(description.source, path, sensor.TypeStr());
+      tell_left_out(description.source, path, sensor.TypeStr(), reading);
       return false;
   }
 }
@@ -326,7 +326,7 @@ std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const st
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));
   };
-  if (!read_kind(sensor, path, description, report_here)) return std::nullopt;
+  if (!read_kind(sensor, path, description, report_here, reading)) return std::nullopt;
   return description;
 }
 
@@ -345,7 +345,7 @@ std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const
     for (std::string* topic : {&description.topic, &description.gz.topic}) {
       if (!topic->empty()) *topic += "/" + camera.Name();
     }
-    description.kind = read_camera(camera, false, path, report_here);
+    description.kind = read_camera(camera, false, path, report_here, reading);
   }
   if (all.empty()) report_here(source_of(sensor.Element()), "a multicamera needs a <camera> for each of its cameras");
   return all;

@@ -30,7 +30,8 @@ Part* named(std::vector<Part>& parts, const std::string& name) {
 /// Applies the state of one model and its nested models.
 class ModelState {
  public:
-  explicit ModelState(ModelDescription& model) : model_(model), path_("/" + model.name) {}
+  ModelState(ModelDescription& model, LoadContext& reading)
+      : model_(model), path_("/" + model.name), reading_(reading) {}
 
   void apply(const sdf::ElementPtr& state) {
     if (const auto pose = pose_in(state)) model_.pose = *pose;
@@ -70,12 +71,13 @@ class ModelState {
     (model_.is_static || model_.joints.empty() ? link->pose : link->start.emplace()) = in_model;
   }
 
-  void warn(const sdf::ElementPtr& element, const std::string& message) const {
-    LoadContext::warn(source_of(element), path_, message);
+  void warn(const sdf::ElementPtr& element, const std::string& message) {
+    reading_.warn(source_of(element), path_, message);
   }
 
   ModelDescription& model_;
   std::string path_;
+  LoadContext& reading_;
 };
 
 }  // namespace
@@ -88,7 +90,7 @@ std::optional<Pose> state_pose(const sdf::World& world, const std::string& kind,
   return std::nullopt;
 }
 
-void apply_state(const sdf::World& world, std::vector<ModelDescription>& models) {
+void apply_state(const sdf::World& world, std::vector<ModelDescription>& models, LoadContext& reading) {
   const sdf::ElementPtr state = state_of(world);
   if (state == nullptr) return;
   std::map<std::string, int> seen;
@@ -97,15 +99,15 @@ void apply_state(const sdf::World& world, std::vector<ModelDescription>& models)
     const int number = ++seen[name];
     if (number > 1) name += "_" + std::to_string(number);  // like models with equal names
     if (ModelDescription* model = named(models, name)) {
-      ModelState(*model).apply(each);
+      ModelState(*model, reading).apply(each);
     } else {
-      LoadContext::warn(source_of(each), "/" + name, "the <state> contains this model, which is not in the world");
+      reading.warn(source_of(each), "/" + name, "the <state> contains this model, which is not in the world");
     }
   }
   for (const char* kind : {"insertions", "deletions"}) {
     const sdf::ElementPtr element = state->FindElement(kind);
     if (element == nullptr) continue;
-    LoadContext::warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> is ignored");
+    reading.warn(source_of(element), "", "<" + std::string(kind) + "> of the <state> is ignored");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "load/load_context.hpp"
 
 namespace bubblesim {
 
@@ -15,6 +16,6 @@ namespace bubblesim {
 std::optional<Pose> state_pose(const sdf::World& world, const std::string& kind, const std::string& name);
 
 /// Sets the poses of models and links from the state, and warns about its other contents.
-void apply_state(const sdf::World& world, std::vector<ModelDescription>& models);
+void apply_state(const sdf::World& world, std::vector<ModelDescription>& models, LoadContext& reading);
 
 }  // namespace bubblesim

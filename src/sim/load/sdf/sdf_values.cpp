@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "load/sdf/sdf_document.hpp"
 #include "load/sdf_extensions.hpp"
 #include "load/xml_lines.hpp"
 
@@ -20,15 +21,6 @@ namespace bubblesim {
 namespace {
 
 using tinyxml2::XMLElement;
-
-const sdf::ElementPtr& root_description() {
-  static const sdf::ElementPtr root = [] {
-    const auto format = std::make_shared<sdf::SDF>();
-    sdf::init(format);
-    return format->Root();
-  }();
-  return root;
-}
 
 /// Null when SDFormat does not know the element.
 sdf::ElementPtr description_below(const sdf::ElementPtr& parent, const std::string& name) {
@@ -194,8 +186,8 @@ class ValueCheck {
     reading_.report({file_, element.GetLineNum()}, object_path(element), std::move(message));
   }
   void warn(const XMLElement& element, const std::string& message) {
-    LoadContext::warn({file_, element.GetLineNum()}, object_path(element),
-                      "<" + std::string(element.Name()) + "> " + message);
+    reading_.warn({file_, element.GetLineNum()}, object_path(element),
+                  "<" + std::string(element.Name()) + "> " + message);
   }
 
   const std::string& file_;

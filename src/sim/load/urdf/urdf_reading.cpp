@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "load/sdf/sdf_document.hpp"
 #include "load/sdf/sdf_values.hpp"
 
 namespace bubblesim {
@@ -85,15 +86,15 @@ bool has_mass(const XMLElement& robot, const std::string& name, int depth = 0) {
 }
 
 /// A root link without mass would be dropped with the whole robot. Nothing can move it, so it is fixed to the world.
-void hold_massless_root(XMLElement& robot, const LoadContext& reading) {
+void hold_massless_root(XMLElement& robot, LoadContext& reading) {
   std::set<std::string> children;
   each(robot, "joint", [&](const XMLElement& joint) { children.insert(child_attribute(joint, "child", "link")); });
   auto* root = robot.FirstChildElement("link");
   while (root != nullptr && children.count(attribute(root, "name")) > 0) root = root->NextSiblingElement("link");
   const std::string name = attribute(root, "name");
   if (root == nullptr || name == kWorld || has_mass(robot, name)) return;
-  LoadContext::warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
-                    "has no mass: it is fixed to the world; add an <inertial> if it shall move");
+  reading.warn({reading.xml().file(), root->GetLineNum()}, "/" + attribute(&robot, "name") + "/" + name,
+               "has no mass: it is fixed to the world; add an <inertial> if it shall move");
   if (auto* inertial = root->FirstChildElement("inertial")) root->DeleteChild(inertial);
   auto* inertial = root->InsertNewChildElement("inertial");
   inertial->InsertNewChildElement("mass")->SetAttribute("value", 1);
@@ -116,8 +117,8 @@ void repair_extension(XMLElement& extension, LoadContext& reading) {
   for (auto* child = extension.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string_view name = child->Name();
     if ((name == "mu1" || name == "mu2") && child->DoubleText() < 0) {
-      LoadContext::warn({file, child->GetLineNum()}, path,
-                        "<" + std::string(name) + "> is below 0: using infinite friction");
+      reading.warn({file, child->GetLineNum()}, path,
+                   "<" + std::string(name) + "> is below 0: using infinite friction");
       child->SetText("inf");
     } else if (name == "sensor") {
       replace_bad_values(*child, link.empty() ? "model" : "link", file, reading);
@@ -155,7 +156,7 @@ std::string prepared_urdf(LoadContext& reading) {
 }
 
 sdf::Errors load_urdf(sdf::Root& root, const sdf::ParserConfig& config, const std::string& prepared) {
-  sdf::Errors errors = root.LoadSdfString(prepared, config);
+  sdf::Errors errors = load_document_text(root, prepared, config);
   for (sdf::Error& error : errors) {
     if (error.Message().find(kNoLink) != std::string::npos) error = sdf::Error(error.Code(), kNoOwnLink);
   }
@@ -182,13 +183,13 @@ void finish_urdf(ModelDescription& model, LoadContext& reading) {
     const auto found = find(name);
     if (found == model.joints.end()) {
       if (attribute(&joint, "type") == "fixed") return;  // lumped
-      LoadContext::warn(source, path,
-                        "is ignored with all links below it: '" + child_attribute(joint, "child", "link") +
-                            "' or one of its parent links has no mass; add an <inertial>");
+      reading.warn(source, path,
+                   "is ignored with all links below it: '" + child_attribute(joint, "child", "link") +
+                       "' or one of its parent links has no mass; add an <inertial>");
     } else if (lets_go(joint)) {
       model.joints.erase(found);
       if (attribute(&joint, "type") == "planar") {
-        LoadContext::warn(source, path, "planar joints are not simulated: its child moves freely");
+        reading.warn(source, path, "planar joints are not simulated: its child moves freely");
       }
     }
   });
@@ -200,8 +201,8 @@ void finish_urdf(ModelDescription& model, LoadContext& reading) {
     const auto* leader = robot.FirstChildElement("joint");
     while (leader != nullptr && attribute(leader, "name") != mimic->joint) leader = leader->NextSiblingElement("joint");
     if (leader != nullptr && find(mimic->joint) == model.joints.end()) {
-      LoadContext::warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
-                        "mimics '" + mimic->joint + "', which does not move: the mimic is ignored");
+      reading.warn({reading.xml().file(), joint.GetLineNum()}, "/" + model.name + "/" + found->name,
+                   "mimics '" + mimic->joint + "', which does not move: the mimic is ignored");
       return;
     }
     found->axes.front().mimic = mimic;

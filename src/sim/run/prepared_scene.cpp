@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/prepared_scene.hpp"
+
+#include <utility>
+
+#include "check/scene_check.hpp"
+#include "physics/world_state.hpp"
+#include "run/prepared.hpp"
+
+namespace bubblesim {
+namespace {
+
+SceneDescription checked(SceneDescription description) {
+  std::vector<Problem> problems = check_scene(description);
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  return description;
+}
+
+}  // namespace
+
+Scene::Scene(SceneDescription description) : Scene(Checked{}, checked(std::move(description)), {}) {}
+
+Scene::Scene(Checked, SceneDescription description, std::vector<Problem> warnings)
+    : description_(std::make_shared<const SceneDescription>(std::move(description))), warnings_(std::move(warnings)) {
+  auto tree = std::make_shared<SceneTree>();
+  auto prepared = std::make_unique<Prepared>();
+  for (const ModelDescription& model : description_->models) {
+    enter_model(*tree, model);
+    // Shares the ownership of the whole description.
+    prepared->models.push_back(prepare_model({description_, &model}, &warnings_));
+  }
+  tree_ = std::move(tree);
+  prepared_ = std::move(prepared);
+}
+
+std::shared_ptr<const Scene> Scene::of_checked(SceneDescription description, std::vector<Problem> warnings) {
+  return std::shared_ptr<const Scene>(new Scene(Checked{}, std::move(description), std::move(warnings)));
+}
+
+Scene::~Scene() = default;
+
+const rays::PreparedRays& Scene::Prepared::rays(const Scene& scene) const {
+  std::call_once(rays_made_, [&] {
+    for (std::size_t i = 0; i < scene.description().models.size(); ++i) {
+      rays_.models.push_back(
+          rays::prepare_rays(*scene.tree(), scene.tree()->models()[i], scene.description().models[i]));
+    }
+    rays_.statics = rays::gather_statics(rays_.models);
+  });
+  return rays_;
+}
+
+}  // namespace bubblesim
