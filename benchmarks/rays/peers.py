@@ -208,14 +208,17 @@ def main() -> None:
             for peer in ("PyBullet", "MuJoCo"):
                 check(f"{name}, {peer}", candidates["bubblesim"](), candidates[peer]())
         times: dict[str, list[float]] = {candidate: [] for candidate in candidates}
+        used: dict[str, list[float]] = {candidate: [] for candidate in candidates}
         for _ in range(rounds):
             for candidate, call in candidates.items():
-                start = time.perf_counter()
+                start, cpu = time.perf_counter(), time.process_time()
                 call()
                 times[candidate].append(time.perf_counter() - start)
-        own = statistics.median(times["bubblesim"])
-        row = ", ".join(f"{peer} {statistics.median(t) / own:.1f} x the time" for peer, t in times.items())
-        print(f"{name}: {own * 1e3:.3f} ms; {row}")
+                used[candidate].append(time.process_time() - cpu)
+        for unit, values in (("time", times), ("CPU time", used)):
+            own = statistics.median(values["bubblesim"])
+            row = ", ".join(f"{peer} {statistics.median(t) / own:.1f} x the {unit}" for peer, t in values.items())
+            print(f"{name}: {own * 1e3:.3f} ms; {row}")
 
 
 if __name__ == "__main__":

@@ -113,7 +113,7 @@ def main() -> None:
         elapsed, used, size = measure(sensors, steps)
         print(
             f"{name}: {elapsed * 1e3:.2f} ms a step, {used * 1e3:.2f} ms of CPU time, {size / 1e6:.1f} MB of arrays;"
-            f" {STEP / elapsed:.1f} x real time"
+            f" {STEP / elapsed:.1f} x real time, {STEP / used:.1f} x on one core"
         )
 
 

@@ -230,6 +230,34 @@ TEST(Picture, WithFourRaysInEachPixelIsTheirMean) {
   EXPECT_LE(differing, 10U) << "only pixels on edges may differ";
 }
 
+TEST(Picture, IsTheSameWhenSeveralSensorsAreDueTogether) {
+  SceneDescription scene = lit_things(camera());
+  std::vector<SensorDescription>& sensors = scene.models.back().links[0].sensors;
+  sensors.push_back(sensors[0]);
+  sensors.back().name = "Second";
+  LidarDescription lidar;
+  lidar.horizontal = {300, -3, 3};
+  lidar.max_range = 30;
+  sensors.push_back({});
+  sensors.back().name = "Lidar";
+  sensors.back().kind = lidar;
+  Simulation together(scene);
+  Simulation alone(scene);
+  const auto find = [&](const char* name) { return together.world().tree().find(name); };
+  for (const char* name : {"/Camera", "/Second", "/Lidar"}) together.read(find(name));
+  together.step();
+  alone.step();
+  EXPECT_EQ(together.measurements(), 6U) << "all three were due in the step";
+  for (const char* name : {"/Camera", "/Second"}) {
+    const auto one = together.read(find(name));
+    const auto other = alone.read(find(name));
+    EXPECT_EQ(std::get<CameraImage>(one->measurement).rgb, std::get<CameraImage>(other->measurement).rgb);
+    EXPECT_EQ(std::get<CameraImage>(one->measurement).depth, std::get<CameraImage>(other->measurement).depth);
+  }
+  EXPECT_EQ(std::get<LidarScan>(together.read(find("/Lidar"))->measurement).ranges,
+            std::get<LidarScan>(alone.read(find("/Lidar"))->measurement).ranges);
+}
+
 TEST(Picture, IsTheSameEachTimeAlsoWithNoise) {
   CameraDescription noisy = camera();
   noisy.noise.stddev = 0.05;
