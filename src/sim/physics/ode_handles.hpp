@@ -33,7 +33,7 @@ using ThreadingHandle =
 void prepare_this_thread();
 
 /// One substep with the iterative solver, whose random numbers continue from `random`. Threads do not wait for each
-/// other: see docs/adr/0022.
+/// other: see docs/adr/0023.
 void step_iteratively(dWorldID world, double step, unsigned long& random);
 
 /// Whether an ODE solver reported a warning on this thread since the last call.
