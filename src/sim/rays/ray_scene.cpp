@@ -74,6 +74,8 @@ void RayScene::place_scene(const SceneTree& tree) {
 void RayScene::place(SharedRayModel model) {
   planes_.insert(planes_.end(), model->planes.begin(), model->planes.end());
   statics_changed_ = statics_changed_ || !model->fixed.empty();
+  has_retro_ = has_retro_ || std::any_of(model->shapes.begin(), model->shapes.end(),
+                                         [](const auto& shape) { return shape->laser_retro != 0; });
   for (const RayModel::Link& link : model->links) {
     // Of all build qualities and flags, these commit a scene of instances fastest: twice as fast as the lowest quality.
     if (movers_ == nullptr) movers_ = make_scene(RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_DYNAMIC);
