@@ -12,14 +12,19 @@ const ros::WallDuration kBetweenChecks(0.1);
 
 }  // namespace
 
-StepService::StepService(Action action)
-    : action_(std::move(action)), thread_(start_without_signals([this] {
-        while (!ending_) queue_.callAvailable(kBetweenChecks);
-      })) {}
+StepService::StepService(Action action) : action_(std::move(action)) {
+  for (std::thread& thread : threads_) {
+    thread = start_without_signals([this] {
+      while (!ending_) queue_.callOne(kBetweenChecks);
+    });
+  }
+}
 
 void StepService::stop() {
   ending_ = true;
-  if (thread_.joinable()) thread_.join();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
 }
 
 /// The fields of bubblesim_msgs/Step.

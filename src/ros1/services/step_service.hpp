@@ -3,6 +3,7 @@
 
 #include <ros/callback_queue.h>
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <thread>
@@ -12,7 +13,8 @@
 
 namespace bubblesim {
 
-/// The answers of the service ~step. They wait for the steps, so a thread of their own makes them.
+/// The answers of the service ~step. They wait for the steps, so threads of their own make them: one may wait, because
+/// only one request at a time is not refused at once, the other answers meanwhile.
 class StepService {
  public:
   using Action = std::function<StepAnswer(std::uint32_t steps)>;
@@ -23,16 +25,16 @@ class StepService {
   StepService& operator=(const StepService&) = delete;
 
   messages::WireBuffer answer(messages::WireView request) const;
-  /// The requests that wait for the thread.
+  /// The requests that wait for a thread.
   ros::CallbackQueueInterface& queue() { return queue_; }
-  /// Ends the thread, after its current answer.
+  /// Ends the threads, after their current answers.
   void stop();
 
  private:
   const Action action_;
   ros::CallbackQueue queue_;
   std::atomic<bool> ending_{false};
-  std::thread thread_;
+  std::array<std::thread, 2> threads_;
 };
 
 }  // namespace bubblesim
