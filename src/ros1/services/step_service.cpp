@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "bubblesim/messages/bridge.hpp"
 #include "master/quiet_thread.hpp"
 
 namespace bubblesim {
@@ -29,6 +30,8 @@ void StepService::stop() {
 
 /// The fields of bubblesim_msgs/Step.
 messages::WireBuffer StepService::answer(messages::WireView request) const {
+  if (request.left() != sizeof(std::uint32_t))
+    throw messages::ServiceError("the request must be 4 bytes: uint32 steps");
   const StepAnswer answer = action_(request.get<std::uint32_t>());
   messages::WireBuffer response;
   response.put<std::uint8_t>(answer.problem.empty() ? 1 : 0);
