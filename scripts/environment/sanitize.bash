@@ -17,10 +17,10 @@ run_sanitizers() {
     for program in "$build"/tests/sim/test_*; do
       [[ -f $program && -x $program ]] || continue
       echo "[sanitize] $kind: $(basename "$program")"
-      # Without fork from threads and without a personality of the kernel, addresses are not randomised.
-      TSAN_OPTIONS="suppressions=$suppressions/thread.supp halt_on_error=0 exitcode=66" \
+      # ThreadSanitizer needs addresses that are not randomised; the path must not lead to the libraries of the workspace.
+      TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66" \
         LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
-        setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
+        env -u LD_LIBRARY_PATH setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
     done
   done
   return $failed
