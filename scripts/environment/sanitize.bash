@@ -17,7 +17,7 @@ run_sanitizers() {
     for program in "$build"/tests/sim/test_*; do
       [[ -f $program && -x $program ]] || continue
       echo "[sanitize] $kind: $(basename "$program")"
-      # ThreadSanitizer needs addresses that are not randomised; the path must not lead to the libraries of the workspace.
+      # ThreadSanitizer needs addresses that are not randomised; the path must not lead to the workspace's libraries.
       TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66" \
         LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
         env -u LD_LIBRARY_PATH setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
