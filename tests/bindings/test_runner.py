@@ -2,10 +2,6 @@
 """A simulation that runs in the background: commands, answers, frames."""
 
 import math
-import os
-import signal
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -15,6 +11,7 @@ import pytest
 
 import bubblesim
 from bubblesim import RunState
+from interrupted_program import errors_of_interrupted
 
 
 @pytest.fixture
@@ -145,16 +142,4 @@ def test_ctrl_c_ends_a_wait() -> None:
         "    print('ready', flush=True)\n"
         "    runner.step(10**12)\n"
     )
-    process = subprocess.Popen(
-        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
-    )
-    try:
-        assert process.stdout is not None
-        process.stdout.readline()
-        time.sleep(0.2)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=20)
-        assert "KeyboardInterrupt" in errors
-    finally:
-        process.kill()
-        process.wait()
+    assert "KeyboardInterrupt" in errors_of_interrupted(code)

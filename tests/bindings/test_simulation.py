@@ -2,8 +2,6 @@
 """bubblesim.Simulation from Python: stepping, objects, errors."""
 
 import gc
-import os
-import signal
 import subprocess
 import threading
 import time
@@ -13,6 +11,7 @@ import numpy as np
 import pytest
 
 import bubblesim
+from interrupted_program import errors_of_interrupted
 from node_support import clean_environment, endless_fall
 from ros_support import REPOSITORY
 
@@ -208,19 +207,7 @@ def test_other_threads_run_while_it_steps() -> None:
 
 def test_ctrl_c_ends_a_long_call() -> None:
     code = "import bubblesim; s = bubblesim.Simulation('ball'); print('ready', flush=True); s.step(10**12)"
-    process = subprocess.Popen(
-        ["/usr/bin/python3", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
-    )
-    try:
-        assert process.stdout is not None
-        process.stdout.readline()
-        time.sleep(0.2)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=20)
-        assert "KeyboardInterrupt" in errors
-    finally:
-        process.kill()
-        process.wait()
+    assert "KeyboardInterrupt" in errors_of_interrupted(code)
 
 
 HASH = """
