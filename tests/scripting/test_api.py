@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from bubblesim.scripting.api import kinds
@@ -72,6 +72,8 @@ def refusal(function: Callable[[Any], object], value: object) -> str | None:
 
 
 @given(ANYTHING)
+@example(b"0")
+@example("0")
 def test_numbers_and_only_they_are_taken_for_numbers(value: object) -> None:
     told = refusal(Sample().number, value)
     if isinstance(value, int | float) and abs(value) < 1e308:

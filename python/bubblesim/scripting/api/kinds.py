@@ -34,7 +34,7 @@ class HandleError(ValueError):
 
 
 def _number(value: Any) -> float:
-    if isinstance(value, str):  # float('1') would accept it
+    if isinstance(value, str | bytes | bytearray):  # float('1') and float(b'1') would accept it
         raise TypeError
     return float(value)
 
