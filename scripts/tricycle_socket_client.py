@@ -11,7 +11,6 @@ import math
 import socket
 import sys
 import time
-from typing import TextIO
 
 from bubblesim.controllers.tricycle_avoid import TricycleAvoid
 from bubblesim.program import run_program
@@ -19,15 +18,15 @@ from bubblesim.program import run_program
 PATIENCE = 5.0  # s, timeout of the connection and of answers
 
 
-def drive(connection: TextIO) -> None:
+def drive(connection: socket.socket) -> None:
     """Send commands and receive measurements until the simulation closes the connection."""
+    answers = connection.makefile("r", encoding="ascii", newline="\n")
     controller = TricycleAvoid()
     steering, speed = 0.0, 0.0
     last_time = None
     while True:
-        connection.write(f"{steering:.4f};{speed:.4f}\n")
-        connection.flush()
-        answer = connection.readline()
+        connection.sendall(f"{steering:.4f};{speed:.4f}\n".encode())
+        answer = answers.readline()
         if not answer:
             return
         now, distance = (float(number) for number in answer.split(";"))
@@ -35,6 +34,17 @@ def drive(connection: TextIO) -> None:
         last_time = now
         if command is not None:
             steering, speed = command.steering, command.speed
+
+
+def halt(connection: socket.socket) -> None:
+    """Stop the tricycle and wait until the simulation has read that.
+
+    A connection that is closed with unread answers is reset, and the simulation may lose the command.
+    """
+    connection.sendall(b"0;0\n")
+    connection.shutdown(socket.SHUT_WR)
+    while connection.recv(4096):
+        pass
 
 
 def connect(host: str, port: int) -> socket.socket:
@@ -62,9 +72,9 @@ def main() -> int:
         with connect(options.host, options.port) as connection:
             print(f"driving the tricycle at {address}; press Ctrl-C to end", flush=True)
             try:
-                drive(connection.makefile("rw", encoding="ascii", newline="\n"))
+                drive(connection)
             except KeyboardInterrupt:
-                connection.sendall(b"0;0\n")
+                halt(connection)
                 return 0
             print("the simulation has ended")
             return 0

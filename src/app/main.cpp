@@ -68,25 +68,33 @@ class Finally {
   const std::function<void()> action_;
 };
 
-/// The numbers of failed scripts, for threads that may outlive the scripts.
+/// The numbers of failed scripts, for threads that may outlive the scripts; after those, their last values.
 class ScriptCounts {
  public:
-  void watch(const ChildScripts* scripts) {
+  void watch(const ChildScripts& scripts) {
     const std::lock_guard lock(mutex_);
-    scripts_ = scripts;
+    scripts_ = &scripts;
+  }
+  void keep() {
+    const std::lock_guard lock(mutex_);
+    failures_ = scripts_->failures();
+    disabled_ = scripts_->disabled();
+    scripts_ = nullptr;
   }
   int failures() const {
     const std::lock_guard lock(mutex_);
-    return scripts_ != nullptr ? scripts_->failures() : 0;
+    return scripts_ != nullptr ? scripts_->failures() : failures_;
   }
   int disabled() const {
     const std::lock_guard lock(mutex_);
-    return scripts_ != nullptr ? scripts_->disabled() : 0;
+    return scripts_ != nullptr ? scripts_->disabled() : disabled_;
   }
 
  private:
   mutable std::mutex mutex_;
   const ChildScripts* scripts_ = nullptr;
+  int failures_ = 0;
+  int disabled_ = 0;
 };
 
 RunnerOptions runner_options(const Options& options, const ScriptCounts& counts) {
@@ -167,8 +175,8 @@ int run_scene(const Options& options, int& argc, char** argv) {
     simulation.add(*services);
   }
   if (observers) simulation.add(*observers);
-  counts.watch(&scripts);
-  const Finally end_of_scripts([&counts] { counts.watch(nullptr); });
+  counts.watch(scripts);
+  const Finally end_of_scripts([&counts] { counts.keep(); });
 
   try {
     runner.run();
