@@ -42,6 +42,7 @@ class Rotor final : public Device {
   void set_speed(double speed);
   /// The commanded speed after the first-order response, rad/s.
   double speed() const { return speed_; }
+  const RotorDescription& description() const { return description_; }
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;

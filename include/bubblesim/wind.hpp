@@ -11,7 +11,7 @@
 namespace bubblesim {
 
 /// The same everywhere. It pushes the links with LinkDescription::wind_enabled at their centres of mass, with the force
-/// mass * force_factor() * (wind - velocity of the centre of mass), as Gazebo's wind plugins do.
+/// mass * force_factor() * (wind - velocity of the centre of mass), as Gazebo; not when it is 0 without a variation.
 class Wind final : public Device {
  public:
   /// How the wind varies about its mean, with the parameters of gz-sim's WindEffects. Speed and direction of the

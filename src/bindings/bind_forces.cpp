@@ -12,6 +12,7 @@
 #include "bubblesim/buoyancy.hpp"
 #include "bubblesim/drag.hpp"
 #include "bubblesim/lift_drag.hpp"
+#include "bubblesim/multicopter_velocity_control.hpp"
 #include "bubblesim/rotor.hpp"
 #include "bubblesim/wind.hpp"
 #include "numpy_values.hpp"
@@ -99,6 +100,43 @@ void bind_rotor(py::module_& module) {
       .def_property_readonly(
           "speed", [](const Turning& r) { return r.device->speed(); }, "rad/s, after the first-order response.")
       .def("remove", &Turning::remove, "Remove it from the simulation.");
+}
+
+void bind_velocity_control(py::module_& module) {
+  using Control = Attached<MulticopterVelocityControl>;
+  py::class_<Control> control(module, "MulticopterVelocityControl",
+                              "Flies an airframe with rotors at a velocity along its own axes and a yaw rate, in each\n"
+                              "physics substep: gz-sim's controller (Lee, Leok, McClamroch, CDC 2010).");
+  control.def(py::init([](Simulation& simulation, ObjectId link, const std::vector<Attached<Rotor>*>& rotors,
+                          const Numbers3& velocity_gain, const Numbers3& attitude_gain, const Numbers3& rate_gain,
+                          const Numbers3& max_acceleration) {
+                const VelocityControlDescription description{link, to_vector3(velocity_gain), to_vector3(attitude_gain),
+                                                             to_vector3(rate_gain), to_vector3(max_acceleration)};
+                std::vector<std::shared_ptr<Rotor>> devices;
+                for (const Attached<Rotor>* rotor : rotors) devices.push_back(rotor->device);
+                return attach_to_model_of<MulticopterVelocityControl>(link, simulation, [&](World& world) {
+                  return std::make_unique<MulticopterVelocityControl>(world, description, std::move(devices));
+                });
+              }),
+              py::arg("simulation"), py::arg("link"), py::arg("rotors"), py::kw_only(), py::arg("velocity_gain"),
+              py::arg("attitude_gain"), py::arg("rate_gain"), py::arg("max_acceleration") = Numbers3{1e9, 1e9, 1e9},
+              py::keep_alive<1, 2>(),
+              R"(Add it to a simulation.
+
+:param link: handle of the airframe.
+:param rotors: Rotors of the same model.
+:param velocity_gain: N s/m along the world's axes; attitude_gain: N m/rad about those of the link; rate_gain: N m s/rad.
+:param max_acceleration: m/s^2 along the world's axes.)");
+  Guarded(control)
+      .def(
+          "set_velocity",
+          [](Control& c, const Numbers3& linear, double yaw_rate) {
+            c.device->set_velocity(to_vector3(linear), yaw_rate);
+          },
+          py::arg("linear"), py::arg("yaw_rate") = 0.0, "m/s along the link's axes, rad/s about its z.")
+      .def(
+          "stop", [](Control& c) { c.device->stop(); }, "Stop the rotors, until the next command.")
+      .def("remove", &Control::remove, "Remove it from the simulation.");
 }
 
 void bind_lift_drag(py::module_& module) {
@@ -223,6 +261,7 @@ void bind_buoyancy(py::module_& module) {
 void bind_forces(py::module_& module) {
   bind_wind(module);
   bind_rotor(module);
+  bind_velocity_control(module);
   bind_lift_drag(module);
   bind_drag(module);
   bind_buoyancy(module);

@@ -45,6 +45,7 @@ class PluginContext:
     model: int  # handle; -1: the world
     parameters: Parameters
     namespace: str | None  # of the spawn request; the plugin's namespace replaces it
+    rotors: dict[int, Any]  # those of all plugins, by the handles of their joints
     endpoints: list[Callable[[], None]] = field(default_factory=list)  # functions that shut them down
 
     def close(self) -> None:

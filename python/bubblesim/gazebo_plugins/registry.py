@@ -20,6 +20,7 @@ from bubblesim.gazebo_plugins.forces.buoyancy import GzBuoyancy, ModelBuoyancy
 from bubblesim.gazebo_plugins.forces.hydrodynamics import Hydrodynamics
 from bubblesim.gazebo_plugins.forces.lift_drag import LiftDrag
 from bubblesim.gazebo_plugins.forces.multicopter_motor import MulticopterMotor
+from bubblesim.gazebo_plugins.forces.multicopter_velocity import MulticopterVelocity
 from bubblesim.gazebo_plugins.forces.wind_effects import WindEffects
 from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
     GzApplyJointForce,
@@ -86,6 +87,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-diff-drive-system": GzDiffDrive,
     "gz-hydrodynamics-system": Hydrodynamics,
     "gz-lift-drag-system": LiftDrag,
+    "gz-multicopter-control-system": MulticopterVelocity,
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-wind-effects-system": WindEffects,

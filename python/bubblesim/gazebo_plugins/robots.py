@@ -29,6 +29,7 @@ class GazeboPlugins:
         self._step_time = StepTime(bridge)
         self._transforms = Transforms(bridge)
         self._plugins: list[Plugin] = []
+        self._rotors: dict[int, Any] = {}
         self._unknown = UnknownPlugins()
         for description in simulation.plugins:
             self._unknown.report(description)
@@ -103,7 +104,7 @@ class GazeboPlugins:
     def _make(self, kind: type[Plugin], description: Any, owner: int, model: int, namespace: str | None) -> None:
         parameters = Parameters(description)
         outside = self._bridge, self._step_time, self._transforms
-        context = PluginContext(self._simulation, *outside, owner, model, parameters, namespace)
+        context = PluginContext(self._simulation, *outside, owner, model, parameters, namespace, self._rotors)
         try:
             plugin = kind(context)
             plugin.reset()

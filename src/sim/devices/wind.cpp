@@ -93,6 +93,7 @@ void Wind::blow(double time, double duration) {
 
 void Wind::update(World& world, double time, double duration) {
   if (variation_) blow(time, duration);
+  if (!variation_ && mean_.SquaredLength() == 0) return;
   if (revision_ != world.revision()) {
     pushed_ = moving_links(world, [](const LinkDescription& link) { return link.wind_enabled; });
     revision_ = world.revision();

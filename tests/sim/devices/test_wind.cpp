@@ -53,6 +53,17 @@ TEST_F(Blown, ForceFactorIsTheRate) {
   EXPECT_NEAR(velocity_of("/Leaf/link").X(), 2, 1e-9) << "it is not thrown beyond";
 }
 
+TEST_F(Blown, StillAirSlowsOnlyWhereTheWindVaries) {
+  Simulation still(leaf({}), 0);
+  const ObjectId link = still.world().tree().find("/Leaf/link");
+  still.world().set_velocity(link, {{1, 0, 0}, {}});
+  still.step();
+  EXPECT_EQ(still.world().velocity(link).linear.X(), 1);
+  still.wind()->set_variation({});
+  still.step();
+  EXPECT_LT(still.world().velocity(link).linear.X(), 0.99);
+}
+
 TEST_F(Blown, PushesModelsThatAreAddedLater) {
   run(0.1);
   ModelDescription other = leaf({}).models[0];

@@ -45,11 +45,17 @@ class MulticopterMotor(Plugin):
         p.check()
         self._rotor = Rotor(self.simulation, self._joint, clockwise, **numbers)
         context.endpoints.append(self._rotor.remove)
+        context.rotors[self._joint] = self._rotor
         self._short = False
         self._publisher: int | None = None
         self.subscribe(topic, "mav_msgs/Actuators", self._command)
         if speed_topic and self.bridge is not None:
             self._publisher = self.advertise(speed_topic, "std_msgs/Float32", 10)
+
+    def close(self) -> None:
+        """Remove the rotor."""
+        self.context.rotors.pop(self._joint, None)
+        super().close()
 
     def _command(self, message: Message) -> None:
         speeds = message["angular_velocities"]
