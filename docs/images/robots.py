@@ -98,10 +98,21 @@ def bubblerob() -> list[Image]:
     return [near, room, view]
 
 
+def quadcopter() -> list[Image]:
+    """It on its pad, in flight, and what lies below it."""
+    simulation = bubblesim.Simulation("quadcopter")
+    simulation.step(10)
+    near = photograph(simulation, (0.62, -0.5, 0.42), (0.0, 0.0, 0.06), 0.75)
+    simulation.object("/Quadcopter").position = [0.0, 0.0, 1.0]
+    flying = photograph(simulation, (2.2, -1.6, 0.8), (0.0, 0.0, 0.7), 0.75)
+    below = photograph(simulation, (0.0, 0.0, 0.98), (0.35, 0.0, 0.0), 1.2)
+    return [near, flying, below]
+
+
 def main() -> None:
     """Put the pictures of each robot side by side."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
-    for robot in (pioneer, tricycle, bubblerob):
+    for robot in (pioneer, tricycle, bubblerob, quadcopter):
         pictures = [cv2.resize(picture, (426, 320), interpolation=cv2.INTER_AREA) for picture in robot()]
         framed = [cv2.copyMakeBorder(each, 0, 0, 3, 3, cv2.BORDER_CONSTANT, value=(255, 255, 255)) for each in pictures]
         cv2.imwrite(str(folder / f"robot_{robot.__name__}.png"), np.hstack(framed)[:, :, ::-1])

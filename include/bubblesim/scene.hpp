@@ -152,6 +152,7 @@ struct Environment {
   std::vector<Light> lights{Light{}};
   GeographicOrigin origin;
   Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  ///< T, world axes; SDFormat's default
+  Vector3 wind;                                                ///< m/s, world axes; mean velocity
 };
 
 /// An element of a <plugin>: its name and text, or its child elements.
@@ -193,6 +194,9 @@ struct SensorDescription {
 struct LinkDescription {
   std::string name;
   bool gravity_enabled = true;  ///< gravity acts on it
+  bool wind_enabled = false;    ///< the wind pushes it: see Wind
+  double linear_decay = 0;      ///< 1/s, decay of its velocity: see VelocityDecay
+  double angular_decay = 0;     ///< 1/s, decay of its angular velocity
   Pose pose;                    ///< in the model's frame
   std::optional<Pose> start{};  ///< initial pose, if it differs because of initial joint positions
   double mass = 1;

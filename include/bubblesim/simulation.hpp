@@ -12,6 +12,7 @@
 #include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/sensor.hpp"
+#include "bubblesim/wind.hpp"
 #include "bubblesim/world.hpp"
 
 namespace bubblesim {
@@ -95,6 +96,9 @@ class Simulation {
   void stop_systems();
   void start_systems();
 
+  /// The wind; for devices such as propellers, wings and drag.
+  const std::shared_ptr<Wind>& wind() const { return wind_; }
+
   World& world() { return world_; }
   const World& world() const { return world_; }
 
@@ -142,6 +146,7 @@ class Simulation {
   std::shared_ptr<const Scene> scene_;
   std::uint64_t seed_;
   World world_;
+  std::shared_ptr<Wind> wind_;
   std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
   std::vector<std::size_t> slot_at_;  // index into sensors_ by SceneTree::index_of(); out of range: not a sensor

@@ -2,47 +2,21 @@
 // The devices of bubblesim._core, which are called before physics substeps.
 #include <pybind11/stl.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <tuple>
 #include <vector>
 
+#include "attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
-#include "guarded.hpp"
 
 namespace bubblesim::bindings {
 namespace {
 
 namespace py = pybind11;
-
-using Numbers3 = std::array<double, 3>;
-
-Vector3 to_vector3(const Numbers3& v) { return {v[0], v[1], v[2]}; }
-
-/// A device that Python added to a world.
-template <class Kind>
-struct Attached {
-  World& world;
-  std::shared_ptr<Kind> device;
-
-  void remove() { world.remove_device(*device); }
-};
-
-template <class Kind>
-AccessLock& lock_of(const Attached<Kind>& attached) {
-  return attached.world.access();
-}
-
-template <class Kind>
-Attached<Kind> attach(World& world, std::shared_ptr<Kind> device, ObjectId model, double rate) {
-  const HoldWithGil hold(world.access());
-  world.add_device(device, model, rate);
-  return {world, std::move(device)};
-}
 
 void bind_timed_efforts(py::module_& module) {
   using Efforts = Attached<TimedEfforts>;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <map>
 
+#include "attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
@@ -273,6 +274,12 @@ Equal seeds and equal commands give bitwise equal states in every process.
       .def_property_readonly(
           "plugins", [](const Simulation& s) { return s.scene().plugins; },
           "The PluginDescriptions of the world itself.")
+      .def_property_readonly(
+          "wind",
+          [](Simulation& s) {
+            return Attached<Wind>{s.world(), s.wind()};
+          },
+          py::keep_alive<0, 1>(), "The Wind of the simulation.")
       .def("state_hash", &Simulation::state_hash,
            "Return a 64 bit hash of the physical state; world.hpp lists what it covers.")
       .def_property_readonly("collisions", &collisions, "All collision shapes with their current poses.")

@@ -16,6 +16,7 @@ void bind_plugins(pybind11::module_& core);
 void bind_world(pybind11::module_& core);
 void bind_runner(pybind11::module_& core);
 void bind_devices(pybind11::module_& core);
+void bind_forces(pybind11::module_& core);
 void bind_readings(pybind11::module_& core);
 void bind_sensors(pybind11::module_& core);
 

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, core) {
   bind_plugins(core);
   bind_world(core);
   bind_devices(core);
+  bind_forces(core);
   bind_readings(core);
   bind_sensors(core);
   bind_objects(core);

@@ -234,13 +234,10 @@ def test_extensions_of_urdf_are_repaired(load: Load) -> None:
 @pytest.mark.parametrize(
     ("text", "name"),
     [
-        (world("<wind><linear_velocity>1 0 0</linear_velocity></wind>"), "wind"),
         (model("<kinematic>true</kinematic>"), "kinematic"),
-        (model("<velocity_decay><linear>0.1</linear></velocity_decay>"), "velocity_decay"),
         (model("<projector name='p'><texture>t.png</texture></projector>"), "projector"),
         (model("", "<gripper name='g'><gripper_link>l</gripper_link></gripper>"), "gripper"),
         (model("<battery name='b'><voltage>12</voltage></battery>"), "battery"),
-        (model("<enable_wind>true</enable_wind>"), "enable_wind"),
     ],
 )
 def test_what_is_left_out_is_reported(load: Load, text: str, name: str) -> None:
@@ -249,5 +246,4 @@ def test_what_is_left_out_is_reported(load: Load, text: str, name: str) -> None:
 
 
 def test_what_would_have_no_effect_is_not_reported(load: Load) -> None:
-    decay = "<velocity_decay><linear>0</linear><angular>0</angular></velocity_decay>"
-    assert load(model(f"<kinematic>false</kinematic><enable_wind>0</enable_wind>{decay}"))[1] == []
+    assert load(model("<kinematic>false</kinematic>"))[1] == []

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from bubblesim.messages.names import did_you_mean, nearest_names
@@ -16,6 +17,17 @@ _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 
 class ParameterError(ValueError):
     """Problems of the parameters of a plugin, one line each."""
+
+
+@dataclass(frozen=True)
+class _Element:
+    """An element with its own parameters, described as a plugin is."""
+
+    name: str  # of the plugin, for messages
+    filename: str
+    parameters: list[Any]
+    file: str
+    line: int
 
 
 class Parameters:
@@ -109,6 +121,17 @@ class Parameters:
         children = parameter.children if parameter is not None else []
         return next((child.text.strip() for child in children if _key(child.name) == _key(below)), None)
 
+    def inner(self, name: str) -> Parameters:
+        """Return the parameters in a nested element; there are none if the plugin does not have it."""
+        parameter = self._take(name)
+        return self._within(self.plugin, []) if parameter is None else self._within(parameter, parameter.children)
+
+    def all_of(self, name: str) -> list[Parameters]:
+        """Return the parameters, and attributes, in all elements of that name."""
+        self._read.add(_key(name))
+        elements = [each for each in self.plugin.parameters if _key(each.name) == _key(name)]
+        return [self._within(each, each.children) for each in elements]
+
     def fail(self, name: str, problem: str) -> ParameterError:
         """Return the error for a given or missing parameter without which the plugin cannot work."""
         self._note(name, problem)
@@ -131,6 +154,12 @@ class Parameters:
             for key, parameter in self._found.items()
             if key not in self._read
         ]
+
+    def _within(self, element: Any, parameters: list[Any]) -> Parameters:
+        of = _Element(self.plugin.name, self.plugin.filename, parameters, element.file, element.line)
+        inner = Parameters(of)
+        inner._problems = self._problems  # they are those of the plugin
+        return inner
 
     def _take(self, name: str) -> Any:
         self._read.add(_key(name))

@@ -41,8 +41,8 @@ class PluginContext:
     bridge: Any
     step_time: StepTime
     transforms: Transforms
-    owner: int  # handle of the model or sensor that has the plugin
-    model: int  # handle
+    owner: int  # handle of the model or sensor that has the plugin; -1: the world
+    model: int  # handle; -1: the world
     parameters: Parameters
     namespace: str | None  # of the spawn request; the plugin's namespace replaces it
     endpoints: list[Callable[[], None]] = field(default_factory=list)  # functions that shut them down
@@ -54,7 +54,10 @@ class PluginContext:
 
 
 class Plugin:
-    """A model's plugin. ``actuate`` and ``publish`` are called in each step, ``close`` when the model is removed."""
+    """A plugin of a model or world. ``actuate`` and ``publish`` are called in each step, ``close`` at its removal."""
+
+    acts_without_ros = False  # whether it does its work, or a part of it, without a bridge
+    of_world = False  # whether its <plugin> is in the <world>
 
     def __init__(self, context: PluginContext) -> None:
         """Read the parameters; raise ParameterError if the plugin cannot work with them."""
@@ -111,7 +114,9 @@ class Plugin:
         return publisher
 
     def subscribe(self, topic: str, message_type: str, callback: Callable[[Message], None]) -> None:
-        """Subscribe until the plugin is closed; the callback gets the newest message of each step."""
+        """Subscribe until the plugin is closed; the callback gets the newest message of each step, none without ROS."""
+        if self.bridge is None:
+            return
         name = self.topic(topic)
 
         def deliver(message: Message) -> None:

@@ -16,6 +16,11 @@ from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
 from bubblesim.gazebo_plugins.drives.planar_move import PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
 from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
+from bubblesim.gazebo_plugins.forces.buoyancy import GzBuoyancy, ModelBuoyancy
+from bubblesim.gazebo_plugins.forces.hydrodynamics import Hydrodynamics
+from bubblesim.gazebo_plugins.forces.lift_drag import LiftDrag
+from bubblesim.gazebo_plugins.forces.multicopter_motor import MulticopterMotor
+from bubblesim.gazebo_plugins.forces.wind_effects import WindEffects
 from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
     GzApplyJointForce,
     GzJointController,
@@ -42,8 +47,11 @@ from bubblesim.messages.names import did_you_mean, nearest_names
 
 # By the name that ``library`` returns.
 PLUGINS: dict[str, type[Plugin]] = {
+    "BuoyancyPlugin": ModelBuoyancy,
     "DiffDrivePlugin": GazeboDiffDrive,
+    "LiftDragPlugin": LiftDrag,
     "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
+    "WindPlugin": WindEffects,
     "gazebo_ros_ackermann_drive": AckermannDrive,
     "gazebo_ros_block_laser": BlockLaser,
     "gazebo_ros_bumper": Bumper,
@@ -74,8 +82,14 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
     "gazebo_ros_velodyne_laser": VelodyneLaser,
     "gz-ackermann-steering-system": GzAckermannSteering,
+    "gz-buoyancy-system": GzBuoyancy,
     "gz-diff-drive-system": GzDiffDrive,
+    "gz-hydrodynamics-system": Hydrodynamics,
+    "gz-lift-drag-system": LiftDrag,
+    "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
+    "gz-wind-effects-system": WindEffects,
+    "rotors_gazebo_motor_model": MulticopterMotor,
     "gz-apply-joint-force-system": GzApplyJointForce,
     "gz-joint-controller-system": GzJointController,
     "gz-joint-position-controller-system": GzJointPositionController,

@@ -16,6 +16,8 @@ from bubblesim.gazebo_plugins.transforms import Transforms
 from bubblesim.gazebo_plugins.unknown_plugins import UnknownPlugins, plugins_below
 from bubblesim.output import write_line
 
+_WORLD = -1
+
 
 class GazeboPlugins:
     """Created by the simulator's node, which calls ``actuate`` and ``publish`` in each step and reports models."""
@@ -30,6 +32,7 @@ class GazeboPlugins:
         self._unknown = UnknownPlugins()
         for description in simulation.plugins:
             self._unknown.report(description)
+            self._add(description, _WORLD, _WORLD, None)
         self._systems = {library(description.filename) for description in simulation.plugins}
         # A robot file loaded without a world is treated as gazebo_ros spawns it, with topics at the root.
         namespace = "" if simulation.is_model_file else None
@@ -39,7 +42,7 @@ class GazeboPlugins:
     def model_added(self, model: int, namespace: str | None = None) -> None:
         """Create the plugins of a model added to the world; ``namespace`` is the default of their namespaces.
 
-        Without a bridge none are created, but unsupported plugins are still reported.
+        Without a bridge only those that act without ROS are created, but unsupported plugins are still reported.
         """
         world = self._simulation.world
         with_plugin: set[int] = set()
@@ -47,10 +50,8 @@ class GazeboPlugins:
         for owner, description in plugins_below(world, model):
             systems.add(library(description.filename))
             self._unknown.report(description)
-            kind = PLUGINS.get(library(description.filename))
-            if kind is not None and self._bridge is not None:
+            if self._add(description, owner, model, namespace):
                 with_plugin.add(owner)
-                self._make(kind, description, owner, model, namespace)
         for sensor in self._sensors_below(model) if self._bridge is not None else ():
             if world.sensor_topic(sensor)[0]:
                 self._make(SensorTopic, NoPlugin(world.path(sensor)), sensor, model, namespace)
@@ -74,7 +75,7 @@ class GazeboPlugins:
 
     def publish(self) -> None:
         """Publish the results of all plugins."""
-        if not self._plugins:
+        if not self._plugins or self._bridge is None:
             return
         self._step_time.begin_step()
         self._each("publish")
@@ -85,6 +86,19 @@ class GazeboPlugins:
             yield handle
         for child in self._simulation.world.children(handle):
             yield from self._sensors_below(child)
+
+    def _add(self, description: Any, owner: int, model: int, namespace: str | None) -> bool:
+        """Create a plugin; return whether its owner is published by it."""
+        kind = PLUGINS.get(library(description.filename))
+        if kind is None or (self._bridge is None and not kind.acts_without_ros):
+            return False
+        if kind.of_world != (owner == _WORLD):
+            place = "in the <world>, not in a <model>" if kind.of_world else "in a <model>, not in the <world>"
+            text = f"plugin '{description.name}' ({description.filename}) is ignored: it must be {place}"
+            self._unknown.warn(description, text)
+            return False
+        self._make(kind, description, owner, model, namespace)
+        return True
 
     def _make(self, kind: type[Plugin], description: Any, owner: int, model: int, namespace: str | None) -> None:
         parameters = Parameters(description)

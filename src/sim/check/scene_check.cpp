@@ -51,6 +51,9 @@ void check_link(Checker& checker, const ModelDescription& model, const LinkDescr
                     "above 0 and at most 1e6 kg");
     check_inertia(checker, link);
   }
+  for (const double decay : {link.linear_decay, link.angular_decay}) {
+    checker.require(decay >= 0, "the velocity decay", text(decay) + " 1/s", "0 or more");
+  }
   check_shapes(checker, model, link, path);
   for (const Light& light : link.lights) check_light(checker, light);
   check_sensors(checker, link, path);
@@ -62,6 +65,8 @@ void check_environment(Checker& checker, const Environment& environment) {
   for (const Light& light : environment.lights) check_light(checker, light);
   checker.require(within(environment.magnetic_field, 1e3), "the magnetic field", text(environment.magnetic_field),
                   "finite and at most 1e3 T");
+  checker.require(within(environment.wind, kMaxSpeed), "the wind", text(environment.wind) + " m/s",
+                  "finite and at most 1e6 m/s");
   const GeographicOrigin& origin = environment.origin;
   checker.require(within(origin.latitude, 90), "the latitude", text(origin.latitude), "-90 to 90 degrees");
   checker.require(within(origin.longitude, 180), "the longitude", text(origin.longitude), "-180 to 180 degrees");

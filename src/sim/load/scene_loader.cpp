@@ -252,6 +252,7 @@ class SceneLoader {
     if (const auto field = world.Element()->FindElement("magnetic_field"); field && field->GetExplicitlySetInFile()) {
       scene.environment.magnetic_field = field->Get<Vector3>();
     }
+    scene.environment.wind = world.WindLinearVelocity();
     if (world.Scene() != nullptr) read_surroundings(*world.Scene(), scene.environment);
     if (const auto* place = world.SphericalCoordinates()) read_origin(*place, scene.environment.origin);
     report_left_out(world.Element(), "", reading_);

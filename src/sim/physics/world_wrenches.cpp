@@ -47,7 +47,8 @@ void World::apply_wrench(ObjectId object, const Wrench& wrench, const std::optio
                          WrenchFrame frame) {
   check_wrench(object, wrench, point);
   const ObjectId link = pushed_link(*state_, object);
-  if (wrench.force == Vector3::Zero && wrench.torque == Vector3::Zero) return;  // does not wake it
+  // Not by ==, which has a tolerance of 1e-3.
+  if (wrench.force.SquaredLength() == 0 && wrench.torque.SquaredLength() == 0) return;  // does not wake it
   const Pose axes = frame == WrenchFrame::kObject ? pose(object) : Pose::Zero;
   const Vector3 force = axes.Rot().RotateVector(wrench.force);
   Vector3 torque = axes.Rot().RotateVector(wrench.torque);

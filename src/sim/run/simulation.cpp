@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/velocity_decay.hpp"
 #include "check/checks.hpp"
 #include "rays/ray_scene.hpp"
 #include "run/sensor_slot.hpp"
@@ -26,8 +27,11 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
     : scene_(std::move(scene)),
       seed_(seed),
       world_(*scene_, seed),
+      wind_(std::make_shared<Wind>(scene_->description().environment.wind, seed)),
       rays_(std::make_unique<RayScene>(scene_)),
       time_step_(scene_->description().time_step) {
+  world_.add_device(wind_);
+  world_.add_device(std::make_shared<VelocityDecay>());
   for (const ObjectId model : world_.tree().models()) make_sensors(model);
   index_sensors();
 }

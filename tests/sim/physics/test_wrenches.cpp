@@ -165,6 +165,13 @@ TEST_F(Wrenches, WakeASleepingBody) {
   EXPECT_NEAR(ground.velocity(link).linear.X(), 2 * kPass, 1e-6);
 }
 
+TEST_F(Wrenches, SmallOnesAct) {
+  world.apply_wrench(body, {{1e-6, 0, 0}, {0, 1e-7, 0}});
+  world.advance(kPass, kStep);
+  EXPECT_NEAR(linear().X(), 1e-6 * kPass / kMass, 1e-15);
+  EXPECT_GT(world.velocity(body).angular.Length(), 1e-9);
+}
+
 TEST_F(Wrenches, WithoutForceOrTorqueDoNotWakeIt) {
   const std::uint64_t before = world.state_hash();
   world.apply_wrench(body, {});

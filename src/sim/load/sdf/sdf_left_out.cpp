@@ -4,7 +4,6 @@
 #include <map>
 #include <vector>
 
-#include "bubblesim/math.hpp"
 #include "load/load_context.hpp"
 #include "load/sdf/sdf_source.hpp"
 
@@ -19,12 +18,6 @@ struct LeftOut {
 
 bool always(const sdf::ElementPtr&) { return true; }
 bool is_true(const sdf::ElementPtr& element) { return element->Get<bool>(); }
-bool blows(const sdf::ElementPtr& wind) {
-  return wind->Get<Vector3>("linear_velocity", Vector3::Zero).first != Vector3::Zero;
-}
-bool decays(const sdf::ElementPtr& decay) {
-  return decay->Get<double>("linear", 0.0).first != 0 || decay->Get<double>("angular", 0.0).first != 0;
-}
 
 const std::vector<LeftOut>& left_out_of(const std::string& owner) {
   static const std::map<std::string, std::vector<LeftOut>> kinds = {
@@ -32,15 +25,10 @@ const std::vector<LeftOut>& left_out_of(const std::string& owner) {
        {{"actor", "actors are not simulated", always},
         {"road", "roads are not simulated", always},
         {"population", "populations of models are not simulated", always},
-        {"joint", "joints between models are not simulated", always},
-        {"wind", "wind is not simulated", blows}}},
-      {"model",
-       {{"gripper", "grippers hold objects by contacts, not by a joint", always},
-        {"enable_wind", "wind is not simulated", is_true}}},
+        {"joint", "joints between models are not simulated", always}}},
+      {"model", {{"gripper", "grippers hold objects by contacts, not by a joint", always}}},
       {"link",
        {{"kinematic", "kinematic links are not supported, forces and gravity move the link", is_true},
-        {"velocity_decay", "use <damping> of the joints", decays},
-        {"enable_wind", "wind is not simulated", is_true},
         {"projector", "projectors are not simulated", always},
         {"battery", "batteries are not simulated", always},
         {"particle_emitter", "particles are not simulated", always},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/sdf_links.hpp"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sdf/Collision.hh>
@@ -156,6 +157,19 @@ void repair_inertia(LinkDescription& link, const std::string& path, LoadContext&
   reading.warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
 }
 
+/// Gazebo multiplies the velocity by 1 minus this value in each of its steps, which last 1 ms by default: the rate in
+/// 1/s that does the same.
+double read_decay(const sdf::ElementPtr& link, const char* which, const std::string& path, LoadContext& reading) {
+  constexpr double kGazeboStep = 1e-3;  // s
+  if (!link->HasElement("velocity_decay")) return 0;
+  const sdf::ElementPtr decay = link->GetElement("velocity_decay");
+  const double part = decay->Get<double>(which, 0.0).first;
+  if (part >= 0 && part <= 1) return -std::log1p(-part) / kGazeboStep;
+  reading.report(source_of(decay), path,
+                 "<velocity_decay> <" + std::string(which) + "> is " + text(part) + ", it must be from 0 to 1");
+  return 0;
+}
+
 }  // namespace
 
 LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading) {
@@ -166,6 +180,9 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   description.source = source_of(link.Element());
   report_left_out(link.Element(), path, reading);
   description.gravity_enabled = link.Element()->Get<bool>("gravity", true).first;
+  description.wind_enabled = link.EnableWind();
+  description.linear_decay = read_decay(link.Element(), "linear", path, reading);
+  description.angular_decay = read_decay(link.Element(), "angular", path, reading);
   const auto& inertial = link.Inertial();
   const ignition::math::Matrix3d inertia = inertial.Moi();
   description.mass = inertial.MassMatrix().Mass();

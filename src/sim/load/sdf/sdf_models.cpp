@@ -45,7 +45,9 @@ class ModelReader {
 
   void read(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& path) {
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      LinkDescription link = read_link(*model.LinkByIndex(i), path, description_.is_static, reading_);
+      const sdf::Link& read = *model.LinkByIndex(i);
+      LinkDescription link = read_link(read, path, description_.is_static, reading_);
+      if (!read.Element()->HasElement("enable_wind")) link.wind_enabled = model.EnableWind();
       link.name = inner + link.name;
       link.pose = pose * link.pose;
       if (model.Static() && !description_.is_static) hold(link);

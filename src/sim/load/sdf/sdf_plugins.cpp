@@ -14,7 +14,11 @@ std::vector<PluginParameter> read_parameters(const sdf::ElementPtr& element) {
     PluginParameter parameter;
     parameter.name = child->GetName();
     if (child->GetValue() != nullptr) parameter.text = child->GetValue()->GetAsString();
-    parameter.children = read_parameters(child);
+    for (const auto& attribute : child->GetAttributes()) {
+      parameter.children.push_back({attribute->GetKey(), attribute->GetAsString(), {}, source_of(child)});
+    }
+    const std::vector<PluginParameter> elements = read_parameters(child);
+    parameter.children.insert(parameter.children.end(), elements.begin(), elements.end());
     parameter.source = source_of(child);
     parameters.push_back(std::move(parameter));
   }
