@@ -20,14 +20,12 @@ class PythonEngine {
   PythonEngine& operator=(const PythonEngine&) = delete;
 
   Runner& runner() { return runner_; }
-  bool has_bridge() const { return has_bridge_; }
 
   struct Objects;
   Objects& objects() { return *objects_; }
 
  private:
   Runner& runner_;
-  const bool has_bridge_;
   std::unique_ptr<Objects> objects_;
 };
 

@@ -9,6 +9,7 @@ run_sanitizers() {
   local suppressions=$root/tests/sanitizers
   for kind in thread address,undefined; do
     build=$root/.ws/sanitize/$kind
+    mkdir -p "$(dirname "$build")"
     echo "[sanitize] building with -fsanitize=$kind in $build"
     cmake -S "$root" -B "$build" -DBUBBLESIM_SANITIZE="$kind" -DBUBBLESIM_WITH_ROS=OFF -DBUBBLESIM_WITH_PYTHON=OFF \
       -DBUBBLESIM_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1" \

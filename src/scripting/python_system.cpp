@@ -10,7 +10,7 @@ namespace bubblesim {
 namespace py = pybind11;
 
 PythonEngine::PythonEngine(Runner& runner, messages::Bridge* bridge)
-    : runner_(runner), has_bridge_(bridge != nullptr), objects_(std::make_unique<Objects>()) {
+    : runner_(runner), objects_(std::make_unique<Objects>()) {
   scripting::with_python(runner.simulation(), "the simulator's Python code", [&] {
     py::module_::import("bubblesim._core");  // knows the classes
     objects_->runner = py::cast(&runner, py::return_value_policy::reference);
@@ -21,6 +21,7 @@ PythonEngine::PythonEngine(Runner& runner, messages::Bridge* bridge)
 
 PythonEngine::~PythonEngine() {
   const py::gil_scoped_acquire gil;
+  runner_.set_gate({});  // its functions may be Python's, and the runner outlives the interpreter
   objects_->runner = objects_->bridge = py::object();
 }
 

@@ -42,6 +42,14 @@ def test_a_script_that_does_not_return_is_broken_off(
         assert NAME not in roscore.nodes()
 
 
+def test_a_node_that_waits_for_a_controller_ends(roscore: RosCore, tmp_path: Path) -> None:
+    with Node(roscore.env, tmp_path / "log", "tricycle", "--lockstep", "/speed") as node:
+        wait_until(lambda: "/speed" in roscore.state()["subscribers"], "the tricycle to wait for the controller")
+        begin = time.monotonic()
+        assert node.end() == 0
+        assert time.monotonic() - begin < LIMIT + SLACK
+
+
 def test_a_script_that_python_cannot_break_off_is_left_behind(roscore: RosCore, tmp_path: Path) -> None:
     code = """
         import itertools

@@ -9,10 +9,13 @@ import pytest
 from workspace_support import Workspace
 
 
-@pytest.fixture(params=["catkin", "catkin_make"])
-def workspace(tmp_path: Path, request: pytest.FixtureRequest) -> Workspace:
-    made = Workspace(tmp_path, request.param)
+@pytest.fixture(scope="module", params=["catkin", "catkin_make"])
+def built(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Workspace:
+    """Build a workspace with a package whose type is not listed. Tests share it: a build from nothing takes long."""
+    made = Workspace(tmp_path_factory.mktemp("workspace"), request.param)
     made.create("std_msgs/String\ntest_msgs/Notification\n")
+    made.add_package("my_robot", {"Cell.msg": "float32 volt\n"})
+    made.build()
     return made
 
 
@@ -21,41 +24,37 @@ def checksum(text: str) -> str:
     return md5(text.strip().encode()).hexdigest()
 
 
-def test_editing_a_definition_rebuilds_its_tables(workspace: Workspace) -> None:
-    workspace.add_package("my_robot", {"Cell.msg": "float32 volt\n"})
-    workspace.write("bubblesim/meta/messages.txt", "my_robot/Cell\n")
-    workspace.build()
-    assert workspace.compiled(checksum("float32 volt"))
-    workspace.write("my_robot/msg/Cell.msg", "float64 volt\n")
-    workspace.build()
-    assert workspace.compiled(checksum("float64 volt"))
-    assert not workspace.compiled(checksum("float32 volt"))
+def test_without_a_test_msgs_of_the_users_the_projects_is_built(built: Workspace) -> None:
+    assert built.compiled(checksum("string messages"))
 
 
-def test_a_test_msgs_of_the_users_replaces_the_projects(workspace: Workspace) -> None:
+def test_add_message_lists_and_compiles_a_type_of_the_workspace(built: Workspace) -> None:
+    assert not built.compiled("my_robot/Cell")
+    result = built.add_message("my_robot/Cell", "std_srvs/SetBool")
+    assert result.returncode == 0, result.stdout
+    assert f"my_robot/Cell: listed at {built.project}/meta/messages.txt:4\n" in result.stdout
+    assert f"std_srvs/SetBool: listed at {built.project}/meta/services.txt:1\n" in result.stdout
+    assert "my_robot/Cell, std_srvs/SetBool: compiled in " in result.stdout
+    assert built.compiled(checksum("float32 volt"))
+    assert built.compiled("std_srvs/SetBool")
+
+
+def test_editing_a_definition_rebuilds_its_tables(built: Workspace) -> None:
+    built.write("bubblesim/meta/messages.txt", "std_msgs/String\nmy_robot/Cell\n")
+    built.write("my_robot/msg/Cell.msg", "float64 volt\n")
+    built.build()
+    assert built.compiled(checksum("float64 volt"))
+    assert not built.compiled(checksum("float32 volt"))
+
+
+def test_a_test_msgs_of_the_users_replaces_the_projects(tmp_path: Path) -> None:
+    workspace = Workspace(tmp_path, "catkin")
+    workspace.create("test_msgs/Notification\n")
     workspace.add_package("test_msgs", {"Notification.msg": "string mine\n"})
     workspace.build()
     assert workspace.compiled(checksum("string mine"))
     header = workspace.folder / "devel" / "include" / "test_msgs" / "Notification.h"
     assert "string mine" in header.read_text()
-
-
-def test_without_one_the_projects_test_msgs_is_built(workspace: Workspace) -> None:
-    workspace.build()
-    assert workspace.compiled(checksum("string messages"))
-
-
-def test_add_message_lists_and_compiles_a_type_of_the_workspace(workspace: Workspace) -> None:
-    workspace.add_package("my_robot", {"Cell.msg": "float32 volt\n"})
-    workspace.build()
-    assert not workspace.compiled("my_robot/Cell")
-    result = workspace.add_message("my_robot/Cell", "std_srvs/SetBool")
-    assert result.returncode == 0, result.stdout
-    assert f"my_robot/Cell: listed at {workspace.project}/meta/messages.txt:4\n" in result.stdout
-    assert f"std_srvs/SetBool: listed at {workspace.project}/meta/services.txt:1\n" in result.stdout
-    assert "my_robot/Cell, std_srvs/SetBool: compiled in " in result.stdout
-    assert workspace.compiled(checksum("float32 volt"))
-    assert workspace.compiled("std_srvs/SetBool")
 
 
 @pytest.fixture

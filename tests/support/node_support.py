@@ -38,9 +38,6 @@ def run_sim(
     return run
 
 
-_SLOWNESS = re.compile(r"^warning: .* has not returned from .*: the simulation waits for it\n", re.MULTILINE)
-
-
 _SLOWNESS = re.compile(r"^warning: .* has not returned from .*\n", re.MULTILINE)
 
 

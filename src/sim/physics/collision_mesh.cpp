@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/collision_mesh.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "meshes/convex_hull.hpp"
+#include "meshes/convex_parts.hpp"
 #include "meshes/simplify.hpp"
 
 namespace bubblesim {
@@ -20,6 +22,10 @@ constexpr double kConvex = 0.001;
 // second.
 constexpr std::size_t kTooManyInCubicMetre = 10'000;
 constexpr std::size_t kFewInCubicMetre = 3'000;
+// Of the division of a concave mesh into convex parts: a contact takes a few microseconds for each pair of parts.
+constexpr std::size_t kMostParts = 16;
+constexpr double kMostExcess = 0.05;           // of the mesh's volume, that the parts may add
+constexpr std::size_t kMostToDivide = 20'000;  // triangles; more take seconds
 
 /// Merges corners with equal positions: files repeat them, and each would make its own contacts.
 void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
@@ -31,15 +37,6 @@ void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
       if (is_new) result.coordinates.insert(result.coordinates.end(), place.begin(), place.end());
       result.indices.push_back(found->second);
     }
-  }
-}
-
-void take_hull(const Hull& hull, CollisionMesh& result) {
-  for (const Vector3& corner : hull.corners) {
-    result.coordinates.insert(result.coordinates.end(), {corner.X(), corner.Y(), corner.Z()});
-  }
-  for (const TriangleMesh::Triangle& triangle : hull.triangles) {
-    result.indices.insert(result.indices.end(), triangle.begin(), triangle.end());
   }
 }
 
@@ -64,19 +61,40 @@ void make_coarser(CollisionMesh& mesh) {
   mesh.indices.assign(triangles.begin(), triangles.end());
   char millimetres[32];
   std::snprintf(millimetres, sizeof millimetres, "%.2g", 1000 * moved);
-  mesh.remark = "mesh too fine for collisions (" + std::to_string(before) + " triangles, up to " +
-                std::to_string(fullest) + " in a cubic metre): simplified to " + std::to_string(triangles.size() / 3) +
-                " triangles, which deviate up to about " + millimetres + " mm; use a simpler collision mesh";
+  mesh.remark += std::string(mesh.remark.empty() ? "" : "; ") + "mesh too fine for collisions (" +
+                 std::to_string(before) + " triangles, up to " + std::to_string(fullest) +
+                 " in a cubic metre): simplified to " + std::to_string(triangles.size() / 3) +
+                 " triangles, which deviate up to about " + millimetres + " mm; use a simpler collision mesh";
 }
 
-std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
+std::string percent(double fraction) { return std::to_string(std::lround(100 * fraction)) + " %"; }
+
+/// Divides a concave mesh into convex parts; false when they would not fit it.
+bool take_parts(const TriangleMesh& mesh, CollisionMesh& result) {
+  const bool too_many = mesh.triangles.size() > kMostToDivide;
+  const ConvexParts parts = too_many ? ConvexParts{} : convex_parts(mesh, kMostParts);
+  if (!too_many && parts.excess <= kMostExcess) {
+    for (const Hull& hull : parts.hulls) result.parts.push_back(make_part(hull));
+    return true;
+  }
+  const std::string reason = too_many ? "it has more than " + std::to_string(kMostToDivide) + " triangles"
+                             : std::isfinite(parts.excess)
+                                 ? std::to_string(kMostParts) + " convex parts add " + percent(parts.excess) + " to it"
+                                 : "its surface is not closed";
+  result.remark = "concave mesh that moves, collides as triangles (" + reason +
+                  "): another mesh of triangles may throw it; divide it into several simpler collision shapes";
+  return false;
+}
+
+std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh, bool moves) {
   auto result = std::make_shared<CollisionMesh>();
   const Hull hull = convex_hull(mesh);
   if (is_convex(mesh, hull)) {
-    take_hull(hull, *result);
-  } else {
-    take_surface(mesh, *result);
+    result->parts.push_back(make_part(hull));
+    return result;
   }
+  if (moves && take_parts(mesh, *result)) return result;
+  take_surface(mesh, *result);
   make_coarser(*result);
   result->data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildDouble(result->data.get(), result->coordinates.data(), 3 * sizeof(double),
@@ -87,19 +105,25 @@ std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh) {
+const TriangleTree& CollisionMesh::tree() const {
+  std::call_once(tree_made_, [&] { tree_ = std::make_unique<TriangleTree>(coordinates, indices); });
+  return *tree_;
+}
+
+std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, bool moves) {
   // Keyed by owner, not by address: a new mesh may have the address of an old one.
   using Known = std::map<std::weak_ptr<const TriangleMesh>, std::weak_ptr<const CollisionMesh>,
                          std::owner_less<std::weak_ptr<const TriangleMesh>>>;
   static std::mutex mutex;
-  static Known known;
+  static std::array<Known, 2> known_by_use;
   const std::scoped_lock lock(mutex);
+  Known& known = known_by_use[moves ? 1 : 0];
   for (auto entry = known.begin(); entry != known.end();) {
     entry = entry->first.expired() ? known.erase(entry) : std::next(entry);
   }
   std::weak_ptr<const CollisionMesh>& shared = known[mesh];
   if (std::shared_ptr<const CollisionMesh> prepared = shared.lock()) return prepared;
-  std::shared_ptr<const CollisionMesh> prepared = prepare(*mesh);
+  std::shared_ptr<const CollisionMesh> prepared = prepare(*mesh, moves);
   shared = prepared;
   return prepared;
 }

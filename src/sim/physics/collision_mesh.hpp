@@ -1,28 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision mesh for ODE.
+// A mesh prepared for collisions: convex parts, or triangles for ODE.
 #pragma once
 
 #include <ode/ode.h>
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "bubblesim/triangle_mesh.hpp"
+#include "physics/convex/convex_part.hpp"
+#include "physics/convex/triangle_tree.hpp"
 #include "physics/ode_handles.hpp"
 
 namespace bubblesim {
 
-/// Must live as long as ODE's mesh, which reads the arrays.
+/// Has either convex parts or triangles. Must live as long as ODE's mesh, which reads the arrays.
 struct CollisionMesh {
-  std::vector<double> coordinates;  // of the corners
+  std::vector<ConvexPart> parts;
+  std::vector<double> coordinates;  // of the corners of the triangles
   std::vector<dTriIndex> indices;
   ode::TriMeshDataHandle data;
   std::string remark;  // warning about simplification beyond rounding; or empty
+
+  /// The triangles, for contacts with convex shapes. Made at the first call, which may come from any thread.
+  const TriangleTree& tree() const;
+
+ private:
+  mutable std::once_flag tree_made_;
+  mutable std::unique_ptr<const TriangleTree> tree_;
 };
 
-/// Each mesh is prepared once and shared by its users. A convex mesh is simplified: corners inside its faces would only
-/// add useless contacts. A mesh with very many triangles is simplified, with a remark.
-std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh);
+/// Each mesh is prepared once and shared by its users. A convex mesh is its hull; a concave one that moves is divided
+/// into convex parts if they fit it, otherwise its triangles collide. Very many triangles are simplified. `remark`
+/// tells about triangles that move or were simplified.
+std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, bool moves);
 
 }  // namespace bubblesim

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <vector>
 
+#include "physics/convex/convex_geom.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -37,7 +39,27 @@ std::vector<std::size_t> spread(const std::vector<dContactGeom>& points, std::si
   return taken;
 }
 
+namespace {
+
+/// Selects points for a pair; returns their number.
+int take_spread(const std::vector<dContactGeom>& found, ContactPoints& points) {
+  if (found.size() <= points.size()) {
+    std::copy(found.begin(), found.end(), points.begin());
+    return static_cast<int>(found.size());
+  }
+  const std::vector<std::size_t> apart = spread(found, points.size());
+  std::transform(apart.begin(), apart.end(), points.begin(), [&](std::size_t i) { return found[i]; });
+  return kMaxContactsPerPair;
+}
+
+}  // namespace
+
 int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
+  if (is_convex_geom(first) || is_convex_geom(second)) {
+    thread_local std::vector<dContactGeom> all;
+    find_convex_contacts(first, second, all);
+    return take_spread(all, points);
+  }
   if (!is_mesh(first) && !is_mesh(second)) {
     return dCollide(first, second, kMaxContactsPerPair, points.data(), sizeof(dContactGeom));
   }
@@ -47,14 +69,8 @@ int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
   const std::scoped_lock lock(mutex);
   found.resize(kMaxMeshContacts);
   const int count = dCollide(first, second, kMaxMeshContacts, found.data(), sizeof(dContactGeom));
-  if (count <= kMaxContactsPerPair) {
-    std::copy_n(found.begin(), count, points.begin());
-    return count;
-  }
   found.resize(static_cast<std::size_t>(count));
-  const std::vector<std::size_t> apart = spread(found, points.size());
-  std::transform(apart.begin(), apart.end(), points.begin(), [](std::size_t i) { return found[i]; });
-  return kMaxContactsPerPair;
+  return take_spread(found, points);
 }
 
 }  // namespace bubblesim

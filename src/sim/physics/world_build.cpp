@@ -8,6 +8,7 @@
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
 #include "physics/contact_defaults.hpp"
+#include "physics/convex/convex_geom.hpp"
 #include "physics/world_state.hpp"
 
 namespace bubblesim {
@@ -46,7 +47,10 @@ dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pos
     }
 
    private:
-    dGeomID surface() const { return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr); }
+    dGeomID surface() const {
+      if (!mesh->parts.empty()) return create_convex(mesh->parts);
+      return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
+    }
   };
   return std::visit(Maker{mesh, pose}, geometry);
 }
@@ -126,6 +130,9 @@ class ModelBuilder {
     for (const CollisionDescription& collision : description.collisions) {
       add_collider(link, collision, is_watched(description, collision.name));
     }
+    for (const Collider& collider : model_.colliders) {
+      if (collider.link == &link) measure(collider, link.sweep);
+    }
     for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
   }
 
@@ -139,6 +146,7 @@ class ModelBuilder {
     const Pose pose = link.pose * description.pose;
     const CollisionMesh* mesh = model_.prepared->meshes[model_.colliders.size()].get();
     Collider& collider = model_.colliders.emplace_back(description);
+    collider.mesh = mesh;
     collider.geom.reset(make_geom(description.geometry, mesh, pose));
     collider.link = &link;
     collider.watched = watched;

@@ -15,6 +15,7 @@
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
 #include "physics/contact_thinning.hpp"
+#include "physics/impact.hpp"
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
 #include "physics/joints/motor_meter.hpp"
@@ -30,6 +31,7 @@ struct Link {
   Pose pose;               // of static links, in the world
   ObjectId object = kNoObject;
   Twist before;  // of the body, at the start of the last advance()
+  Sweep sweep;
 };
 
 /// A collision shape. ODE's geom points back at it.
@@ -41,6 +43,7 @@ struct Collider {
         in_link(description.pose) {}
 
   ode::GeomHandle geom;
+  const CollisionMesh* mesh = nullptr;  // null for shapes that ODE has itself
   const Link* link = nullptr;
   const std::string& name;
   const Geometry& geometry;

@@ -57,6 +57,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
         }
       }
     }
+    note_motion(state);
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
     if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
@@ -66,6 +67,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
       dWorldStep(state.world.get(), step);
       if (ode::solver_warned()) state.steps_to_iterate = kStepsToIterate;
     }
+    stop_at_impacts(state, step);
     gather_forces(state, step);
   } catch (const Diverged&) {
     state.diverged = state.interrupted = true;

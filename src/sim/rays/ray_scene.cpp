@@ -125,12 +125,16 @@ void RayScene::refresh(const World& world) {
     rtcCommitGeometry(link->instance.get());
     movers_changed_ = true;
   }
-  if (statics_changed_) statics_ = gather_statics(models_);
+  // Sensors on several threads call this: it writes only what changed.
+  if (statics_changed_) {
+    statics_ = gather_statics(models_);
+    statics_changed_ = false;
+  }
   if (movers_changed_) {
     rtcCommitScene(movers_.get());
     check_embree();
+    movers_changed_ = false;
   }
-  statics_changed_ = movers_changed_ = false;
 }
 
 /// Whether no ray can hit a housing: there is none, or all rays start in all of them.

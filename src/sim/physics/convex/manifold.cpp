@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/convex/manifold.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bubblesim {
+namespace {
+
+constexpr double kGrazing = 0.1;     // cosine between a face and the normal below which the face has no height over it
+constexpr double kDeepest = 0.5;     // of the depth: points that are all shallower miss the deepest one
+constexpr double kSamePlace = 1e-6;  // of the shapes' reach, between two points
+
+/// Cuts off what lies outside the prism of a polygon along a direction (Sutherland and Hodgman, 1974).
+void clip(const Feature& polygon, const Vec3& along, std::vector<Vec3>& subject) {
+  thread_local std::vector<Vec3> before;
+  const double side = dot(polygon.normal, along) < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < polygon.corners.size() && !subject.empty(); ++i) {
+    const Vec3& from = polygon.corners[i];
+    const Vec3& to = polygon.corners[(i + 1) % polygon.corners.size()];
+    const Vec3 inward = cross(along, to - from) * side;
+    const auto height = [&](const Vec3& point) { return dot(point - from, inward); };
+    before.swap(subject);
+    subject.clear();
+    if (before.size() == 1) {
+      if (height(before[0]) >= 0) subject.push_back(before[0]);
+      continue;
+    }
+    const std::size_t edges = before.size() == 2 ? 1 : before.size();
+    for (std::size_t j = 0; j < edges; ++j) {
+      const Vec3& start = before[j];
+      const Vec3& end = before[(j + 1) % before.size()];
+      const double h = height(start);
+      const double k = height(end);
+      if (h >= 0) subject.push_back(start);
+      if ((h >= 0) != (k >= 0)) subject.push_back(start + (end - start) * (h / (h - k)));
+      if (edges == 1 && k >= 0) subject.push_back(end);
+    }
+  }
+}
+
+}  // namespace
+
+void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration& overlap,
+                  std::vector<ManifoldPoint>& points) {
+  thread_local Feature of_a;
+  thread_local Feature of_b;
+  const Vec3& normal = overlap.normal;
+  a.feature(-normal, of_a);
+  b.feature(normal, of_b);
+  const auto facing = [&](const Feature& feature) {
+    return feature.corners.size() < 3 ? 0 : std::abs(dot(feature.normal, normal));
+  };
+  // The polygon that faces the normal better is the prism; heights are measured from its plane.
+  const bool a_clips = facing(of_a) > facing(of_b);
+  const Feature& prism = a_clips ? of_a : of_b;
+  std::vector<Vec3>& subject = a_clips ? of_b.corners : of_a.corners;
+  const std::size_t first = points.size();
+  double deepest = 0;
+  if (facing(prism) > kGrazing) {
+    clip(prism, normal, subject);
+    const double slope = 1 / dot(normal, prism.normal);
+    const double same = kSamePlace * (a.reach() + b.reach());
+    for (const Vec3& point : subject) {
+      const double to_plane = dot(prism.corners[0] - point, prism.normal) * slope;
+      const double depth = std::min(a_clips ? -to_plane : to_plane, overlap.depth);
+      if (depth <= 0) continue;
+      const Vec3 at = point + normal * (to_plane / 2);
+      const bool repeated = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+                                        [&](const ManifoldPoint& p) { return length(p.at - at) < same; });
+      if (!repeated) points.push_back({at, normal, depth});
+      deepest = std::max(deepest, depth);
+    }
+  }
+  if (deepest < kDeepest * overlap.depth) points.push_back({overlap.point, normal, overlap.depth});
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact points of two convex shapes that overlap.
+#pragma once
+
+#include <vector>
+
+#include "physics/convex/penetration.hpp"
+
+namespace bubblesim {
+
+struct ManifoldPoint {
+  Vec3 at;           // midway between the surfaces, m, in the world
+  Vec3 normal;       // into the first shape
+  double depth = 0;  // of the overlap along the normal there, m
+};
+
+/// Adds the corners of the area in which the facing features of the shapes overlap along the normal, or the deepest
+/// point if there is none.
+void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration& overlap,
+                  std::vector<ManifoldPoint>& points);
+
+}  // namespace bubblesim

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time at which two moving convex shapes meet, by conservative advancement (Mirtich 1996).
+#pragma once
+
+#include <optional>
+
+#include "physics/convex/convex_shape.hpp"
+
+namespace bubblesim {
+
+/// The motion of a body during a substep: it moves straight, and turns about one axis.
+class RigidMotion {
+ public:
+  RigidMotion(const Transform& start, const Transform& end);
+  /// A body that does not move.
+  RigidMotion() = default;
+
+  /// From its pose at the end to that at a fraction of the motion, in the world.
+  Transform back_to(double fraction) const;
+  Transform at(double fraction) const { return back_to(fraction) * end_; }
+
+  const Vec3& travel() const { return travel_; }
+  double angle() const { return angle_; }  // rad
+  const Vec3& centre() const { return end_.origin; }
+
+ private:
+  Transform end_;
+  Vec3 travel_;  // m
+  Vec3 axis_{1, 0, 0};
+  double angle_ = 0;
+};
+
+/// A shape at the end of the motion of its body.
+struct MovingShape {
+  ConvexShape shape;
+  const RigidMotion& motion;
+};
+
+/// The fraction of the motion after which the shapes overlap slightly for the first time; empty when they do not meet,
+/// or overlap from the start.
+std::optional<double> meeting(const MovingShape& a, const MovingShape& b);
+
+}  // namespace bubblesim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the triangles of a mesh near a box, and their neighbours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "physics/convex/vec3.hpp"
+
+namespace bubblesim {
+
+/// An axis-aligned box.
+struct Bounds {
+  Vec3 low;
+  Vec3 high;
+
+  void include(const Vec3& point);
+  bool meets(const Bounds& other) const;
+};
+
+/// A hierarchy of boxes over triangles. Immutable.
+class TriangleTree {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  /// Corners in m, three indices per triangle; equal corners must have equal indices.
+  TriangleTree(const std::vector<double>& coordinates, const std::vector<std::uint32_t>& indices);
+
+  /// Adds the triangles whose boxes meet `box`, in a fixed order.
+  void near(const Bounds& box, std::vector<std::uint32_t>& triangles) const;
+
+  std::array<Vec3, 3> corners(std::uint32_t triangle) const;
+  /// The triangle across the edge from corner i to the next, or kNone at a border and at an edge of more than two.
+  std::uint32_t across_edge(std::uint32_t triangle, std::size_t i) const { return neighbours_[3 * triangle + i]; }
+
+ private:
+  struct Node {
+    Bounds bounds;
+    std::uint32_t first = 0;  // of the triangles of a leaf, in order_; of two children otherwise
+    std::uint32_t count = 0;  // 0: not a leaf
+  };
+
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  void connect();
+  Bounds bounds_of(std::uint32_t triangle) const;
+
+  std::vector<Vec3> corners_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace bubblesim
