@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collision detection and contact joints.
 #include <algorithm>
+#include <utility>
 
+#include "physics/contact_cone.hpp"
 #include "physics/contact_defaults.hpp"
 #include "physics/contact_points.hpp"
+#include "physics/contact_thinning.hpp"
 #include "physics/surface_pair.hpp"
 #include "physics/world_state.hpp"
 
 namespace bubblesim {
 namespace {
 
-struct Search {
+struct SearchData {
   World::State& state;
   double step;  // s
 };
@@ -47,8 +50,15 @@ bool sleeps(const PlacedModel& model) {
   return std::all_of(model.links.begin(), model.links.end(), [](const Link& link) { return sleeps(link.body.get()); });
 }
 
+/// Whether joints or a motor act on the links of a model.
+bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.linear != nullptr; }
+
 void touch(void* data, dGeomID first, dGeomID second) {
-  auto& [state, step] = *static_cast<Search*>(data);
+  auto& [state, step] = *static_cast<SearchData*>(data);
+  if (static_cast<const Collider*>(dGeomGetData(second))->number <
+      static_cast<const Collider*>(dGeomGetData(first))->number) {
+    std::swap(first, second);
+  }
   const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
   const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
   if (a.link == b.link) return;
@@ -57,55 +67,93 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (sleeps(body_a) && sleeps(body_b)) return;
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
 
-  ContactPoints found;
+  ContactPoints points;
   const int most = std::max(std::min(a.surface.max_contacts, b.surface.max_contacts), 1);
-  const int count = std::min(find_contact_points(first, second, found), most);
+  const int count = std::min(find_contact_points(first, second, points), most);
   if (count == 0) return;
   state.islands.touch(a.island, b.island, count);
-  const SurfacePair pair = combine(a.surface, b.surface, step);
-  dContact contact;  // fdir1 is used only with its bit of the mode
+  state.found.pairs.push_back({&a, &b, state.found.points.size(), count});
+  SurfacePair pair = combine(a.surface, b.surface, step);
+  share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
   for (int i = 0; i < count; ++i) {
+    dContact& contact = state.found.points.emplace_back().contact;
     contact.surface = pair.ode;
-    contact.geom = found[static_cast<std::size_t>(i)];
+    contact.geom = points[static_cast<std::size_t>(i)];
     sink(contact.geom.depth, pair, step, contact);
     contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
     if (pair.directed != nullptr) {
       direct(turned(pair.directed == &a.surface ? first : second, pair.directed->fdir1), contact);
     }
-    state.found.push_back({&a, &b, contact});
   }
 }
 
-void join(World::State& state, const FoundContact& found) {
-  const Collider& a = *found.first;
-  const Collider& b = *found.second;
-  dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &found.contact);
-  dJointAttach(joint, a.link->body.get(), b.link->body.get());
-  if (a.watched || b.watched) watch_contact(state, joint, a, b, found.contact.geom);
+/// Pairs come in an order that depends on the state only, not on what the search went through before.
+void sort(std::vector<FoundPair>& pairs) {
+  const auto before = [](const FoundPair& a, const FoundPair& b) {
+    return std::make_pair(a.first->number, a.second->number) < std::make_pair(b.first->number, b.second->number);
+  };
+  if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
+}
+
+void join(World::State& state, const FoundPair& pair, FoundContact& point) {
+  dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &point.contact);
+  dJointAttach(joint, pair.first->link->body.get(), pair.second->link->body.get());
+  dJointSetFeedback(joint, &point.feedback);
 }
 
 void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
 
 dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
-}  // namespace
-
-void find_contacts(World::State& state, double step) {
+/// Searches the contacts of all awake bodies.
+void search(World::State& state, double step) {
   dJointGroupEmpty(state.contacts.get());
   state.found.clear();
   state.islands.clear(state.moving.size());
-  Search search{state, step};
+  for (std::size_t i = 0; i < state.moving.size(); ++i) {
+    if (is_jointed(*state.moving[i])) state.islands.set_jointed(static_cast<int>(i));
+  }
+  SearchData data{state, step};
   // Collide models with each other; shapes of one model collide only with self_collide.
-  if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &search, touch_spaces);
+  if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &data, touch_spaces);
   for (const PlacedModel* model : state.moving) {
     dSpaceID space = model->space.get();
     if (sleeps(*model)) continue;
-    if (model->description.self_collide) dSpaceCollide(space, &search, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &search, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &search, touch);
+    if (model->description.self_collide) dSpaceCollide(space, &data, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &data, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &data, touch);
   }
-  if (state.islands.most_contacts() > Islands::kFew) thin_out(state.found, state.islands);
-  for (const FoundContact& found : state.found) join(state, found);
+}
+
+}  // namespace
+
+void find_contacts(World::State& state, double step) {
+  search(state, step);
+  while (wake_touched(state)) search(state, step);
+  sort(state.found.pairs);
+  if (state.islands.may_be_beyond_limit()) thin_out(state.found, state.islands);
+}
+
+void join_contacts(World::State& state, double step) {
+  Recollection recollection(state.memory);
+  for (const FoundPair& pair : state.found.pairs) {
+    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
+    const RememberedPair* remembered = recollection.pair(pair);
+    FoundContact* points = &state.found.points[pair.begin];
+    limit_friction(pair, remembered, state.memory, step, state.iterates(state.islands.of(pair.first->island)), points);
+    for (int i = 0; i < pair.count; ++i) join(state, pair, points[i]);
+  }
+}
+
+void gather_contacts(World::State& state) {
+  for (const FoundPair& pair : state.found.pairs) {
+    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
+    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+      FoundContact& point = state.found.points[i];
+      point.force = to_vector(point.feedback.f1);  // the first shape has a body
+    }
+  }
+  remember_contacts(state.found, state.memory, state.memory_before);
 }
 
 }  // namespace bubblesim

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "physics/contact_points.hpp"
 #include "physics/world_state.hpp"
@@ -29,21 +31,23 @@ bool belong_together(const dContact& a, const dContact& b) {
 }
 
 /// The patches of islands with many contacts; a patch consists of contacts between the same two links.
-std::map<int, std::vector<Patch>> patches_by_island(const std::vector<FoundContact>& found, Islands& islands) {
+std::map<int, std::vector<Patch>> patches_by_island(const FoundContacts& found, Islands& islands) {
   std::map<std::pair<const Link*, const Link*>, std::vector<std::size_t>> by_links;  // indices into `all`
   std::vector<std::pair<int, Patch>> all;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const int island = islands.of(found[i].first->island, found[i].second->island);
-    if (islands.contacts(island) <= Islands::kFew) continue;
-    std::vector<std::size_t>& patches = by_links[std::minmax(found[i].first->link, found[i].second->link)];
-    const auto patch = std::find_if(patches.begin(), patches.end(), [&](std::size_t other) {
-      return belong_together(found[all[other].second.front()].contact, found[i].contact);
-    });
-    if (patch == patches.end()) {
-      patches.push_back(all.size());
-      all.push_back({island, {i}});
-    } else {
-      all[*patch].second.push_back(i);
+  for (const FoundPair& pair : found.pairs) {
+    const int island = islands.of(pair.first->island);
+    if (!islands.is_jointed(island) || islands.contacts(island) <= Islands::kFew) continue;
+    std::vector<std::size_t>& patches = by_links[std::minmax(pair.first->link, pair.second->link)];
+    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+      const auto patch = std::find_if(patches.begin(), patches.end(), [&](std::size_t other) {
+        return belong_together(found.points[all[other].second.front()].contact, found.points[i].contact);
+      });
+      if (patch == patches.end()) {
+        patches.push_back(all.size());
+        all.push_back({island, {i}});
+      } else {
+        all[*patch].second.push_back(i);
+      }
     }
   }
   std::map<int, std::vector<Patch>> sorted;
@@ -62,16 +66,29 @@ Patch enough(const Patch& patch, const std::vector<FoundContact>& found) {
   return kept;
 }
 
+void keep_only(const std::vector<bool>& keep, FoundContacts& found) {
+  FoundContacts kept;
+  for (const FoundPair& pair : found.pairs) {
+    FoundPair left{pair.first, pair.second, kept.points.size(), 0};
+    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+      if (keep[i]) kept.points.push_back(found.points[i]);
+    }
+    left.count = static_cast<int>(kept.points.size() - left.begin);
+    if (left.count > 0) kept.pairs.push_back(left);
+  }
+  found = std::move(kept);
+}
+
 }  // namespace
 
-void thin_out(std::vector<FoundContact>& found, Islands& islands) {
-  std::vector<bool> keep(found.size(), true);
+void thin_out(FoundContacts& found, Islands& islands) {
+  std::vector<bool> keep(found.points.size(), true);
   bool dropped = false;
   for (const auto& [island, patches] : patches_by_island(found, islands)) {
     std::vector<Patch> kept;
     int count = 0;
     for (const Patch& patch : patches) {
-      kept.push_back(enough(patch, found));
+      kept.push_back(enough(patch, found.points));
       count += static_cast<int>(kept.back().size());
     }
     if (count > islands.limit(island)) continue;
@@ -84,12 +101,7 @@ void thin_out(std::vector<FoundContact>& found, Islands& islands) {
       for (const std::size_t i : patch) keep[i] = true;
     }
   }
-  if (!dropped) return;
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (keep[i]) found[end++] = found[i];
-  }
-  found.resize(end);
+  if (dropped) keep_only(keep, found);
 }
 
 }  // namespace bubblesim

@@ -14,18 +14,24 @@ namespace bubblesim {
 class Islands {
  public:
   static constexpr int kNone = -1;  ///< index of static objects
-  /// An island with more contacts is too big for the exact solver, whose cost grows with the cube of the contacts. A
-  /// model that touches no other moving model may have more, because a robot's wheels creep under the iterative solver.
+  /// An island with joints and more contacts is too big for the exact solver, whose cost grows with the cube of the
+  /// contacts. A model that touches no other moving model may have more, because a robot's wheels creep under the
+  /// iterative solver.
   static constexpr int kFew = 20;
   static constexpr int kFewOfOne = 40;
 
+  /// Starts with each model alone.
   void clear(std::size_t models) {
     parents_.resize(models);
     std::iota(parents_.begin(), parents_.end(), 0);
     contacts_.assign(models, 0);
     models_.assign(models, 1);
+    jointed_.assign(models, false);
     most_ = 0;
   }
+
+  /// Call it before touch().
+  void set_jointed(int model) { jointed_[index(model)] = true; }
 
   /// Adds contacts between two models, one of which may be kNone.
   void touch(int a, int b, int contacts) {
@@ -35,28 +41,24 @@ class Islands {
       parents_[index(b)] = a;
       contacts_[index(a)] += contacts_[index(b)];
       models_[index(a)] += models_[index(b)];
+      jointed_[index(a)] = jointed_[index(a)] || jointed_[index(b)];
     }
     contacts_[index(a)] += contacts;
-    most_ = std::max(most_, contacts_[index(a)]);
+    if (jointed_[index(a)]) most_ = std::max(most_, contacts_[index(a)]);
   }
 
-  /// Number of contacts in the island that has the most.
-  int most_contacts() const { return most_; }
-  /// The island of two touching models, one of which may be kNone.
-  int of(int a, int b) { return root(a == kNone ? b : a); }
-  /// Maximum number of contacts in an island for the exact solver.
-  int limit(int island) const { return models_[index(island)] == 1 ? kFewOfOne : kFew; }
+  /// The island of a model.
+  int of(int model) { return root(model); }
+  /// Whether a model of the island has joints.
+  bool is_jointed(int island) const { return jointed_[index(island)]; }
   int contacts(int island) const { return contacts_[index(island)]; }
   void set_contacts(int island, int contacts) { contacts_[index(island)] = contacts; }
-
-  /// Whether an island is too big for the exact solver.
-  bool any_beyond_limit() const {
-    if (most_ <= kFew) return false;
-    for (int island = 0; island < static_cast<int>(parents_.size()); ++island) {
-      if (parents_[index(island)] == island && contacts(island) > limit(island)) return true;
-    }
-    return false;
-  }
+  /// Maximum number of contacts in an island for the exact solver.
+  int limit(int island) const { return models_[index(island)] == 1 ? kFewOfOne : kFew; }
+  /// Whether an island with joints is too big for the exact solver.
+  bool is_beyond_limit(int island) const { return is_jointed(island) && contacts(island) > limit(island); }
+  /// Whether an island with joints may be too big for the exact solver.
+  bool may_be_beyond_limit() const { return most_ > kFew; }
 
  private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
@@ -70,6 +72,7 @@ class Islands {
   std::vector<int> parents_;
   std::vector<int> contacts_;
   std::vector<int> models_;
+  std::vector<bool> jointed_;
   int most_ = 0;
 };
 

@@ -9,7 +9,8 @@
 namespace bubblesim {
 namespace {
 
-constexpr double kSoftest = 1e-3;  // N/m
+constexpr double kMostFriction = 1e9;  // some files have an infinite coefficient
+constexpr double kSoftest = 1e-3;      // N/m
 /// Above this stiffness, the deflection under a robot's weight is smaller than the overlap of rigid contacts.
 constexpr double kStiff = 1e6;  // N/m
 
@@ -55,8 +56,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   dSurfaceParameters& made = pair.ode;
   // Approximation 1 makes mu a coefficient; without it mu is a force in ODE and wheels drift outwards.
   made.mode = dContactApprox1;
-  made.mu = std::min(a.mu, b.mu);
-  made.mu2 = std::min(a.mu2.value_or(a.mu), b.mu2.value_or(b.mu));
+  made.mu = std::min({a.mu, b.mu, kMostFriction});
+  made.mu2 = std::min({a.mu2.value_or(a.mu), b.mu2.value_or(b.mu), kMostFriction});
   if (made.mu2 != made.mu) made.mode |= dContactMu2;
   const bool a_directed = a.fdir1 != Vector3::Zero;
   const bool b_directed = b.fdir1 != Vector3::Zero;
@@ -87,6 +88,12 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   const bool limited = softness.rigid && softness.erp > 0;
   pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();
   return pair;
+}
+
+void share_load(double inverse_mass, double step, SurfacePair& pair) {
+  if ((pair.ode.mode & dContactSoftCFM) != 0) return;
+  pair.ode.mode |= dContactSoftCFM;
+  pair.ode.soft_cfm = std::max(kLoadSharing * step * inverse_mass, kConstraintSoftness);
 }
 
 }  // namespace bubblesim

@@ -119,6 +119,8 @@ void World::remove_model(ObjectId model) {
   check_removable(model);
   dJointGroupEmpty(state_->contacts.get());  // contacts of the last step may refer to the model's bodies
   forget_touches(*state_);                   // and these refer to its shapes
+  forget_contacts(*state_, model);
+  state_->found.clear();
   auto tree = std::make_shared<SceneTree>(*state_->shared_tree);
   tree->remove(model);
   state_->statics_stale = state_->statics_stale || description(model).is_static;
@@ -207,6 +209,7 @@ std::uint64_t World::state_hash() const {
       hash.add(static_cast<std::uint64_t>(dBodyIsEnabled(body)));
     }
     add_planar_motor(hash, model->planar_motor);
+    add_rest(hash, *model);
   }
   for (const auto& model : state_->models) {
     for (const PlacedJoint& placed : model->joints) {
@@ -218,6 +221,7 @@ std::uint64_t World::state_hash() const {
       }
     }
   }
+  state_->memory.add_to(hash);
   add_wrenches(hash, state_->wrenches);
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   hash.add(state_->seed);

@@ -16,9 +16,6 @@ namespace {
 
 constexpr unsigned kLeastMemory = 4096;  // bytes of working memory of a world; by default ODE takes 64 kB
 constexpr int kIterations = 50;          // of the iterative solver
-constexpr int kSleepSamples = 10;        // substeps over which the speed of a body is averaged
-constexpr double kSleepSpeed = 3e-3;     // m/s and rad/s; a slower body is at rest
-constexpr double kSleepTime = 0.5;       // s at rest before a body sleeps
 
 void set_pose(dGeomID geom, const Pose& pose) {
   const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
@@ -91,6 +88,7 @@ class ModelBuilder {
 
   std::unique_ptr<PlacedModel> build() {
     const ModelDescription& description = model_.description;
+    model_.rest.may_sleep = model_.prepared->is_prop && state_.gravity != Vector3::Zero;
     const std::vector<ObjectId> links = state_.tree().parts(id_, ObjectKind::kLink);
     for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
     const std::vector<ObjectId> joints = state_.tree().parts(id_, ObjectKind::kJoint);
@@ -125,7 +123,6 @@ class ModelBuilder {
     link.pose = pose;
     if (!model_.description.is_static) {
       link.body = make_body(state_.world.get(), description, pose);
-      dBodySetAutoDisableFlag(link.body.get(), model_.prepared->is_prop && state_.gravity != Vector3::Zero ? 1 : 0);
     }
     for (const CollisionDescription& collision : description.collisions) {
       add_collider(link, collision, is_watched(description, collision.name));
@@ -271,11 +268,6 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_)
   movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
   planes.reset(dSimpleSpaceCreate(nullptr));
   dWorldSetQuickStepNumIterations(world.get(), kIterations);
-  dWorldSetAutoDisableAverageSamplesCount(world.get(), kSleepSamples);
-  dWorldSetAutoDisableLinearThreshold(world.get(), kSleepSpeed);
-  dWorldSetAutoDisableAngularThreshold(world.get(), kSleepSpeed);
-  dWorldSetAutoDisableTime(world.get(), kSleepTime);
-  dWorldSetAutoDisableSteps(world.get(), 0);
   contacts.reset(dJointGroupCreate(0));
 }
 

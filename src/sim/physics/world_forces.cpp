@@ -8,14 +8,6 @@
 namespace bubblesim {
 namespace {
 
-/// The force of a contact on its first shape's body, or on the static shape.
-Vector3 force_on_first(const TouchReport& report) {
-  // If the joint has one body, ODE's first force acts on that body.
-  const bool first_is_fixed = report.first->link->body == nullptr;
-  const Vector3 force = to_vector(report.feedback.f1);
-  return first_is_fixed ? -force : force;
-}
-
 Touch& touch_of(World::State& state, const Collider* watched, const Collider* other) {
   for (Touch& touch : state.touches) {
     if (touch.watched == watched && touch.other == other) return touch;
@@ -26,15 +18,15 @@ Touch& touch_of(World::State& state, const Collider* watched, const Collider* ot
   return touch;
 }
 
-void add_point(World::State& state, const TouchReport& report, bool of_first, double step) {
-  Touch& touch = of_first ? touch_of(state, report.first, report.second) : touch_of(state, report.second, report.first);
+void add_point(World::State& state, const FoundPair& pair, const FoundContact& found, bool of_first, double step) {
+  Touch& touch = of_first ? touch_of(state, pair.first, pair.second) : touch_of(state, pair.second, pair.first);
   if (touch.step != state.steps) touch.points.clear();
   touch.step = state.steps;
-  const double sign = of_first ? 1 : -1;  // ODE's normal points into the first shape
-  const Vector3 force = force_on_first(report) * sign;
+  const double sign = of_first ? 1 : -1;  // the normal points into the first shape
+  const Vector3 force = found.force * sign;
+  const dContactGeom& geom = found.contact.geom;
   touch.impulse += force * step;
-  touch.points.push_back(
-      {to_vector(report.contact.pos), to_vector(report.contact.normal) * sign, report.contact.depth, force});
+  touch.points.push_back({to_vector(geom.pos), to_vector(geom.normal) * sign, geom.depth, force});
 }
 
 /// Wrench of the parent on the child through one of ODE's joints: torque about the child's centre of mass.
@@ -60,16 +52,6 @@ void gather_wrench(const World::State& state, const PlacedJoint& placed, double 
 
 }  // namespace
 
-void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
-                   const dContactGeom& contact) {
-  TouchReport& report = state.touch_reports.emplace_back();
-  report.first = &first;
-  report.second = &second;
-  report.joint = joint;
-  report.contact = contact;
-  dJointSetFeedback(joint, &report.feedback);
-}
-
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
   auto meter = std::make_unique<WrenchAccumulator>();
   for (int i = 0; i < dBodyGetNumJoints(child); ++i) {
@@ -88,10 +70,7 @@ void clear_reports(WrenchAccumulator& meter) {
   for (JointReport& report : meter.reports) report.feedback = {};
 }
 
-void forget_touches(World::State& state) {
-  state.touches.clear();
-  state.touch_reports.clear();
-}
+void forget_touches(World::State& state) { state.touches.clear(); }
 
 void forget_forces(World::State& state) {
   forget_touches(state);
@@ -108,11 +87,13 @@ void forget_forces(World::State& state) {
 
 void gather_forces(World::State& state, double step) {
   ++state.steps;
-  for (const TouchReport& report : state.touch_reports) {
-    if (report.first->watched) add_point(state, report, true, step);
-    if (report.second->watched) add_point(state, report, false, step);
+  for (const FoundPair& pair : state.found.pairs) {
+    if (!pair.first->watched && !pair.second->watched) continue;
+    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+      if (pair.first->watched) add_point(state, pair, state.found.points[i], true, step);
+      if (pair.second->watched) add_point(state, pair, state.found.points[i], false, step);
+    }
   }
-  state.touch_reports.clear();
   for (const PlacedModel* model : state.moving) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) gather_wrench(state, placed, step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data of all models together, updated when a model is added or removed: names in the tree, static shapes, islands,
-// sleep.
+// Data of all models together, updated when a model is added or removed: names in the tree, static shapes, islands.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string>
 #include <variant>
@@ -36,6 +36,12 @@ struct Extent {
 };
 
 }  // namespace
+
+double total_mass(const ModelDescription& model) {
+  double mass = 0;
+  for (const LinkDescription& link : model.links) mass += link.mass;
+  return mass;
+}
 
 ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
   const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
@@ -72,19 +78,26 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
 
 void list_moving(World::State& state) {
   state.moving.clear();
+  int link_number = 0;
   const Vector3 down = state.gravity.Normalized();
   for (const auto& model : state.models) {
     const bool moves = model->space != nullptr;
     const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
     if (moves) state.moving.push_back(model.get());
-    for (Collider& collider : model->colliders) collider.island = number;
+    const double mass = moves ? total_mass(model->description) : std::numeric_limits<double>::infinity();
+    for (Collider& collider : model->colliders) {
+      collider.island = number;
+      collider.model_mass = mass;
+    }
+    for (Link& link : model->links) link.number = link_number += moves ? 1 : 0;
     for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
   }
-}
-
-void wake(World::State& state) {
-  for (const PlacedModel* model : state.moving) {
-    for (const Link& link : model->links) dBodyEnable(link.body.get());
+  int collider_number = 0;
+  for (const bool moves : {true, false}) {
+    for (const auto& model : state.models) {
+      if ((model->space != nullptr) != moves) continue;
+      for (Collider& collider : model->colliders) collider.number = collider_number++;
+    }
   }
 }
 

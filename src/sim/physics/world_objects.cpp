@@ -131,6 +131,7 @@ void World::set_pose(ObjectId object, const Pose& pose) {
   const Pose wanted(pose.Pos(), q.Normalized());
   const Pose before = this->pose(object);
   wake(*state_);
+  forget_contacts(*state_, state_->tree().outermost_model_of(object));
   for (const Link* link : links) {
     const Pose moved = wanted * (before.Inverse() * link_pose(*link));
     const Vector3 centre = moved.CoordPositionAdd(link->centre_of_mass);

@@ -15,12 +15,6 @@ namespace {
 constexpr double kMaxAcceleration = 20;
 constexpr double kLever = 1;  // m, its torque divided by its force
 
-double total_mass(const ModelDescription& model) {
-  double mass = 0;
-  for (const LinkDescription& link : model.links) mass += link.mass;
-  return mass;
-}
-
 PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
   PlanarMotor motor{ode::JointHandle(dJointCreateLMotor(world, nullptr)),
                     ode::JointHandle(dJointCreateAMotor(world, nullptr))};

@@ -14,13 +14,16 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
-#include "physics/contact_thinning.hpp"
+#include "physics/contact_memory.hpp"
+#include "physics/contact_solver.hpp"
+#include "physics/found_contacts.hpp"
 #include "physics/impact.hpp"
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
 #include "physics/joints/motor_meter.hpp"
 #include "physics/ode_handles.hpp"
 #include "physics/prepared_model.hpp"
+#include "physics/sleep.hpp"
 
 namespace bubblesim {
 
@@ -30,7 +33,9 @@ struct Link {
   Vector3 centre_of_mass;  // body's origin, in the link's frame
   Pose pose;               // of static links, in the world
   ObjectId object = kNoObject;
-  Twist before;  // of the body, at the start of the last advance()
+  int number = 0;  // among the links of moving models
+  Pose rest_pose;  // of the body, where it came to rest last
+  Twist before;    // of the body, at the start of the last advance()
   Sweep sweep;
 };
 
@@ -51,6 +56,8 @@ struct Collider {
   const Pose& in_link;
   bool watched = false;         // observed by a contact sensor
   int island = Islands::kNone;  // index of its model in the islands; kNone when it is static
+  int number = 0;               // in the order of the models, moving ones first
+  double model_mass = 0;        // kg, of its outermost model; infinite when it is static
 };
 
 /// Feedback of one of ODE's joints after each substep.
@@ -85,13 +92,11 @@ struct Touch {
   std::vector<ContactPoint> points;
 };
 
-/// An ODE contact joint at an observed shape.
-struct TouchReport {
-  const Collider* first = nullptr;
-  const Collider* second = nullptr;
-  dJointID joint = nullptr;
-  dContactGeom contact{};
-  dJointFeedback feedback{};
+/// A pair of shapes in an island without joints.
+struct FreePair {
+  int island = Islands::kNone;
+  const FoundPair* pair = nullptr;
+  const RememberedPair* remembered = nullptr;  // null when the shapes did not touch before
 };
 
 /// Holds a planar velocity of a body; has no joints until it is used.
@@ -123,6 +128,7 @@ struct PlacedModel {
   std::vector<PlacedJoint> joints;
   std::vector<Pose> sensors;  // in the frame of their link or joint
   PlanarMotor planar_motor;
+  Rest rest;
 };
 
 /// The state of a link at one time.
@@ -170,18 +176,22 @@ struct World::State {
   Wrenches wrenches;                                 // of the next advance()
   std::vector<DeviceSlot> devices;                   // in the order of their updates
   DeviceSlot* updating = nullptr;                    // the device whose update runs
-  std::deque<TouchReport> touch_reports;  // of this substep; a deque, because ODE keeps pointers to its elements
-  std::vector<Touch> touches;             // of the last advance()
-  std::uint64_t steps = 0;                // substeps started in the last advance()
-  std::vector<PlacedModel*> moving;       // the moving models; the index is that in the islands
-  std::vector<FoundContact> found;        // of the last substep
-  Islands islands;                        // of the last substep; models by index
-  double bottom = 0;                      // m along gravity, lowest initial position of all models and static shapes
-  double age = 0;                         // s since construction
-  int steps_to_iterate = 0;               // substeps left with the iterative solver, after the exact solver failed
-  unsigned long random;                   // random state of the iterative solver
-  std::deque<StateSample> history;        // of the last calls of advance()
-  std::vector<ObjectId> lost_models;      // models that diverged
+  std::vector<Touch> touches;                        // of the last advance()
+  std::uint64_t steps = 0;                           // substeps started in the last advance()
+  std::vector<PlacedModel*> moving;                  // the moving models; the index is that in the islands
+  FoundContacts found;                               // of the last substep
+  ContactMemory memory;                              // of the last substep
+  ContactMemory memory_before;                       // working memory
+  std::vector<double> least_rest;                    // s, by island; working memory
+  std::vector<FreePair> free_pairs;                  // of the last substep, by islands
+  ContactSolver contact_solver;                      // of islands without joints
+  Islands islands;                                   // of the last substep; models by index
+  double bottom = 0;                  // m along gravity, lowest initial position of all models and static shapes
+  double age = 0;                     // s since construction
+  int steps_to_iterate = 0;           // substeps left with the iterative solver, after the exact solver failed
+  unsigned long random;               // random state of the iterative solver
+  std::deque<StateSample> history;    // of the last calls of advance()
+  std::vector<ObjectId> lost_models;  // models that diverged
   bool diverged = false;
   bool interrupted = false;    // ODE threw in the middle of a step
   bool statics_stale = false;  // a static model was removed since gather_statics()
@@ -196,6 +206,8 @@ struct World::State {
     const Object& object = tree().at(id);
     return object.parent == kNoObject ? model_of(id).frame : model_of(id).nested[object.index];
   }
+  /// Whether the iterative solver takes an island with joints in this substep.
+  bool iterates(int island) const { return steps_to_iterate > 0 || islands.is_beyond_limit(island); }
   std::string shown(ObjectId id) const { return tree().short_path(id); }
 };
 
@@ -208,18 +220,21 @@ void place_model(World::State& state, ObjectId id, std::shared_ptr<const Prepare
 /// Updates the list of moving models and their indices in the islands, after models were added or removed.
 void list_moving(World::State& state);
 
-/// Wakes all sleeping bodies, after an object was moved or removed that may support them.
-void wake(World::State& state);
+/// In kg.
+double total_mass(const ModelDescription& model);
 
 /// Rebuilds the space of the static shapes with a fitting size.
 void gather_statics(World::State& state);
 
-/// Detects collisions and creates ODE's contact joints, for a substep of `step` seconds.
+/// Detects collisions, for a substep of `step` seconds. Wakes what is touched.
 void find_contacts(World::State& state, double step);
+/// Creates ODE's contact joints of what was found.
+void join_contacts(World::State& state, double step);
+/// Solves each island with the solver that suits it, and moves the bodies.
+void solve(World::State& state, double step);
+/// Takes the forces of the contacts after a substep, and remembers them.
+void gather_contacts(World::State& state);
 
-/// Requests feedback of a contact joint between two shapes, if a sensor observes one of them.
-void watch_contact(World::State& state, dJointID joint, const Collider& first, const Collider& second,
-                   const dContactGeom& contact);
 /// Requests feedback of a joint from now on.
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child);
 /// Call before each substep: ODE leaves the feedback of a motor unchanged while it has no force.

@@ -15,8 +15,6 @@ namespace bubblesim {
 namespace {
 
 constexpr double kMaxDuration = 1000;  // s, of one call
-/// Substeps with the iterative solver after the exact solver found no solution.
-constexpr int kStepsToIterate = 20;
 constexpr std::size_t kRememberedPasses = 10;
 
 bool is_finite(dBodyID body) {
@@ -47,6 +45,9 @@ void check_bodies(World::State& state) {
 
 void substep(World::State& state, const Wrenches& wrenches, double step) {
   try {
+    push_links(state, wrenches);
+    for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
+    wake_commanded(state);
     find_contacts(state, step);
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
@@ -57,17 +58,12 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
         }
       }
     }
+    join_contacts(state, step);
     note_motion(state);
-    push_links(state, wrenches);
-    for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
-    if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
-      ode::step_iteratively(state.world.get(), step, state.random);
-      state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
-    } else {
-      dWorldStep(state.world.get(), step);
-      if (ode::solver_warned()) state.steps_to_iterate = kStepsToIterate;
-    }
+    solve(state, step);
     stop_at_impacts(state, step);
+    gather_contacts(state);
+    rest(state, step);
     gather_forces(state, step);
   } catch (const Diverged&) {
     state.diverged = state.interrupted = true;

@@ -138,7 +138,10 @@ void expect_to_stand(int shapes, double min_depth) {
   EXPECT_LT(lean(after), 0.001 / 0.4);
   EXPECT_LE(after.Pos().Z(), 1e-4 - (min_depth - 0.001));
   EXPECT_GE(after.Pos().Z(), -1e-4 - min_depth);
-  EXPECT_LT(after.Pos().Distance(before.Pos()), 1e-4);
+  // A loaded contact yields slowly within the layer of a millimetre, but nothing creeps sideways.
+  const Vector3 moved = after.Pos() - before.Pos();
+  EXPECT_LT(std::hypot(moved.X(), moved.Y()), 1e-4);
+  EXPECT_LT(std::abs(moved.Z()), 1e-3);
   EXPECT_LT(std::abs((after.Rot() * before.Rot().Inverse()).Yaw()), 1e-3);
 }
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contact_cone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/world_state.hpp"
+
+namespace bubblesim {
+namespace {
+
+// A slide can turn: the second direction keeps this part of the limit at least, and the first as much as makes friction
+// 0.9975 to 1.0025 times that of Coulomb's cone.
+constexpr double kAcross = 0.1;
+constexpr double kAlong = 1 - kAcross * kAcross / 4;
+constexpr double kNotable = 0.1;  // of the limit; less friction has no direction
+constexpr double kSlides = 1e-3;  // m/s
+
+Vector3 velocity_at(const Collider& shape, const dReal* position) {
+  dBodyID body = shape.link->body.get();
+  if (body == nullptr) return {};
+  dVector3 velocity;
+  dBodyGetPointVel(body, position[0], position[1], position[2], velocity);
+  return to_vector(velocity);
+}
+
+/// Sets the first friction direction along a tangent of the contact plane.
+void direct_along(const Vector3& tangent, dContact& contact) {
+  const Vector3 unit = tangent / tangent.Length();
+  contact.surface.mode |= dContactFDir1;
+  for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = unit[i];
+}
+
+Vector3 tangential(const Vector3& vector, const dContact& contact) {
+  const Vector3 normal = to_vector(contact.geom.normal);
+  return vector - normal * vector.Dot(normal);
+}
+
+/// Whether the friction is the same in all directions, so that its directions may be chosen.
+bool is_isotropic(const dContact& contact) {
+  return (contact.surface.mode & (dContactMu2 | dContactFDir1 | dContactSlip1 | dContactSlip2)) == 0;
+}
+
+void direct_along_slip(const FoundPair& pair, dContact& contact) {
+  const dReal* position = contact.geom.pos;
+  const Vector3 slip = tangential(velocity_at(*pair.first, position) - velocity_at(*pair.second, position), contact);
+  if (slip.Length() > kSlides) direct_along(slip, contact);
+}
+
+void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool iterative, dContact& contact) {
+  dSurfaceParameters& surface = contact.surface;
+  const double limit = surface.mu * expected.normal;
+  double first = 1;  // parts of the limit
+  double second = 1;
+  const bool isotropic = is_isotropic(contact);
+  if (isotropic && limit > 0 && std::isfinite(limit)) {
+    const Vector3 friction = tangential(expected.friction, contact);
+    const double share = friction.Length() / limit;
+    if (share > kNotable) {
+      direct_along(friction, contact);
+      first = kAlong;
+      second = std::sqrt(std::max(1 - share * share, kAcross * kAcross));
+    } else {
+      direct_along_slip(pair, contact);
+    }
+  }
+  surface.mu2 = isotropic || (surface.mode & dContactMu2) == 0 ? surface.mu * second : surface.mu2;
+  surface.mu *= first;
+  surface.mode |= dContactMu2;
+  if (iterative) return;
+  surface.mode &= ~dContactApprox1;
+  surface.mu *= expected.normal;
+  surface.mu2 *= expected.normal;
+  surface.rho *= expected.normal;
+  surface.rho2 *= expected.normal;
+  surface.rhoN *= expected.normal;
+}
+
+}  // namespace
+
+void limit_friction(const FoundPair& pair, const RememberedPair* remembered, const ContactMemory& memory, double step,
+                    bool iterative, FoundContact* points) {
+  if (remembered == nullptr || !is_settled(*remembered)) {
+    for (int i = 0; i < pair.count; ++i) {
+      if (is_isotropic(points[i].contact)) direct_along_slip(pair, points[i].contact);
+    }
+    return;
+  }
+  const ExpectedContacts expected = expect(memory, *remembered, pair, points, step);
+  for (int i = 0; i < pair.count; ++i)
+    limit_point(pair, expected[static_cast<std::size_t>(i)], iterative, points[i].contact);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts of bodies without joints, by sequential impulses that start from those of the last substep: see
+// docs/adr/0024.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "physics/found_contacts.hpp"
+
+namespace bubblesim {
+
+struct Link;
+
+/// A body during the solution.
+struct SolvedBody {
+  dBodyID body = nullptr;
+  int link = 0;                            // Link::number
+  double inverse_mass = 0;                 // 1/kg
+  std::array<Vector3, 3> inverse_inertia;  // rows, 1/(kg m^2), in world axes
+  Vector3 velocity;                        // m/s, of the centre of mass, at the end of the substep
+  Vector3 spin;                            // rad/s, likewise
+};
+
+/// A direction in which an impulse acts on two bodies.
+struct SolvedRow {
+  Vector3 direction;           // of the force on the first body; zero for torques
+  Vector3 arm_a, arm_b;        // torque on each body per impulse, m (1 for torques)
+  Vector3 turned_a, turned_b;  // their effect on the spins, 1/(kg m)
+  double admittance = 0;       // 1/kg, relative velocity per impulse; with the softness
+  double softness = 0;         // 1/kg, part of the admittance: velocity that an impulse lets through
+  double impulse = 0;          // N s
+};
+
+struct SolvedPoint {
+  int a = 0;
+  int b = 0;          // the static world is body 0
+  double height = 0;  // m, along gravity
+  SolvedRow normal;
+  std::array<SolvedRow, 2> tangent;
+  double mixed = 0;        // 1/kg, velocity along the second tangent per impulse along the first
+  double determinant = 0;  // 1/kg^2, of the tangents' admittances
+  double slide = 0;        // kg, the least inverse of their admittance in any direction
+  double target = 0;       // m/s
+  double mu = 0;
+  double mu2 = 0;
+  bool isotropic = true;
+  int spinning = -1;  // of its resistances to rotation; -1: none
+  std::size_t found = 0;
+  std::array<double, 3> before{};  // N s, impulses of the normal and the tangents before a sweep
+  std::array<double, 3> search{};  // direction of the conjugate gradients
+};
+
+/// Resistance to rolling about the tangents and to spinning about the normal.
+struct SolvedSpin {
+  std::array<SolvedRow, 3> rows;
+  double rolling = 0;   // m
+  double spinning = 0;  // m
+};
+
+/// Solves islands one by one; its vectors are working memory.
+class ContactSolver {
+ public:
+  /// Starts an island.
+  void clear();
+  /// The number of a link's body; adds it as it will move in the substep without contacts. 0 is the static world.
+  int number_of(const Link& link, const Vector3& gravity, double step);
+  /// Adds a point between two bodies, or a body and the static world (0). `start` in N is the expected force on the
+  /// first.
+  void add_point(int a, int b, const FoundContact& found, std::size_t index, const Vector3& start, double height,
+                 double step);
+  /// Finds the impulses, and applies them as forces in the coming substep. Sets FoundContact::force.
+  void solve(std::vector<FoundContact>& points, double step);
+
+ private:
+  void add_body(const Link& link, const Vector3& gravity, double step);
+  /// Solves each point once; returns the largest change of a velocity in m/s.
+  double sweep();
+  /// The square of the change of the impulses by the last sweep.
+  double squared_step() const;
+  /// Continues in the direction of the sweeps before (nonsmooth nonlinear conjugate gradients: Silcowitz, Niebe and
+  /// Erleben, The Visual Computer 26, 2010).
+  void accelerate(double part);
+  double solve_point(SolvedPoint& point);
+  void solve_spin(const SolvedPoint& point, SolvedSpin& spin);
+  void apply(const SolvedPoint& point, SolvedRow& row, double impulse);
+  double speed(const SolvedPoint& point, const SolvedRow& row) const;
+  SolvedRow make_row(int a, int b, const Vector3& direction, const Vector3& lever_a, const Vector3& lever_b) const;
+  SolvedRow make_turning_row(int a, int b, const Vector3& axis) const;
+  void finish_row(int a, int b, SolvedRow& row) const;
+
+  std::vector<int> numbers_;  // of bodies, by Link::number; 0: not in the island
+  std::vector<SolvedBody> bodies_;
+  std::vector<SolvedPoint> points_;
+  std::vector<SolvedSpin> spins_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contacts of one substep, by pairs of shapes.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+
+namespace bubblesim {
+
+struct Collider;
+
+/// A contact point. Its normal points into the first shape of its pair.
+struct FoundContact {
+  dContact contact{};
+  dJointFeedback feedback{};  ///< of ODE's contact joint, which keeps a pointer to it
+  Vector3 force;              ///< N, on the first shape, in world axes; known after the substep
+};
+
+/// Two shapes that touch. The number of the first is the lower; it has a body.
+struct FoundPair {
+  const Collider* first = nullptr;
+  const Collider* second = nullptr;
+  std::size_t begin = 0;  ///< of its points
+  int count = 0;
+};
+
+struct FoundContacts {
+  std::vector<FoundPair> pairs;  ///< in the order of the numbers of their shapes
+  std::vector<FoundContact> points;
+
+  void clear() {
+    pairs.clear();
+    points.clear();
+  }
+};
+
+}  // namespace bubblesim
