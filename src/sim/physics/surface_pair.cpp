@@ -21,7 +21,7 @@ Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max
 
 /// Softness of a contact, in ODE's terms.
 struct Softness {
-  int mode = 0;
+  int mode = dContactSoftERP;  // the world's is that of the joints
   double erp = kErrorReduction;
   double cfm = 0;
   bool rigid = true;

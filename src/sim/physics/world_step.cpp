@@ -51,14 +51,16 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
-        if (placed.meter != nullptr) clear_reports(*placed.meter);
         for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
           if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
         }
       }
     }
+    aim_meters(state);
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
+    correct_joints(state, step);
+    begin_rotations(state, step);
     if (state.steps_to_iterate > 0 || state.islands.any_beyond_limit()) {
       ode::step_iteratively(state.world.get(), step, state.random);
       state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
@@ -66,6 +68,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
       dWorldStep(state.world.get(), step);
       if (ode::solver_warned()) state.steps_to_iterate = kStepsToIterate;
     }
+    end_rotations(state, step);
     gather_forces(state, step);
   } catch (const Diverged&) {
     state.diverged = state.interrupted = true;
