@@ -132,15 +132,17 @@ bool to_point_cloud(const CameraImage& image, double least, double most, CloudAx
 struct ImuDescription {
   std::array<NoiseDescription, 3> angular_velocity_noise;     ///< rad/s
   std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
+  double bandwidth = 0;                                       ///< Hz, of a first-order low-pass filter; 0: none
 };
 
 /// Measurement of an inertial measurement unit, in the sensor's frame (REP 145).
 struct ImuReading {
   static constexpr std::string_view kName = "IMU";
 
-  Quaternion orientation;       ///< of the sensor in the world, without noise
-  Vector3 angular_velocity;     ///< rad/s
-  Vector3 linear_acceleration;  ///< m/s^2, mean over the last step, with the reaction to gravity: +g at rest
+  Quaternion orientation;    ///< of the sensor in the world, without noise
+  Vector3 angular_velocity;  ///< rad/s
+  Vector3
+      linear_acceleration;  ///< m/s^2, mean over the last step or filtered, with the reaction to gravity: +g at rest
 };
 
 /// A satellite navigation (GPS) receiver.
@@ -229,6 +231,7 @@ struct ForceTorqueDescription {
   bool of_child = true;         ///< true: wrench of the child on the parent; false: of the parent on the child
   std::array<NoiseDescription, 3> force_noise;   ///< N
   std::array<NoiseDescription, 3> torque_noise;  ///< N m
+  double bandwidth = 0;                          ///< Hz, of a first-order low-pass filter; 0: none
 };
 
 /// Force and torque that a joint transmits, with the axes and sign of the description; torque about the sensor's
@@ -236,7 +239,7 @@ struct ForceTorqueDescription {
 struct ForceTorqueReading {
   static constexpr std::string_view kName = "force-torque sensor";
 
-  Vector3 force;   ///< N, mean over the last step
+  Vector3 force;   ///< N, mean over the last step or filtered
   Vector3 torque;  ///< N m, mean over the last step
 };
 

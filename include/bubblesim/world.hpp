@@ -40,6 +40,12 @@ struct Wrench {
   Vector3 torque;  ///< N m
 };
 
+/// What an inertial measurement unit feels, in its axes: the specific force is the acceleration minus gravity.
+struct Inertial {
+  Vector3 angular_velocity;  ///< rad/s, at present, or filtered if the unit has a bandwidth
+  Vector3 specific_force;    ///< m/s^2, mean over the last advance() in the axes of each substep, or filtered
+};
+
 /// The frame of the vectors of a wrench.
 enum class WrenchFrame { kWorld, kObject };
 
@@ -171,6 +177,11 @@ class World {
   /// The wrench of a joint's child on its parent in world axes, about the joint's origin, mean over the last advance().
   /// Only joints with a force-torque sensor record it; throws InvalidInput for other joints.
   Wrench joint_wrench(ObjectId joint) const;
+  /// The wrench of a force-torque sensor with the axes, origin and sign of its description, which it has at the start
+  /// of each substep: mean over the last advance(), or filtered. Zero in static models.
+  Wrench sensor_wrench(ObjectId sensor) const;
+  /// What an inertial measurement unit feels.
+  Inertial sensor_motion(ObjectId sensor) const;
 
   /// The nearest hit of a ray of length `max_distance`; the model `ignored_model` is ignored.
   std::optional<RayHit> cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,

@@ -64,7 +64,13 @@ void check_sensor(Checker& checker, const CameraDescription& camera) {
   check_noise(checker, camera.noise);
 }
 
+void check_bandwidth(Checker& checker, double bandwidth) {
+  checker.require(bandwidth >= 0 && within(bandwidth, 1e6), "the bandwidth", text(bandwidth) + " Hz",
+                  "0 (no filter) to 1e6 Hz");
+}
+
 void check_sensor(Checker& checker, const ImuDescription& imu) {
+  check_bandwidth(checker, imu.bandwidth);
   for (const NoiseDescription& noise : imu.angular_velocity_noise) check_noise(checker, noise);
   for (const NoiseDescription& noise : imu.linear_acceleration_noise) check_noise(checker, noise);
 }
@@ -94,6 +100,7 @@ void check_sensor(Checker& checker, const MagnetometerDescription& magnetometer)
 void check_sensor(Checker&, const ContactDescription&) {}
 
 void check_sensor(Checker& checker, const ForceTorqueDescription& force_torque) {
+  check_bandwidth(checker, force_torque.bandwidth);
   for (const NoiseDescription& noise : force_torque.force_noise) check_noise(checker, noise);
   for (const NoiseDescription& noise : force_torque.torque_noise) check_noise(checker, noise);
 }

@@ -29,6 +29,7 @@
 #include "load/sdf/sdf_state.hpp"
 #include "load/sdf/sdf_visuals.hpp"
 #include "load/sdf_extensions.hpp"
+#include "load/substeps.hpp"
 #include "load/urdf/urdf_reading.hpp"
 
 namespace bubblesim {
@@ -91,6 +92,7 @@ class SceneLoader {
     if (is_read_ || root.WorldCount() > 0) {
       for (Problem& problem : check_scene(scene)) problems_.push_back(std::move(problem));
     }
+    if (problems_.empty()) divide_substep(scene, substeps_, reading_);
     fail_with_problems();
     return scene;
   }
@@ -241,7 +243,10 @@ class SceneLoader {
     if (!world.Name().empty()) scene.world_name = world.Name();
     scene.plugins = read_plugins(world.Element());
     scene.gravity = world.Gravity();
-    if (const sdf::Physics* physics = world.PhysicsDefault()) scene.substep = physics->MaxStepSize();
+    if (const sdf::Physics* physics = world.PhysicsDefault()) {
+      scene.substep = physics->MaxStepSize();
+      substeps_ = read_substeps(*physics, reading_);
+    }
     if (const auto step = own_number(world.Element(), "bubblesim:time_step", problems_)) {
       scene.time_step = *step;
     } else {
@@ -275,6 +280,7 @@ class SceneLoader {
   }
 
   LoadContext reading_;
+  std::optional<double> substeps_ = 1;  // for each <max_step_size>; empty for those that the models need
   std::vector<Problem>& problems_ = reading_.problems();
   bool is_read_ = false;  // SDFormat found no errors
 };

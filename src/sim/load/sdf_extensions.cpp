@@ -20,6 +20,8 @@ struct OwnElement {
 const std::vector<OwnElement>& sdf_extensions() {
   static const std::vector<OwnElement> elements = {
       {"bubblesim:time_step", {"world"}},                // seconds of one simulation step
+      {"bubblesim:substeps", {"physics"}},               // number for each <max_step_size>, or auto
+      {"bubblesim:bandwidth", {"imu", "force_torque"}},  // Hz
       {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
       {"bubblesim:motor", {"axis", "axis2"}},            // velocity, position or effort
       {"bubblesim:mimic", {"axis", "axis2"}},            // as <mimic> of SDFormat 1.11

@@ -76,7 +76,9 @@ void touch(void* data, dGeomID first, dGeomID second) {
   SurfacePair pair = combine(a.surface, b.surface, step);
   share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
   for (int i = 0; i < count; ++i) {
-    dContact& contact = state.found.points.emplace_back().contact;
+    FoundContact& point = state.found.points.emplace_back();
+    point.has_own_correction = pair.has_own_correction;
+    dContact& contact = point.contact;
     contact.surface = pair.ode;
     contact.geom = points[static_cast<std::size_t>(i)];
     sink(contact.geom.depth, pair, step, contact);

@@ -128,10 +128,8 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
   point.isotropic = (surface.mode & dContactMu2) == 0;
 
   const double cfm = (surface.mode & dContactSoftCFM) != 0 ? surface.soft_cfm : kConstraintSoftness;
-  const bool is_rigid = (surface.mode & dContactSoftERP) == 0;
-  const double erp = (surface.mode & dContactSoftERP) != 0 ? surface.soft_erp : kErrorReduction;
   soften(point.normal, cfm / step);
-  point.target = erp / step * std::max(found.contact.geom.depth - kSurfaceLayer, 0.0);
+  point.target = surface.soft_erp / step * std::max(found.contact.geom.depth - kSurfaceLayer, 0.0);
   const double motion = (surface.mode & dContactMotionN) != 0 ? surface.motionN : 0;
   point.target += motion;
   if ((surface.mode & dContactBounce) != 0) {
@@ -150,7 +148,7 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
     spin.rows = {make_turning_row(a, b, t1), make_turning_row(a, b, n.Cross(t1)), make_turning_row(a, b, n)};
   }
   // A rigid contact yields only to what it did not bear before: a stack does not sink.
-  if (is_rigid) point.target += point.normal.softness * std::max(start.Dot(n), 0.0) * step;
+  if (!found.has_own_correction) point.target += point.normal.softness * std::max(start.Dot(n), 0.0) * step;
   const Vector3 impulse = start * step;
   apply(point, point.normal, std::max(impulse.Dot(n), 0.0));
   for (SolvedRow& row : point.tangent) apply(point, row, impulse.Dot(row.direction));

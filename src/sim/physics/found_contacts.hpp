@@ -16,8 +16,9 @@ struct Collider;
 /// A contact point. Its normal points into the first shape of its pair.
 struct FoundContact {
   dContact contact{};
-  dJointFeedback feedback{};  ///< of ODE's contact joint, which keeps a pointer to it
-  Vector3 force;              ///< N, on the first shape, in world axes; known after the substep
+  bool has_own_correction = false;  ///< see SurfacePair
+  dJointFeedback feedback{};        ///< of ODE's contact joint, which keeps a pointer to it
+  Vector3 force;                    ///< N, on the first shape, in world axes; known after the substep
 };
 
 /// Two shapes that touch. The number of the first is the lower; it has a body.

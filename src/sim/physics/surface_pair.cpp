@@ -22,10 +22,11 @@ Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max
 
 /// Softness of a contact, in ODE's terms.
 struct Softness {
-  int mode = 0;
+  int mode = dContactSoftERP;  // the world's is that of the joints
   double erp = kErrorReduction;
   double cfm = 0;
   bool rigid = true;
+  bool has_own_correction = false;
 };
 
 /// Springs in series, dampers in parallel: their combined effect in a step.
@@ -36,11 +37,11 @@ Softness soften(const Surface& a, const Surface& b, double step) {
     const double kp = 1 / (compliance(a) + compliance(b));
     if (kp >= kStiff) return made;
     const double kd = a.kd.value_or(0) + b.kd.value_or(0);
-    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false};
+    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false, true};
   }
   if (const Optional erp = lower(a.soft_erp, b.soft_erp)) {
-    made.mode |= dContactSoftERP;
     made.erp = *erp;
+    made.has_own_correction = true;
   }
   if (const Optional cfm = higher(a.soft_cfm, b.soft_cfm)) {
     made.mode |= dContactSoftCFM;
@@ -80,6 +81,7 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.mode |= softness.mode;
   made.soft_erp = softness.erp;
   made.soft_cfm = softness.cfm;
+  pair.has_own_correction = softness.has_own_correction;
   pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
   // Sink to the full depth at once: otherwise each wheel rests at a different depth, and a robot leans.
   if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;

@@ -11,6 +11,7 @@ namespace bubblesim {
 struct SurfacePair {
   dSurfaceParameters ode{};
   const Surface* directed = nullptr;  ///< the surface whose fdir1 is used; null when none has a direction
+  bool has_own_correction = false;    ///< a stiffness or an error correction is given
   double sink = 0;                    ///< m, allowed penetration depth
   double sink_speed = 0;              ///< m/s, maximum sinking speed of a rigid contact; 0: not actively sunk
   double max_depth = 0;               ///< m; deeper overlaps are clamped to this, so that bodies do not fly apart

@@ -208,6 +208,10 @@ std::uint64_t World::state_hash() const {
       hash.add(dBodyGetAngularVel(body), 3);
       hash.add(static_cast<std::uint64_t>(dBodyIsEnabled(body)));
     }
+    for (const Rotation& rotation : model->rotations) {
+      const double ahead[] = {rotation.ahead().X(), rotation.ahead().Y(), rotation.ahead().Z()};
+      hash.add(ahead, 3);
+    }
     add_planar_motor(hash, model->planar_motor);
     add_rest(hash, *model);
   }

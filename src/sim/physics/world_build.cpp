@@ -67,6 +67,8 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
   ode::BodyHandle body(dBodyCreate(world));
   dBodySetMass(body.get(), &mass);
   dBodySetGravityMode(body.get(), link.gravity_enabled ? 1 : 0);
+  dBodySetGyroscopicMode(body.get(), 0);  // see rotation.hpp
+  dBodySetFiniteRotationMode(body.get(), 1);
   place_body(body.get(), link, pose);
   return body;
 }
@@ -123,6 +125,7 @@ class ModelBuilder {
     link.pose = pose;
     if (!model_.description.is_static) {
       link.body = make_body(state_.world.get(), description, pose);
+      if (Rotation::is_needed(link.body.get())) model_.rotations.emplace_back(link.body.get());
     }
     for (const CollisionDescription& collision : description.collisions) {
       add_collider(link, collision, is_watched(description, collision.name));
@@ -130,7 +133,16 @@ class ModelBuilder {
     for (const Collider& collider : model_.colliders) {
       if (collider.link == &link) measure(collider, link.sweep);
     }
-    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
+    for (const SensorDescription& sensor : description.sensors) add_link_sensor(link, sensor);
+  }
+
+  void add_link_sensor(const Link& link, const SensorDescription& sensor) {
+    const auto* imu = std::get_if<ImuDescription>(&sensor.kind);
+    if (imu != nullptr && link.body != nullptr) {
+      const Pose in_body(sensor.pose.Pos() - link.centre_of_mass, sensor.pose.Rot());
+      model_.motion_meters.emplace(model_.sensors.size(), MotionMeter(link.body.get(), in_body, imu->bandwidth));
+    }
+    model_.sensors.push_back(sensor.pose);
   }
 
   /// Sets the initial pose. Call it after the joints are created: their zero positions are those of the description.
@@ -190,10 +202,25 @@ class ModelBuilder {
       }
       joint.joint = make_joint(state_.world.get(), description, site);
     }
-    for (const SensorDescription& sensor : description.sensors) model_.sensors.push_back(sensor.pose);
-    if (joint.joint) meter_motors(joint, description, pose);
+    if (joint.joint) {
+      for (dBodyID body : {body_named(description.parent), child.body.get()}) {
+        // A pendulum keeps its energy better with ODE's other rotation: it is shorter, as the tangent is than its arc.
+        if (body != nullptr) dBodySetFiniteRotationMode(body, 0);
+        note_lever(model_, body, pose.Pos());
+      }
+      meter_motors(joint, description, pose);
+    }
     if (joint.joint && !description.sensors.empty()) {
       joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
+    }
+    for (const SensorDescription& sensor : description.sensors) {
+      const auto* force_torque = std::get_if<ForceTorqueDescription>(&sensor.kind);
+      if (joint.meter != nullptr && force_torque != nullptr) {
+        WrenchSignal& signal = joint.meter->signals.emplace_back(*force_torque);
+        signal.sensor = model_.sensors.size();
+        signal.in_child = joint.in_child * sensor.pose;
+      }
+      model_.sensors.push_back(sensor.pose);
     }
     model_.joints.push_back(std::move(joint));
   }
@@ -262,7 +289,6 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_)
   memory.reserve_minimum = kLeastMemory;
   dWorldSetStepMemoryReservationPolicy(world.get(), &memory);
   dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
-  dWorldSetERP(world.get(), kErrorReduction);
   dWorldSetCFM(world.get(), kConstraintSoftness);
   dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
   movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));

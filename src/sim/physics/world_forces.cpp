@@ -38,16 +38,59 @@ Wrench on_child(dJointID joint, const dJointFeedback& feedback, dBodyID child) {
   return {to_vector(feedback.f2), to_vector(feedback.t2)};
 }
 
-void gather_wrench(const World::State& state, const PlacedJoint& placed, double step) {
-  const Link& child = state.link(placed.child);
-  const Vector3 origin = (link_pose(child) * placed.in_child).Pos();
-  const Vector3 lever = to_vector(dBodyGetPosition(child.body.get())) - origin;
-  for (const JointReport& report : placed.meter->reports) {
-    const Wrench wrench = on_child(report.joint, report.feedback, child.body.get());
-    // The child exerts the opposite wrench on the parent.
-    placed.meter->sum.force -= wrench.force * step;
-    placed.meter->sum.torque -= (wrench.torque + lever.Cross(wrench.force)) * step;
+/// The axes of a force-torque sensor's readings, at the start of the substep.
+Quaternion axes_of(ForceTorqueDescription::Frame frame, const WrenchAccumulator& meter, const Quaternion& sensor) {
+  switch (frame) {
+    case ForceTorqueDescription::Frame::kChild:
+      return meter.child.Rot();
+    case ForceTorqueDescription::Frame::kParent:
+      return meter.parent;
+    case ForceTorqueDescription::Frame::kSensor:
+      break;
   }
+  return sensor;
+}
+
+void gather_wrench(const World::State& state, const PlacedJoint& placed, double step) {
+  WrenchAccumulator& meter = *placed.meter;
+  dBodyID child = state.link(placed.child).body.get();
+  Wrench total;  // of the parent on the child, about the child's centre of mass
+  for (const JointReport& report : meter.reports) {
+    const Wrench wrench = on_child(report.joint, report.feedback, child);
+    total.force += wrench.force;
+    total.torque += wrench.torque;
+  }
+  const auto torque_about = [&](const Vector3& point) {
+    return total.torque + (meter.child_centre - point).Cross(total.force);
+  };
+  // The child exerts the opposite wrench on the parent.
+  meter.sum.force -= total.force * step;
+  meter.sum.torque -= torque_about((meter.child * placed.in_child).Pos()) * step;
+  for (WrenchSignal& signal : meter.signals) {
+    const Pose sensor = meter.child * signal.in_child;
+    const double sign = signal.description.of_child ? -1 : 1;
+    const Quaternion axes = axes_of(signal.description.frame, meter, sensor.Rot());
+    signal.force.add(axes.RotateVectorReverse(total.force * sign), step);
+    signal.torque.add(axes.RotateVectorReverse(torque_about(sensor.Pos()) * sign), step);
+  }
+}
+
+void clear_meter(WrenchAccumulator& meter) {
+  meter.sum = {};
+  for (WrenchSignal& signal : meter.signals) {
+    signal.force.clear();
+    signal.torque.clear();
+  }
+}
+
+void aim_meter(const World::State& state, const PlacedJoint& placed) {
+  WrenchAccumulator& meter = *placed.meter;
+  // ODE leaves the feedback of a motor unchanged while it has no force.
+  for (JointReport& report : meter.reports) report.feedback = {};
+  const Link& child = state.link(placed.child);
+  meter.child = link_pose(child);
+  meter.child_centre = to_vector(dBodyGetPosition(child.body.get()));
+  if (placed.parent != kNoObject) meter.parent = link_pose(state.link(placed.parent)).Rot();
 }
 
 }  // namespace
@@ -66,8 +109,13 @@ std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child) {
   return meter;
 }
 
-void clear_reports(WrenchAccumulator& meter) {
-  for (JointReport& report : meter.reports) report.feedback = {};
+void aim_meters(World::State& state) {
+  for (PlacedModel* model : state.moving) {
+    for (auto& [index, meter] : model->motion_meters) meter.begin();
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.meter != nullptr) aim_meter(state, placed);
+    }
+  }
 }
 
 void forget_touches(World::State& state) { state.touches.clear(); }
@@ -75,9 +123,10 @@ void forget_touches(World::State& state) { state.touches.clear(); }
 void forget_forces(World::State& state) {
   forget_touches(state);
   state.steps = 0;
-  for (const PlacedModel* model : state.moving) {
+  for (PlacedModel* model : state.moving) {
+    for (auto& [index, meter] : model->motion_meters) meter.clear();
     for (const PlacedJoint& placed : model->joints) {
-      if (placed.meter != nullptr) placed.meter->sum = {};
+      if (placed.meter != nullptr) clear_meter(*placed.meter);
       for (const auto& meter : placed.motor_meters) {
         if (meter != nullptr) meter->clear();
       }
@@ -94,7 +143,8 @@ void gather_forces(World::State& state, double step) {
       if (pair.second->watched) add_point(state, pair, state.found.points[i], false, step);
     }
   }
-  for (const PlacedModel* model : state.moving) {
+  for (PlacedModel* model : state.moving) {
+    for (auto& [index, meter] : model->motion_meters) meter.end(step, state.gravity);
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) gather_wrench(state, placed, step);
       for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
@@ -127,6 +177,28 @@ Wrench World::joint_wrench(ObjectId joint) const {
   }
   if (state_->last_duration == 0) return {};
   return {placed->meter->sum.force / state_->last_duration, placed->meter->sum.torque / state_->last_duration};
+}
+
+Wrench World::sensor_wrench(ObjectId sensor) const {
+  const Object& object = state_->tree().at(sensor);
+  const PlacedModel& model = state_->model_of(sensor);
+  for (const PlacedJoint& placed : model.joints) {
+    if (placed.object != object.parent || placed.meter == nullptr) continue;
+    for (const WrenchSignal& signal : placed.meter->signals) {
+      if (signal.sensor == object.index) return {signal.force.value(), signal.torque.value()};
+    }
+  }
+  return {};  // of a static model
+}
+
+Inertial World::sensor_motion(ObjectId sensor) const {
+  const auto& meters = state_->model_of(sensor).motion_meters;
+  const auto found = meters.find(state_->tree().at(sensor).index);
+  if (found != meters.end() && found->second.has_value()) {
+    return {found->second.angular_velocity(), found->second.specific_force()};
+  }
+  const Quaternion axes = pose(sensor).Rot();
+  return {axes.RotateVectorReverse(velocity(sensor).angular), axes.RotateVectorReverse(-state_->gravity)};
 }
 
 }  // namespace bubblesim

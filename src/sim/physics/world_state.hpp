@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,8 +22,10 @@
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
 #include "physics/joints/motor_meter.hpp"
+#include "physics/motion_meter.hpp"
 #include "physics/ode_handles.hpp"
 #include "physics/prepared_model.hpp"
+#include "physics/rotation.hpp"
 #include "physics/sleep.hpp"
 
 namespace bubblesim {
@@ -66,10 +69,27 @@ struct JointReport {
   dJointFeedback feedback{};
 };
 
+/// A force-torque sensor of a joint: the wrench in its axes, substep by substep.
+struct WrenchSignal {
+  explicit WrenchSignal(const ForceTorqueDescription& description_)
+      : description(description_), force(description.bandwidth), torque(description.bandwidth) {}
+
+  const ForceTorqueDescription& description;
+  std::size_t sensor = 0;  // Object::index
+  Pose in_child;           // the sensor in the child link's frame
+  SubstepSignal force;     // N
+  SubstepSignal torque;    // N m, about the sensor's origin
+};
+
 /// Accumulates the wrench of a joint from the feedback of its ODE joints, which keep pointers to their reports.
 struct WrenchAccumulator {
   std::deque<JointReport> reports;
+  std::vector<WrenchSignal> signals;
   Wrench sum;  // over the substeps of the last advance(), N s and N m s
+  // At the start of the substep, to which ODE's forces refer:
+  Pose child;
+  Quaternion parent;
+  Vector3 child_centre;  // of mass, in the world
 };
 
 struct PlacedJoint {
@@ -111,6 +131,12 @@ struct ModelFrame {
   Pose in_canonical_link;
 };
 
+/// Distance of a body's centre of mass from one of its joints, m.
+struct Lever {
+  dBodyID body = nullptr;
+  double length = 0;
+};
+
 /// A model with its ODE objects; links, joints and sensors by Object::index. Members are destroyed in reverse order:
 /// joints and geoms before bodies.
 struct PlacedModel {
@@ -121,12 +147,15 @@ struct PlacedModel {
   std::shared_ptr<const PreparedModel> prepared;
   const ModelDescription& description;
   ModelFrame frame;
-  std::vector<ModelFrame> nested;  // of the nested models
-  std::deque<Link> links;          // a deque, because pointers to its elements are kept
-  ode::SpaceHandle space;          // its moving geoms, in World::State::movers; null when it is static
-  std::deque<Collider> colliders;  // likewise
+  std::vector<ModelFrame> nested;   // of the nested models
+  std::deque<Link> links;           // a deque, because pointers to its elements are kept
+  std::vector<Rotation> rotations;  // of the links with unequal moments of inertia
+  ode::SpaceHandle space;           // its moving geoms, in World::State::movers; null when it is static
+  std::deque<Collider> colliders;   // likewise
   std::vector<PlacedJoint> joints;
-  std::vector<Pose> sensors;  // in the frame of their link or joint
+  std::vector<Lever> levers;
+  std::vector<Pose> sensors;                         // in the frame of their link or joint
+  std::map<std::size_t, MotionMeter> motion_meters;  // of its inertial measurement units, by their index in `sensors`
   PlanarMotor planar_motor;
   Rest rest;
 };
@@ -237,12 +266,21 @@ void gather_contacts(World::State& state);
 
 /// Requests feedback of a joint from now on.
 std::unique_ptr<WrenchAccumulator> make_meter(dBodyID parent, dBodyID child);
-/// Call before each substep: ODE leaves the feedback of a motor unchanged while it has no force.
-void clear_reports(WrenchAccumulator& meter);
+/// Call before each substep.
+void aim_meters(World::State& state);
 /// Clears the sums at the start of an advance(), and accumulates ODE's feedback after each substep.
 void forget_touches(World::State& state);
 void forget_forces(World::State& state);
 void gather_forces(World::State& state, double step);
+
+/// Rotates the bodies with unequal moments of inertia: call before and after ODE's step.
+void begin_rotations(World::State& state, double step);
+void end_rotations(World::State& state, double step);
+
+/// Adds a body of a joint at `anchor`, in the world, to the levers of its model.
+void note_lever(PlacedModel& model, dBodyID body, const Vector3& anchor);
+/// Sets the part of the errors of joints that the next substep corrects.
+void correct_joints(const World::State& state, double step);
 
 /// Updates the devices that are due at the start of a substep.
 void update_devices(World& world, World::State& state, double time, double step);

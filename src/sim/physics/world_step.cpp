@@ -52,15 +52,18 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
     for (const PlacedModel* model : state.moving) {
       for (const PlacedJoint& placed : model->joints) {
         if (placed.joint) placed.joint->drive(step);
-        if (placed.meter != nullptr) clear_reports(*placed.meter);
         for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
           if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
         }
       }
     }
     join_contacts(state, step);
+    aim_meters(state);
+    correct_joints(state, step);
     note_motion(state);
+    begin_rotations(state, step);
     solve(state, step);
+    end_rotations(state, step);
     stop_at_impacts(state, step);
     gather_contacts(state);
     rest(state, step);

@@ -15,8 +15,9 @@ class Imu final : public Sensor {
     const World& world = moment.world;
     ImuReading reading;
     reading.orientation = world.pose(id_).Rot();
-    reading.angular_velocity = reading.orientation.RotateVectorReverse(world.velocity(id_).angular);
-    reading.linear_acceleration = reading.orientation.RotateVectorReverse(world.acceleration(id_) - world.gravity());
+    const Inertial motion = world.sensor_motion(id_);
+    reading.angular_velocity = motion.angular_velocity;
+    reading.linear_acceleration = motion.specific_force;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       distort(reading.angular_velocity[axis], description_.angular_velocity_noise[axis], moment, id_, axis);
       distort(reading.linear_acceleration[axis], description_.linear_acceleration_noise[axis], moment, id_, 3 + axis);

@@ -145,21 +145,40 @@ TEST(WideLimits, HoldBeyondHalfATurn) {
   EXPECT_NEAR(furthest, 4, 0.01);
 }
 
-TEST_P(AnyAxis, LimitsStopAMovingLink) {
-  for (const double side : {-1.0, 1.0}) {
+TEST_P(AnyAxis, LimitsStopAMovingLinkWithoutRebound) {
+  for (const double side : {-0.7, 1.0, 20.0}) {
     AxisDescription limited = test::axis(Vector3::UnitZ);
     limited.lower = -0.4;
     limited.upper = 0.4;
     Axis axis(GetParam(), limited);
     axis.push(side);
     double furthest = 0;
+    double back = 0;
     for (int i = 0; i < 600; ++i) {
       axis.run(kStep);
-      furthest = std::max(furthest, side * axis.position());
+      furthest = std::max(furthest, std::copysign(axis.position(), axis.position() * side));
+      back = std::min(back, std::copysign(1, side) * axis.velocity());
     }
-    EXPECT_NEAR(furthest, 0.4, 1.5 * kStep) << "overshoots by at most the distance of one step";
-    EXPECT_LE(std::abs(axis.velocity()), 0.21) << "rebounds at most with ODE's correction of the overshoot";
+    EXPECT_NEAR(std::abs(axis.position()), 0.4, 1e-6) << side << " m/s: it rests on the limit";
+    EXPECT_LT(furthest, 0.4 + 1e-6) << side;
+    EXPECT_GT(back, -1e-6) << side << " m/s: it never moves back";
   }
+}
+
+TEST_P(AnyAxis, LimitHoldsALinkThatFallsOnIt) {
+  AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  limited.lower = -0.4;
+  limited.upper = 0.4;
+  Axis axis(GetParam(), limited);
+  axis.world.set_target_effort(axis.joint, 300);
+  double back = 0;
+  for (int i = 0; i < 100; ++i) {
+    axis.run(kStep);
+    back = std::min(back, axis.velocity());
+    EXPECT_NEAR(axis.world.motor_effort(axis.joint), 300, 1e-6) << "without the stop's impulse";
+  }
+  EXPECT_NEAR(axis.position(), 0.4, 1e-6);
+  EXPECT_GT(back, -1e-6);
 }
 
 TEST_P(AnyAxis, LimitHoldsAgainstAMotorOfAnyForce) {

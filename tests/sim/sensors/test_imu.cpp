@@ -61,6 +61,43 @@ TEST(Imu, AwayFromTheAxisFeelsTheTurn) {
   expect_near(reading.linear_acceleration, {-kTurn * kTurn * kLever, 0, 0}, 1e-6);
 }
 
+TEST(Imu, FastTurnIsMeasuredInItsAxesAtEachMoment) {
+  constexpr double kTurn = 10;    // rad/s: half a radian in a simulation step
+  constexpr double kLever = 0.5;  // m
+  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero));
+  simulation.world().set_velocity(simulation.world().tree().find("/Robot"), {{}, {0, 0, kTurn}});
+  for (int i = 0; i < 7; ++i) simulation.step();
+  const ImuReading reading = measured(simulation);
+  expect_near(reading.linear_acceleration, {-kTurn * kTurn * kLever, 0, 0}, 1e-6);
+}
+
+TEST(Imu, OffTheCentreOfMassOfAHingedLink) {
+  constexpr double kTurn = 10;  // rad/s
+  LinkDescription arm = link("arm");
+  arm.centre_of_mass = {0.5, 0, 0};
+  ModelDescription robot = with_imu(arm, Pose(0.5, 0, 0, 0, 0, 0));
+  robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {}, "world", "arm"));
+  Simulation simulation(scene({robot}, Vector3::Zero));
+  simulation.world().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
+  for (int i = 0; i < 7; ++i) simulation.step();
+  expect_near(measured(simulation).linear_acceleration, {-kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);
+}
+
+TEST(Imu, BandwidthIsThatOfAFirstOrderLowPass) {
+  constexpr double kBandwidth = 2;  // Hz
+  constexpr double kForce = 3;      // N on 1 kg
+  ImuDescription slow;
+  slow.bandwidth = kBandwidth;
+  Simulation simulation(scene({with_imu(link("link"), {}, {}, slow)}, Vector3::Zero));
+  simulation.step();
+  for (int i = 1; i <= 4; ++i) {
+    simulation.world().apply_wrench(simulation.world().tree().find("/Robot"), {{kForce, 0, 0}, {}});
+    simulation.step();
+    const double wanted = kForce * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i));
+    expect_near(measured(simulation).linear_acceleration, {wanted, 0, 0}, 1e-9);
+  }
+}
+
 TEST(Imu, HasNoiseOnEachAxisForItself) {
   ImuDescription noisy;
   noisy.angular_velocity_noise[1].mean = 0.25;

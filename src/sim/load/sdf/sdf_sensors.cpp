@@ -94,8 +94,9 @@ LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path, Lo
   return description;
 }
 
-ImuDescription read_imu(const sdf::Imu& imu) {
+ImuDescription read_imu(const sdf::Imu& imu, LoadContext& reading) {
   ImuDescription description;
+  description.bandwidth = own_number(imu.Element(), "bubblesim:bandwidth", reading.problems()).value_or(0);
   description.angular_velocity_noise = {read_noise(imu.AngularVelocityXNoise()),
                                         read_noise(imu.AngularVelocityYNoise()),
                                         read_noise(imu.AngularVelocityZNoise())};
@@ -122,9 +123,10 @@ MagnetometerDescription read_magnetometer(const sdf::Magnetometer& magnetometer)
   return {{read_noise(magnetometer.XNoise()), read_noise(magnetometer.YNoise()), read_noise(magnetometer.ZNoise())}};
 }
 
-ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor) {
+ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor, LoadContext& reading) {
   using Frame = ForceTorqueDescription::Frame;
   ForceTorqueDescription description;
+  description.bandwidth = own_number(sensor.Element(), "bubblesim:bandwidth", reading.problems()).value_or(0);
   if (sensor.Frame() == sdf::ForceTorqueFrame::PARENT) description.frame = Frame::kParent;
   if (sensor.Frame() == sdf::ForceTorqueFrame::SENSOR) description.frame = Frame::kSensor;
   description.of_child = sensor.MeasureDirection() != sdf::ForceTorqueMeasureDirection::PARENT_TO_CHILD;
@@ -223,7 +225,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
     case sdf::SensorType::SONAR:
       return read_sonar(sensor, description, report);
     case sdf::SensorType::IMU:
-      description.kind = sensor.ImuSensor() != nullptr ? read_imu(*sensor.ImuSensor()) : ImuDescription{};
+      description.kind = sensor.ImuSensor() != nullptr ? read_imu(*sensor.ImuSensor(), reading) : ImuDescription{};
       return true;
     case sdf::SensorType::NAVSAT:
     case sdf::SensorType::GPS:
@@ -241,7 +243,7 @@ bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescrip
       description.kind = read_contact(sensor.Element());
       return true;
     case sdf::SensorType::FORCE_TORQUE:
-      description.kind = sensor.ForceTorqueSensor() != nullptr ? read_force_torque(*sensor.ForceTorqueSensor())
+      description.kind = sensor.ForceTorqueSensor() != nullptr ? read_force_torque(*sensor.ForceTorqueSensor(), reading)
                                                                : ForceTorqueDescription{};
       return true;
     case sdf::SensorType::LIDAR:

@@ -35,8 +35,7 @@ class Hinge final : public Joint {
     if (!counts_turns_) return;
     followed_ = position(0);
     // ODE compares angles from -pi to pi with the stops: shift the stops to the current turn.
-    const double turns = followed_ - dJointGetHingeAngle(joint_.get());
-    set_stops(0, axis(0).lower - turns, axis(0).upper - turns);
+    shift_limits(0, followed_ - dJointGetHingeAngle(joint_.get()));
   }
 
   ode::JointHandle joint_;

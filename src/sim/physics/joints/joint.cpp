@@ -13,6 +13,8 @@ namespace {
 
 /// Time constant of position control in s: one default simulation step.
 constexpr double kServoTime = 0.05;
+/// rad/s^2 or m/s^2. A stop takes part in a substep if the axis can reach it with this acceleration or twice its speed.
+constexpr double kReachOfStop = 1000;
 
 /// The rotation from `from` to `to` of at most half a turn.
 double shortest_turn(double from, double to) { return std::remainder(to - from, 2 * M_PI); }
@@ -21,6 +23,11 @@ bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) 
 
 bool needs_driving(const AxisDescription& axis) {
   return axis.motor == MotorMode::kPosition || axis.mimic || (axis.motor == MotorMode::kVelocity && has_limits(axis));
+}
+
+void set_range(const Motor& rows, double lower, double upper) {
+  rows.set(dParamLoStop, std::max(lower, -dInfinity));
+  rows.set(dParamHiStop, std::min(upper, dInfinity));
 }
 
 double target_speed(const AxisDescription& axis, double target) {
@@ -33,6 +40,9 @@ Joint::Joint(std::vector<AxisDescription> axes) {
   for (AxisDescription& description : axes) {
     if (needs_driving(description)) driven_.push_back(static_cast<int>(axes_.size()));
     if (description.spring_stiffness > 0) sprung_.push_back(static_cast<int>(axes_.size()));
+    if (has_limits(description) && description.lower < description.upper) {
+      stopped_.push_back(static_cast<int>(axes_.size()));
+    }
     axes_.emplace_back().description = std::move(description);
   }
 }
@@ -45,7 +55,8 @@ void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& 
   Axis& axis = axes_[index];
   const AxisDescription& description = axis.description;
   axis.rows = std::move(rows);
-  set_stops(static_cast<int>(index), description.lower, description.upper);
+  axis.rows->set(dParamStopERP, kErrorReduction);
+  if (description.lower == description.upper) set_range(*axis.rows, description.lower, description.upper);
 
   const Motor* free_rows = has_limits(description) ? nullptr : &*axis.rows;
   const auto take = [&](std::optional<Motor>& own) -> const Motor* {
@@ -64,12 +75,6 @@ void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& 
     if (description.damping > 0) axis.damper->damp(0, description.damping);
   }
   apply_motor(axis);
-}
-
-void Joint::set_stops(int axis, double lower, double upper) const {
-  const Motor& rows = *axes_[static_cast<std::size_t>(axis)].rows;
-  if (std::isfinite(lower)) rows.set(dParamLoStop, lower);
-  if (std::isfinite(upper)) rows.set(dParamHiStop, upper);
 }
 
 void Joint::apply_motor(Axis& axis) {
@@ -133,6 +138,7 @@ void Joint::drive(double step) {
   follow(step);
   for (const int index : driven_) drive_motor(index, step);
   for (const int index : sprung_) drive_spring(index, step);
+  for (const int index : stopped_) set_stops(index, step);
 }
 
 void Joint::drive_motor(int index, double step) {
@@ -169,6 +175,31 @@ void Joint::drive_spring(int index, double step) {
   const double coefficient = description.damping + step * description.spring_stiffness;
   const double force = description.spring_stiffness * (description.spring_reference - position(index));
   axis.damper->damp(force / coefficient, coefficient);
+}
+
+void Joint::set_stops(int index, double step) {
+  Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const double here = position(index) - axis.shift;
+  const double lower = axis.description.lower - axis.shift;
+  const double upper = axis.description.upper - axis.shift;
+  if (here < lower || here > upper) {
+    if (std::exchange(axis.stop, Stop::kBeyond) != Stop::kBeyond) axis.rows->set(dParamStopERP, kErrorReduction);
+    set_range(*axis.rows, lower, upper);
+    return;
+  }
+  // ODE's stop acts when the axis is beyond it; its error correction would then throw the axis back. In the substep
+  // that would pass the limit, the stop must hold v >= (lower - x) / h instead, with which the axis lands on the limit.
+  // ODE holds v >= -ERP (x - stop) / h if x <= stop: that is the same for ERP = -1 and the limit mirrored at x.
+  const double speed = velocity(index);
+  const double reach = kReachOfStop * step * step;
+  const double to_lower = here - lower - reach - 2 * step * std::max(-speed, 0.0);
+  const double to_upper = upper - here - reach - 2 * step * std::max(speed, 0.0);
+  const Stop stop = std::min(to_lower, to_upper) > 0 ? Stop::kNone : to_lower < to_upper ? Stop::kLower : Stop::kUpper;
+  if (stop == Stop::kNone && axis.stop == Stop::kNone) return;
+  if (axis.stop == Stop::kNone || axis.stop == Stop::kBeyond) axis.rows->set(dParamStopERP, -1);
+  axis.stop = stop;
+  set_range(*axis.rows, stop == Stop::kLower ? 2 * here - lower : -dInfinity,
+            stop == Stop::kUpper ? 2 * here - upper : dInfinity);
 }
 
 Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site) {

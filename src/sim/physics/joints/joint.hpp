@@ -63,11 +63,19 @@ class Joint {
   enum class Motion { kTurns, kSlides };
   /// Call for each axis in order, after the ODE joint is created. `rows` are the joint's rows of the axis.
   void add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line);
-  void set_stops(int axis, double lower, double upper) const;
+  /// Shifts the limits for ODE, which measures a position that is less by `shift`.
+  void shift_limits(int axis, double shift) { axes_[static_cast<std::size_t>(axis)].shift = shift; }
   /// Called before each substep.
   virtual void follow(double step);
 
  private:
+  /// What the row of an axis's stop does in a substep.
+  enum class Stop {
+    kNone,
+    kLower,  // it ends the motion at the limit
+    kUpper,
+    kBeyond  // the axis is beyond a limit and returns, as ODE has it
+  };
   struct Axis {
     AxisDescription description;
     double target_position = 0;
@@ -77,6 +85,8 @@ class Joint {
     // ODE handles the stop and the motor of an axis in one constraint: a motor that pushes against a stop becomes a
     // plain force, infinite without a limit. Therefore an axis with limits does not use the motor of its rows.
     std::optional<Motor> rows;
+    double shift = 0;  // rad or m, of ODE's positions
+    Stop stop = Stop::kNone;
     std::optional<Motor> own_motor, own_friction, own_damper;
     const Motor* motor = nullptr;     // points to one of the above; null in a gearbox
     const Motor* friction = nullptr;  // null when there is none
@@ -85,10 +95,12 @@ class Joint {
   void apply_motor(Axis& axis);
   void drive_motor(int index, double step);
   void drive_spring(int index, double step);
+  void set_stops(int index, double step);
 
   std::vector<Axis> axes_;
   std::vector<int> driven_;  // axes whose motor is set in each substep
   std::vector<int> sprung_;
+  std::vector<int> stopped_;  // axes with a range
 };
 
 /// The unit direction of an axis in the world, at the joint's site.

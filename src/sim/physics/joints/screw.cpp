@@ -33,7 +33,7 @@ class Screw final : public Joint {
   void follow(double step) override {
     const double angle = dJointGetPistonAngle(joint_.get());  // from -pi to pi
     const double turns = 2 * M_PI * std::round((position(0) - angle) / (2 * M_PI));
-    set_stops(0, axis(0).lower - turns, axis(0).upper - turns);
+    shift_limits(0, position(0) - angle);
     mesh(dJointGetPistonPosition(joint_.get()) - slope_ * (angle + turns), step);
   }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vector that a sensor measures in each substep.
+#pragma once
+
+#include <cmath>
+
+#include "bubblesim/math.hpp"
+
+namespace bubblesim {
+
+class SubstepSignal {
+ public:
+  /// `bandwidth` in Hz: the -3 dB frequency of a first-order low-pass filter; 0 for the mean since clear().
+  explicit SubstepSignal(double bandwidth) : bandwidth_(bandwidth) {}
+
+  /// Call at the start of a simulation step. The filter continues.
+  void clear() {
+    sum_ = Vector3::Zero;
+    time_ = 0;
+  }
+  void add(const Vector3& value, double step) {
+    sum_ += value * step;
+    time_ += step;
+    if (bandwidth_ <= 0) return;
+    filtered_ = started_ ? filtered_ + (value - filtered_) * (1 - std::exp(-2 * M_PI * bandwidth_ * step)) : value;
+    started_ = true;
+  }
+  /// Zero before the first value.
+  Vector3 value() const {
+    if (bandwidth_ > 0) return filtered_;
+    return time_ > 0 ? sum_ / time_ : Vector3::Zero;
+  }
+  bool has_value() const { return bandwidth_ > 0 ? started_ : time_ > 0; }
+
+ private:
+  double bandwidth_;
+  Vector3 sum_;
+  double time_ = 0;  // s
+  Vector3 filtered_;
+  bool started_ = false;
+};
+
+}  // namespace bubblesim
