@@ -51,11 +51,7 @@ struct Mover {
 
   ObjectId find(const std::string& path) const { return simulation.world().tree().find(path); }
 
-  /// Heading at a time. ODE turns by 2 atan(w h / 2) in a substep h.
-  double heading(double time) const {
-    const double substep = simulation.scene().substep;
-    return std::round(time / substep) * 2 * std::atan(turning * substep / 2);
-  }
+  double heading(double time) const { return turning * time; }
 
   /// Checks a reading against the state at its time.
   void check(const Reading& reading) const {
