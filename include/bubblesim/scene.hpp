@@ -74,12 +74,17 @@ struct Surface {
   bool collide_without_contact = false;  ///< other shapes pass through this one
 };
 
+/// What a mesh collides as. kAuto: its hull if it fills it; otherwise convex parts that fit if it moves, and triangles
+/// if it does not.
+enum class MeshCollision { kAuto, kHull, kParts, kTriangles };
+
 struct CollisionDescription {
   std::string name;
   Pose pose;  ///< in the link's frame
   Geometry geometry;
   Surface surface;
   Source source;
+  MeshCollision mesh_collision = MeshCollision::kAuto;
 };
 
 /// Red, green and blue, each from 0 to 1.

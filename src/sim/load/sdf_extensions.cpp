@@ -31,6 +31,7 @@ const std::vector<OwnElement>& sdf_extensions() {
       {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic
       {"bubblesim:frame", {"sensor"}},                   // frame_id of its messages
       {"bubblesim:signal", {"lidar", "ray"}},            // name of a string signal with the points
+      {"bubblesim:convex", {"collision"}},               // hull, parts or none
       {"bubblesim:checker_size", {"material"}},          // metres
       {"bubblesim:checker_color", {"material"}},         // red, green and blue
   };

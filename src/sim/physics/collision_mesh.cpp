@@ -24,8 +24,8 @@ constexpr std::size_t kTooManyInCubicMetre = 10'000;
 constexpr std::size_t kFewInCubicMetre = 3'000;
 // Of the division of a concave mesh into convex parts: a contact takes a few microseconds for each pair of parts.
 constexpr std::size_t kMostParts = 16;
-constexpr double kMostExcess = 0.05;           // of the mesh's volume, that the parts may add
-constexpr std::size_t kMostToDivide = 20'000;  // triangles; more take seconds
+constexpr double kMostExcess = 0.05;          // of the mesh's volume, that the parts may add
+constexpr std::size_t kMostToDivide = 5'000;  // triangles; these take a few tenths of a second
 
 /// Merges corners with equal positions: files repeat them, and each would make its own contacts.
 void take_surface(const TriangleMesh& mesh, CollisionMesh& result) {
@@ -69,11 +69,11 @@ void make_coarser(CollisionMesh& mesh) {
 
 std::string percent(double fraction) { return std::to_string(std::lround(100 * fraction)) + " %"; }
 
-/// Divides a concave mesh into convex parts; false when they would not fit it.
-bool take_parts(const TriangleMesh& mesh, CollisionMesh& result) {
-  const bool too_many = mesh.triangles.size() > kMostToDivide;
+/// Divides a concave mesh into convex parts; false when they do not fit it and must.
+bool take_parts(const TriangleMesh& mesh, bool must_fit, CollisionMesh& result) {
+  const bool too_many = must_fit && mesh.triangles.size() > kMostToDivide;
   const ConvexParts parts = too_many ? ConvexParts{} : convex_parts(mesh, kMostParts);
-  if (!too_many && parts.excess <= kMostExcess) {
+  if (!too_many && !parts.hulls.empty() && (!must_fit || parts.excess <= kMostExcess)) {
     for (const Hull& hull : parts.hulls) result.parts.push_back(make_part(hull));
     return true;
   }
@@ -82,18 +82,25 @@ bool take_parts(const TriangleMesh& mesh, CollisionMesh& result) {
                                  ? std::to_string(kMostParts) + " convex parts add " + percent(parts.excess) + " to it"
                                  : "its surface is not closed";
   result.remark = "concave mesh that moves, collides as triangles (" + reason +
-                  "): another mesh of triangles may throw it; divide it into several simpler collision shapes";
+                  "): another mesh of triangles may throw it; use several simpler shapes, or <bubblesim:convex>";
   return false;
 }
 
-std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh, bool moves) {
-  auto result = std::make_shared<CollisionMesh>();
+/// Takes the hull or convex parts, as the use wants; false when triangles are left to take.
+bool take_convex(const TriangleMesh& mesh, MeshUse use, CollisionMesh& result) {
+  if (use == MeshUse::kTriangles) return false;
   const Hull hull = convex_hull(mesh);
-  if (is_convex(mesh, hull)) {
-    result->parts.push_back(make_part(hull));
-    return result;
+  if (hull.triangles.empty()) return false;
+  if (use == MeshUse::kHull || is_convex(mesh, hull)) {
+    result.parts.push_back(make_part(hull));
+    return true;
   }
-  if (moves && take_parts(mesh, *result)) return result;
+  return use != MeshUse::kStatic && take_parts(mesh, use == MeshUse::kMoving, result);
+}
+
+std::shared_ptr<const CollisionMesh> prepare(const TriangleMesh& mesh, MeshUse use) {
+  auto result = std::make_shared<CollisionMesh>();
+  if (take_convex(mesh, use, *result)) return result;
   take_surface(mesh, *result);
   make_coarser(*result);
   result->data.reset(dGeomTriMeshDataCreate());
@@ -110,20 +117,20 @@ const TriangleTree& CollisionMesh::tree() const {
   return *tree_;
 }
 
-std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, bool moves) {
+std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, MeshUse use) {
   // Keyed by owner, not by address: a new mesh may have the address of an old one.
   using Known = std::map<std::weak_ptr<const TriangleMesh>, std::weak_ptr<const CollisionMesh>,
                          std::owner_less<std::weak_ptr<const TriangleMesh>>>;
   static std::mutex mutex;
-  static std::array<Known, 2> known_by_use;
+  static std::array<Known, 5> known_by_use;
   const std::scoped_lock lock(mutex);
-  Known& known = known_by_use[moves ? 1 : 0];
+  Known& known = known_by_use[static_cast<std::size_t>(use)];
   for (auto entry = known.begin(); entry != known.end();) {
     entry = entry->first.expired() ? known.erase(entry) : std::next(entry);
   }
   std::weak_ptr<const CollisionMesh>& shared = known[mesh];
   if (std::shared_ptr<const CollisionMesh> prepared = shared.lock()) return prepared;
-  std::shared_ptr<const CollisionMesh> prepared = prepare(*mesh, moves);
+  std::shared_ptr<const CollisionMesh> prepared = prepare(*mesh, use);
   shared = prepared;
   return prepared;
 }

@@ -32,9 +32,17 @@ struct CollisionMesh {
   mutable std::unique_ptr<const TriangleTree> tree_;
 };
 
-/// Each mesh is prepared once and shared by its users. A convex mesh is its hull; a concave one that moves is divided
-/// into convex parts if they fit it, otherwise its triangles collide. Very many triangles are simplified. `remark`
-/// tells about triangles that move or were simplified.
-std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, bool moves);
+/// What a mesh is prepared as. A flat mesh has no hull and stays triangles.
+enum class MeshUse {
+  kStatic,     // its hull if it fills it, otherwise triangles
+  kMoving,     // likewise, but a concave mesh is divided into convex parts if they fit it
+  kHull,       // its hull
+  kParts,      // convex parts, also if they do not fit it
+  kTriangles,  // as it is
+};
+
+/// Each mesh is prepared once for each use and shared by its users. Very many triangles are simplified. `remark` tells
+/// about concave meshes that move as triangles, and about simplification.
+std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, MeshUse use);
 
 }  // namespace bubblesim

@@ -21,11 +21,27 @@ bool is_prop(const ModelDescription& model) {
                      [](const LinkDescription& link) { return link.sensors.empty(); });
 }
 
-std::shared_ptr<const CollisionMesh> mesh_of(const Geometry& geometry, bool moves) {
-  if (const auto* mesh = std::get_if<Mesh>(&geometry)) return collision_mesh(mesh->triangles, moves);
-  const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry);
+MeshUse use_of(MeshCollision wanted, bool moves) {
+  switch (wanted) {
+    case MeshCollision::kHull:
+      return MeshUse::kHull;
+    case MeshCollision::kParts:
+      return MeshUse::kParts;
+    case MeshCollision::kTriangles:
+      return MeshUse::kTriangles;
+    case MeshCollision::kAuto:
+      break;
+  }
+  return moves ? MeshUse::kMoving : MeshUse::kStatic;
+}
+
+std::shared_ptr<const CollisionMesh> mesh_of(const CollisionDescription& collision, bool moves) {
+  if (const auto* mesh = std::get_if<Mesh>(&collision.geometry)) {
+    return collision_mesh(mesh->triangles, use_of(collision.mesh_collision, moves));
+  }
+  const auto* ellipsoid = std::get_if<Ellipsoid>(&collision.geometry);
   if (ellipsoid == nullptr || is_ball(*ellipsoid)) return nullptr;
-  return collision_mesh(tessellate(*ellipsoid), moves);  // ODE has no ellipsoids
+  return collision_mesh(tessellate(*ellipsoid), MeshUse::kHull);  // ODE has no ellipsoids
 }
 
 }  // namespace
@@ -42,7 +58,7 @@ std::shared_ptr<const PreparedModel> prepare_model(std::shared_ptr<const ModelDe
   prepared->is_prop = is_prop(*description);
   for (const LinkDescription& link : description->links) {
     for (const CollisionDescription& collision : link.collisions) {
-      auto mesh = mesh_of(collision.geometry, !description->is_static);
+      auto mesh = mesh_of(collision, !description->is_static);
       // Each mesh is reported for its first user.
       if (mesh != nullptr && !mesh->remark.empty() && warnings != nullptr && mesh.use_count() == 1) {
         warnings->push_back({collision.source.file, collision.source.line,

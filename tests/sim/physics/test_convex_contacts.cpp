@@ -9,6 +9,7 @@
 
 #include "bubblesim/world.hpp"
 #include "meshes/made_meshes.hpp"
+#include "physics/collision_mesh.hpp"
 #include "polyhedra.hpp"
 #include "scenes.hpp"
 #include "surfaces.hpp"
@@ -147,6 +148,27 @@ TEST(ConvexDrop, ConcaveMeshesComeToRest) {
   drop({iron}, floor(), 4);
   drop({iron, Mesh{hull_mesh(icosahedron(0.12))}, Box{{0.2, 0.1, 0.15}}}, still(model("Ground", link_with(hills()))),
        5);
+}
+
+TEST(ConvexContact, AnLCollidesAsTheDescriptionSays) {
+  const Mesh iron = angle_iron();
+  const auto prepared = [&](MeshUse use) { return collision_mesh(iron.triangles, use); };
+  EXPECT_EQ(prepared(MeshUse::kMoving)->parts.size(), 2U);
+  EXPECT_EQ(prepared(MeshUse::kParts)->parts.size(), 2U);
+  EXPECT_EQ(prepared(MeshUse::kHull)->parts.size(), 1U);
+  EXPECT_TRUE(prepared(MeshUse::kStatic)->parts.empty());
+  EXPECT_EQ(prepared(MeshUse::kTriangles)->indices.size(), iron.triangles->triangles.size() * 3);
+  // A ball falls into the corner of the L, but stays above its hull.
+  const auto height = [&](MeshCollision collision) {
+    ModelDescription fixed = still(model("Iron", link_with(iron), Pose(0, 0, 0, M_PI / 2, 0, 0)));
+    fixed.links[0].collisions[0].mesh_collision = collision;
+    World world(scene({fixed, solid("Ball", Sphere{0.02}, at(0.02, 0, 0.12))}), 0);
+    world.advance(0.2, kStep);
+    return world.pose(world.tree().find("/Ball")).Pos().Z();
+  };
+  EXPECT_NEAR(height(MeshCollision::kAuto), -0.005 + 0.02, 0.003);
+  EXPECT_NEAR(height(MeshCollision::kParts), -0.005 + 0.02, 0.003);
+  EXPECT_GT(height(MeshCollision::kHull), 0.03);
 }
 
 TEST(ConvexContact, DoesNotCatchOnTheEdgesInsideAGround) {

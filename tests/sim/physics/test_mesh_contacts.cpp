@@ -80,7 +80,7 @@ TEST(MeshContact, AThingRestsOnASurfaceThatIsTooFineToCollideWith) {
 
 TEST(MeshContact, ASurfaceThatIsTooFineIsSimplifiedWithinAMillimetre) {
   const auto wave = [](float x, float y) { return 0.05F * std::sin(6 * x) * std::cos(5 * y); };
-  const auto coarse = collision_mesh(fine_ground(300, wave), false);
+  const auto coarse = collision_mesh(fine_ground(300, wave), MeshUse::kStatic);
   EXPECT_LE(coarse->indices.size(), 3U * 4 * 3000) << "four cells of a metre meet at the origin";
   EXPECT_NE(coarse->remark.find("180000 triangles"), std::string::npos) << coarse->remark;
   for (std::size_t i = 0; i < coarse->indices.size(); i += 3) {
@@ -91,7 +91,7 @@ TEST(MeshContact, ASurfaceThatIsTooFineIsSimplifiedWithinAMillimetre) {
     }
     EXPECT_NEAR(middle.Z(), wave(static_cast<float>(middle.X()), static_cast<float>(middle.Y())), 0.001);
   }
-  const auto fine_enough = collision_mesh(fine_ground(60, wave), false);
+  const auto fine_enough = collision_mesh(fine_ground(60, wave), MeshUse::kStatic);
   EXPECT_EQ(fine_enough->indices.size(), 3U * 2 * 60 * 60);
   EXPECT_EQ(fine_enough->remark, "");
 }

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "bubblesim/nearest_names.hpp"
 #include "check/checks.hpp"
 #include "check/scene_check.hpp"
 #include "load/sdf/nearest_inertia.hpp"
@@ -22,6 +23,7 @@
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf/sdf_surface.hpp"
 #include "load/sdf/sdf_visuals.hpp"
+#include "load/sdf_extensions.hpp"
 #include "meshes/mesh_error.hpp"
 #include "scene/describe.hpp"
 
@@ -59,6 +61,19 @@ std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, cons
   return found;
 }
 
+MeshCollision read_mesh_collision(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading) {
+  const auto convex = own_text(collision, "bubblesim:convex");
+  if (!convex) return MeshCollision::kAuto;
+  if (*convex == "hull") return MeshCollision::kHull;
+  if (*convex == "parts") return MeshCollision::kParts;
+  if (*convex != "none") {
+    reading.report(source_of(collision, "bubblesim:convex"), path,
+                   "<bubblesim:convex> is '" + *convex + "', it must be hull, parts or none" +
+                       did_you_mean(*convex, {"hull", "parts", "none"}));
+  }
+  return MeshCollision::kTriangles;
+}
+
 std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const Pose& pose,
                                                    const std::string& link_path, LoadContext& reading) {
   CollisionDescription description;
@@ -79,6 +94,7 @@ std::optional<CollisionDescription> read_collision(const sdf::Collision& collisi
     return std::nullopt;
   }
   description.surface = read_surface(collision.Element(), path, reading);
+  description.mesh_collision = read_mesh_collision(collision.Element(), path, reading);
   return description;
 }
 
