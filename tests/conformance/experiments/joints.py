@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joint stops and chains with great mass ratios."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .experiment import Experiment, Tolerance, product_of
+from .mechanics import rotation
+from .scene import Body, Joint, Model, Scene, box_inertia, turned
+
+
+def inelastic(**case: Any) -> float:
+    """A stop without restitution takes all of the speed (Newton's law of impact with e = 0)."""
+    return 0.0
+
+
+def stop(engine: Any, kind: str, step: float) -> float:
+    """Let an arm or a slider fall against its stop; return the greatest speed back over that of the impact."""
+    place = (0.5, 0.0, 0.0) if kind == "revolute" else (0.0, 0.0, 0.0)
+    axis = (0.0, 1.0, 0.0) if kind == "revolute" else (0.0, 0.0, -1.0)
+    arm = Body("arm", 2.0, box_inertia(2.0, (1.0, 0.1, 0.1)), position=place)
+    joint = Joint("joint", kind, "world", "arm", axis, (0.0, 0.0, 0.0), lower=-2.0, upper=1.0)
+    world = engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
+    speeds = [0.0]
+    while world.time < 1.5:
+        world.run(step)
+        speeds.append(world.joint_velocity("joint"))
+    return -min(speeds) / max(speeds)
+
+
+def reached_theory(kind: str, step: float) -> float:
+    """The stop holds the joint at its limit."""
+    return 1.0
+
+
+def reached(engine: Any, kind: str, step: float) -> float:
+    """Return the position 1.5 s after the impact."""
+    place = (0.5, 0.0, 0.0) if kind == "revolute" else (0.0, 0.0, 0.0)
+    axis = (0.0, 1.0, 0.0) if kind == "revolute" else (0.0, 0.0, -1.0)
+    arm = Body("arm", 2.0, box_inertia(2.0, (1.0, 0.1, 0.1)), position=place)
+    joint = Joint("joint", kind, "world", "arm", axis, (0.0, 0.0, 0.0), lower=-2.0, upper=1.0)
+    world = engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
+    world.run(2.0)
+    return float(world.joint_position("joint"))
+
+
+LINKS = 10
+
+
+def closed(**case: Any) -> float:
+    """A joint has no gap."""
+    return 0.0
+
+
+def chain(engine: Any, ratio: float, step: float, link: float = 1.0, substeps: str = "") -> float:
+    """Swing a chain of ten links of 1 kg and a heavy last one from 30 degrees; return the widest gap in 5 s."""
+    bodies, joints = [], []
+    height = 2.0 * link * LINKS
+    physics = f"<bubblesim:substeps>{substeps}</bubblesim:substeps>" if substeps else ""
+    for i in range(LINKS):
+        mass = ratio if i == LINKS - 1 else 1.0
+        size = (0.05, 0.05, link) if i < LINKS - 1 else (0.4, 0.4, link)
+        bodies.append(Body(f"link{i}", mass, box_inertia(mass, size), position=(0, 0, -link * (i + 0.5))))
+        parent = f"link{i - 1}" if i else "world"
+        joints.append(Joint(f"joint{i}", "revolute", parent, f"link{i}", (0, 1, 0), (0, 0, -link * i)))
+    model = Model("chain", tuple(bodies), tuple(joints), (0, 0, height), turned((0, 1, 0), math.radians(30)))
+    world = engine(Scene((model,), step=step, ground=False, physics=physics))
+    top, half = np.array([0, 0, height]), np.array([0, 0, link / 2])
+    widest = 0.0
+    for _ in range(500):
+        world.run(0.01)
+        above = top
+        for body in bodies:
+            turn, place = rotation(world.orientation(body.name)), world.position(body.name)
+            widest = max(widest, float(np.linalg.norm(place + turn @ half - above)))
+            above = place - turn @ half
+        if not widest < 100:
+            return math.inf
+    return widest
+
+
+EXPERIMENTS = [
+    Experiment(
+        "stop",
+        "Joint stop, speed back over speed of impact",
+        "",
+        inelastic,
+        stop,
+        Tolerance("the correction of the overshoot of one step", absolute=0.02),
+        product_of(kind=("revolute", "prismatic"), step=(0.001, 0.002, 0.005)),
+    ),
+    Experiment(
+        "stop_position",
+        "Joint stop, position under load",
+        "rad, m",
+        reached_theory,
+        reached,
+        Tolerance("compliance of the stop", absolute=0.002),
+        product_of(kind=("revolute", "prismatic"), step=(0.001, 0.005)),
+    ),
+    Experiment(
+        "chain",
+        "Chain of ten with a heavy end, widest gap of a joint",
+        "m",
+        closed,
+        chain,
+        Tolerance("a thousandth of a link", absolute=0.001),
+        (
+            {"ratio": 1000.0, "step": 0.005},
+            {"ratio": 2000.0, "step": 0.005, "substeps": "auto"},
+            {"ratio": 10000.0, "step": 0.001},
+            {"ratio": 2000.0, "step": 0.005, "link": 0.2, "substeps": "auto"},
+        ),
+        peers=(),
+    ),
+]

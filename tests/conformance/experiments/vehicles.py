@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Vehicles whose motion depends on the loads of their wheels."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .experiment import Experiment, Tolerance, lowest, product_of
+from .scene import GRAVITY, Body, Joint, Model, Scene, Shape, box_inertia, sphere_inertia, turned
+
+
+def cart(
+    height: float,
+    *,
+    mass: float = 10.0,
+    base: float = 0.6,
+    track: float = 0.4,
+    mu: float = 0.5,
+    heading: float = 0.0,
+    locked: str = "front rear left right",
+    motor: str = "velocity",
+) -> Model:
+    """Return four spheres of 0.1 m under a chassis whose centre of mass is at `height`; heading in degrees."""
+    wheels, joints = [], []
+    for along, x in (("front", base / 2), ("rear", -base / 2)):
+        for side, y in (("left", track / 2), ("right", -track / 2)):
+            name = f"{along}_{side}"
+            place = (x, y, 0.1 - height)
+            shape = (Shape("sphere", (0.1,)),)
+            wheels.append(Body(name, 1.0, sphere_inertia(1.0, 0.1), shape, position=place, mu=mu))
+            held = along in locked.split() or side in locked.split()
+            joints.append(
+                Joint(f"{name}_axle", "revolute", "chassis", name, (0, 1, 0), place, motor if held else "", 5.0)
+            )
+    chassis = Body("chassis", mass, box_inertia(mass, (base, track, 0.1)))
+    turn = turned((0, 0, 1), math.radians(heading))
+    return Model("cart", (chassis, *wheels), tuple(joints), (0, 0, height), turn)
+
+
+def driven(engine: Any, model: Model, speed: float, step: float = 0.005) -> Any:
+    """Return a world in which a cart moves along its heading; its free wheels roll."""
+    world = engine(Scene((model,), step=step))
+    world.run(0.1)
+    direction = np.array([1 - 2 * model.orientation[2] ** 2, 2 * model.orientation[2] * model.orientation[3], 0])
+    rolling = {joint.name: speed / 0.1 for joint in model.joints if not joint.motor}
+    world.set_motion(model, tuple(float(x) for x in speed * direction), rolling)
+    return world
+
+
+def stopping_theory(heading: float) -> float:
+    """s = v^2 / (2 mu g) (Coulomb), here with 2 m/s and mu = 0.5."""
+    return 2**2 / (2 * 0.5 * GRAVITY)
+
+
+def stopping(engine: Any, heading: float) -> float:
+    """Return the way of a cart with locked wheels until it stops."""
+    world = driven(engine, cart(0.2, heading=heading), 2.0)
+    start = world.position("chassis")
+    world.run(2.0)
+    return float(np.linalg.norm((world.position("chassis") - start)[:2]))
+
+
+WHEEL, WHEELS, CHASSIS, RADIUS, BASE = 1.0, 4, 10.0, 0.1, 0.6  # kg, count, kg, m, m
+
+
+def brake_height() -> float:
+    """Return the height of the chassis that puts the common centre of mass at 0.6 of the wheel base."""
+    return (0.6 * BASE * (CHASSIS + WHEELS * WHEEL) - WHEELS * WHEEL * RADIUS) / CHASSIS
+
+
+def braking_theory(wheels: str, heading: float) -> float:
+    """Three linear equations for the deceleration a and the loads F, R of the axles, with h / L = 0.6 and mu = 0.5.
+
+    m a = mu B - I a / r^2, F + R = m g, (R - F) L / 2 + h m a = -I a / r. B is the load of the braked axle, I the
+    inertia of the two free wheels, whose spin slows down with the cart. With I = 0 this is the textbook's
+    mu g (L / 2) / (L +- mu h) (Gillespie, Fundamentals of Vehicle Dynamics, chapter 3).
+    """
+    total = CHASSIS + WHEELS * WHEEL
+    inertia, mu = 2 * 0.4 * WHEEL * RADIUS**2, 0.5
+    front, rear = (mu, 0.0) if wheels == "front" else (0.0, mu)
+    matrix = [
+        [total + inertia / RADIUS**2, -front, -rear],
+        [0, 1, 1],
+        [0.6 * BASE * total + inertia / RADIUS, -BASE / 2, BASE / 2],
+    ]
+    return float(np.linalg.solve(matrix, [0, total * GRAVITY, 0])[0])
+
+
+def braking(engine: Any, wheels: str, heading: float) -> float:
+    """Return the deceleration of a cart with one locked axle."""
+    world = driven(engine, cart(brake_height(), heading=heading, locked=wheels), 2.0)
+    world.run(0.15)
+    before = np.linalg.norm(world.velocity("chassis")[:2])
+    world.run(0.25)
+    return float(before - np.linalg.norm(world.velocity("chassis")[:2])) / 0.25
+
+
+def spot_rate(base: float, track: float, speed: float = 0.5) -> float:
+    """Return the yaw rate at which the friction of four equally loaded wheels has no torque about the centre."""
+    points = [(x, y) for x in (base / 2, -base / 2) for y in (track / 2, -track / 2)]
+
+    def torque(rate: float) -> float:
+        total = 0.0
+        for x, y in points:
+            drive = speed if y < 0 else -speed
+            slip = (-rate * y - drive, rate * x)
+            size = math.hypot(*slip)
+            total += (y * slip[0] - x * slip[1]) / size if size > 0 else 0.0
+        return total
+
+    return lowest(lambda rate: torque(rate) <= 0, 0.0, 2 * speed / track, 1e-9)
+
+
+def skid_steer_theory(base: float, track: float) -> float:
+    """The yaw rate without net torque of Coulomb's forces -mu N slip / |slip|, found by bisection (`spot_rate`).
+
+    For four equal loads it is 2 t u / (t^2 + b^2), with the speed u of the wheels, the track t and the base b.
+    """
+    return spot_rate(base, track)
+
+
+def skid_steer(engine: Any, base: float, track: float) -> float:
+    """Return the yaw rate of a cart that turns on the spot."""
+    world = engine(Scene((cart(0.15, base=base, track=track, mu=0.8),)))
+    for along in ("front", "rear"):
+        world.set_target(f"{along}_left_axle", -5.0)
+        world.set_target(f"{along}_right_axle", 5.0)
+    world.run(2.0)
+    rates = []
+    for _ in range(20):
+        world.run(0.1)
+        rates.append(world.spin("chassis")[2])
+    return float(np.mean(rates))
+
+
+EXPERIMENTS = [
+    Experiment(
+        "stopping",
+        "Locked wheels from 2 m/s in any direction, mu 0.5, distance",
+        "m",
+        stopping_theory,
+        stopping,
+        Tolerance("semi-implicit Euler is v dt / 2 = 5 mm short", relative=0.02),
+        product_of(heading=(0.0, 30.0, 45.0, 80.0)),
+    ),
+    Experiment(
+        "braking",
+        "Braking by one axle, mu 0.5, h/L 0.6, deceleration",
+        "m/s^2",
+        braking_theory,
+        braking,
+        Tolerance("the cart pitches by up to 1 mm of contact depth", relative=0.03),
+        product_of(wheels=("rear", "front"), heading=(0.0, 45.0)),
+    ),
+    Experiment(
+        "skid_steer",
+        "Skid steering on the spot, three ratios of base and track, yaw rate",
+        "rad/s",
+        skid_steer_theory,
+        skid_steer,
+        Tolerance("wheel loads vary while turning", relative=0.15),
+        ({"base": 0.5, "track": 0.4}, {"base": 0.4, "track": 0.4}, {"base": 0.3, "track": 0.4}),
+    ),
+]
