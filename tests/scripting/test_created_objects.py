@@ -64,7 +64,8 @@ one, two, top = (sim.createDummy(0.01) for _ in range(3))
 for handle in (one, two):
     sim.setObjectAlias(handle, 'tip')
     sim.setObjectParent(handle, car)
-assert sim.getObject('/tip') == sim.getObject('/Tricycle/tip') == sim.getObject('./tip') == sim.getObject(':/tip') == one
+assert sim.getObject('/tip') == sim.getObject('/Tricycle/tip') == one
+assert sim.getObject('./tip') == sim.getObject(':/tip') == one
 assert sim.getObject('/tip[1]') == sim.getObject('/tip', {'index': 1}) == two
 assert sim.getObject('/Dummy') == top and sim.getObject('./Dummy', {'noError': True}) == -1
 assert sim.getObject('/Nothing/tip', {'noError': True}) == -1

@@ -41,6 +41,25 @@ class Line:
     """Sent when the client has returned from the callbacks before it."""
     conversation: Conversation | None = None
     calls_back: bool = False
+    outer: list[tuple[Pending | None, bytes | None, Conversation | None]] = field(default_factory=list)
+    """The calls whose callbacks have made the current one."""
+
+    def begin_inner(self) -> None:
+        """Set the current call aside: its callback makes a call."""
+        self.outer.append((self.pending, self.reply, self.conversation))
+        self.pending = self.reply = self.conversation = None
+        self.calls_back = False
+
+    def end_inner(self) -> None:
+        """Go back to the call whose callback has made a call."""
+        self.pending, self.reply, self.conversation = self.outer.pop()
+        self.calls_back = True
+
+    def clear(self) -> None:
+        """Forget all calls."""
+        self.outer.clear()
+        self.pending = self.reply = self.conversation = None
+        self.calls_back = False
 
     @property
     def is_open(self) -> bool:

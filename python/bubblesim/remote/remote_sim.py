@@ -50,17 +50,17 @@ class RemoteSim(SimApi):
             return self._wait_for_wall_time(seconds)
         if self._stopped():
             raise RuntimeError("sim.wait: the simulation is stopped, its time does not pass")
-        end = self._simulation.time + seconds
+        end = self._simulation.state_time + seconds
         client = self._caller
 
         def is_done() -> bool:
-            passed = bool(self._simulation.time >= end - _TOLERANCE * self._simulation.time_step)
+            passed = bool(self._simulation.state_time >= end - _TOLERANCE * self._simulation.time_step)
             client.waits_for_time = not (passed or self._stopped())
             return not client.waits_for_time
 
         if is_done():
             return 0.0
-        return Pending(is_done, lambda: float(max(0.0, self._simulation.time - end)))
+        return Pending(is_done, lambda: float(max(0.0, self._simulation.state_time - end)))
 
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step."""

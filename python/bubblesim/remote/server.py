@@ -25,6 +25,7 @@ from bubblesim.scripting.host.started_programs import end_programs
 
 _SLICE = 0.005  # s of requests between two looks at other commands
 _MOST_CLIENTS = 2000
+_MOST_NESTED = 50  # calls in callbacks in calls
 _BETWEEN_LOOKS = 1.0  # s between two looks for clients that are silent for too long
 _ENDED = "the simulator has ended"
 
@@ -47,6 +48,7 @@ class RemoteServer:
         self._created = 0
         self._gate: int | None = None
         self._next_look = 0.0
+        self._ending = False
         self._info = protocol.encode({"ret": [_info()]})
         self._context = zmq.Context()
         self._socket = self._listen(address, port)
@@ -104,12 +106,15 @@ class RemoteServer:
             return
         for watch in self._watches:
             watch.close()
+        self._ending = True
+        self._serve()  # those who have just asked wait for an answer, too
         for line in list(self._lines.values()):
             if line.is_open:
                 fits = line.pending is not None and line.pending.fits_the_end
                 self._send(line, protocol.result(None) if fits else protocol.error(_ENDED))
         end_programs([program for client in self._clients.values() for program in client.programs])
         self._socket.disable_monitor()
+        self._monitor.close(0)
         self._socket.close()
         self._context.term()
 
@@ -205,12 +210,17 @@ class RemoteServer:
         elif request.function == protocol.END:
             self._forget(client)
             self._send(line, protocol.encode({}))
-        elif line.is_open:
+        elif (line.is_open and not line.calls_back) or len(line.outer) >= _MOST_NESTED:
             self._send(line, protocol.error("the previous call on this socket is not answered yet"))
         else:
+            if line.calls_back:  # a call in a callback
+                line.begin_inner()
             self._call(line, request, client)
 
     def _call(self, line: Line, request: protocol.Request, client: RemoteClient) -> None:
+        if self._ending:
+            self._send(line, protocol.error(_ENDED))
+            return
         try:
             if request.function == "zmqRemoteApi.info" and request.arguments == ["sim"]:
                 reply = self._info
@@ -255,8 +265,9 @@ class RemoteServer:
         line.calls_back = False
         if line.conversation is not None:
             self._go_on(line, values[0] if len(values) == 1 else tuple(values) or None)
-        else:
-            self._pump(line)
+            return
+        self._settle(line)
+        self._pump(line)
 
     def _go_on(self, line: Line, value: Any) -> None:
         assert line.conversation is not None
@@ -286,23 +297,30 @@ class RemoteServer:
             self._send(line, message)
         elif line.reply is not None:
             reply, line.reply = line.reply, None
+            if line.outer:
+                line.end_inner()
             self._send(line, reply)
 
     def _answer_pending(self) -> None:
         sent = False
         for line in list(self._lines.values()):
-            pending = line.pending
-            if pending is None or not pending.is_done():
-                continue
-            line.pending = None
-            try:
-                line.reply = protocol.result(pending.result())
-            except Exception as error:
-                line.reply = protocol.error(_text(error))
-            self._pump(line)
-            sent = True
+            if self._settle(line):
+                self._pump(line)
+                sent = True
         if sent:
             self._look_again()
+
+    def _settle(self, line: Line) -> bool:
+        """Turn a pending call into its reply if it is done."""
+        pending = line.pending
+        if pending is None or not pending.is_done():
+            return False
+        line.pending = None
+        try:
+            line.reply = protocol.result(pending.result())
+        except Exception as error:
+            line.reply = protocol.error(_text(error))
+        return True
 
     def _send(self, line: Line, message: bytes) -> None:
         parts = [line.identity, b"", message]
@@ -345,8 +363,7 @@ class RemoteServer:
 
     def _drop(self, line: Line) -> None:
         self._lines.pop(line.identity, None)
-        line.pending = line.reply = line.conversation = None
-        line.calls_back = False
+        line.clear()
         if line.client is not None:
             line.client.lines.pop(line.identity, None)
             if not line.client.lines:
@@ -357,8 +374,7 @@ class RemoteServer:
             del self._clients[uuid], self._modules[uuid]
         for line in list(client.lines.values()):
             line.client = None
-            line.pending = line.reply = line.conversation = None
-            line.calls_back = False
+            line.clear()
         client.lines.clear()
         end_programs(client.programs)
         client.programs = []
