@@ -8,6 +8,7 @@ rest. ZeroMQ's descriptors signal edges: after each use of a socket its events a
 from __future__ import annotations
 
 import ipaddress
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -16,6 +17,7 @@ from typing import Any
 import zmq
 from zmq.utils.monitor import recv_monitor_message
 
+from bubblesim._core import RunState
 from bubblesim.output import write_line
 from bubblesim.remote import protocol
 from bubblesim.remote.remote_client import Line, Pending, RemoteCallback, RemoteClient
@@ -24,6 +26,7 @@ from bubblesim.scripting.api.functions import functions
 from bubblesim.scripting.host.started_programs import end_programs
 
 _SLICE = 0.005  # s of requests between two looks at other commands
+_LINGER = 1  # ms for the next request of a client that has just got its reply
 _MOST_CLIENTS = 2000
 _MOST_NESTED = 50  # calls in callbacks in calls
 _BETWEEN_LOOKS = 1.0  # s between two looks for clients that are silent for too long
@@ -162,13 +165,22 @@ class RemoteServer:
     def _serve(self) -> bool:
         """Handle requests for a while; return whether there are more."""
         end = time.perf_counter() + _SLICE
-        try:
-            while True:
+        while True:
+            try:
                 self._receive()
-                if time.perf_counter() > end:
-                    return self._has_input()
-        except zmq.Again:
+            except zmq.Again:
+                if not self._may_linger() or not self._socket.poll(_LINGER):
+                    return False
+            if time.perf_counter() > end:
+                return self._has_input()
+
+    def _may_linger(self) -> bool:
+        """Return whether no step is late if this waits for the next request, which saves the change of threads."""
+        if self._ending:
             return False
+        if self._runner.state != RunState.RUNNING or math.isfinite(self._runner.speed):
+            return True
+        return self._gate is not None and not self._may_step()
 
     def _look_again(self) -> None:
         """Do what the descriptor may not signal any more, after the socket was used outside of _serve."""
