@@ -141,8 +141,9 @@ ParsedOptions parse_options(int argc, char** argv) {
           ->expected(0, 1)
           ->default_str("23000")
           ->check(CLI::Range(0, 65535));
-  app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)");
-  app.add_flag("--start", options.start, "with --remote: start the simulation at once");
+  app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)")
+      ->needs(remote);
+  app.add_flag("--start", options.start, "with --remote: start the simulation at once")->needs(remote);
   app.add_flag("--replace", options.replace, "shut down a running node of the same name");
   app.add_flag("--strict", options.strict, "end with exit code 3 when a script fails");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");

@@ -460,3 +460,25 @@ def test_bubblesim_connect_says_that_nobody_answers() -> None:
     port = free_port()
     with pytest.raises(TimeoutError, match=f"no answer from 127.0.0.1:{port}"):
         bubblesim.connect(port, timeout=0.2)
+
+
+def test_no_function_falls_over_odd_arguments(door: Door) -> None:
+    odd = [None, -5, 2**64 - 1, float("nan"), "text", b"bytes", [], [1, 2, 3], {"a": 1}, "f@func", "_*NIL*_"]
+    others = {"quitSimulator", "wait", "step", "switchThread", "stopSimulation", "pauseSimulation", "closeScene"}
+    socket = door.raw()
+
+    def call(function: str, *arguments: object) -> Any:
+        socket.send(cbor2.dumps({"func": function, "args": list(arguments), "uuid": "odd"}))
+        return cbor2.loads(socket.recv())
+
+    (known,) = call("zmqRemoteApi.info", "sim")["ret"]
+    names = sorted(name for name, entry in known.items() if "func" in entry and name not in others)
+    assert len(names) > 120
+    for name in names:
+        for arguments in ((), *((a,) for a in odd), *((a, b) for a in odd[:6] for b in odd)):
+            reply = call(f"sim.{name}", *arguments)
+            assert reply.keys() in ({"ret"}, {"err"}), (name, arguments, reply)
+            assert "incompatible function arguments" not in reply.get("err", ""), (name, arguments, reply)
+    assert call("sim.stopSimulation").keys() <= {"ret"}
+    assert call("sim.getSimulationState") == {"ret": [0]}
+    socket.close()
