@@ -138,7 +138,7 @@ sim.setBoolParam(sim.boolparam_display_enabled, False)
 assert sim.getBoolParam(sim.boolparam_realtime_simulation) is False
 assert '--speed' in refused(sim.setBoolParam, sim.boolparam_realtime_simulation, True)
 assert 'sim.arrayparam_gravity cannot be set' in refused(sim.setArrayParam, sim.arrayparam_gravity, [0, 0, -1])
-assert 'there is no intparam parameter 999' in refused(sim.getInt32Param, 999)
+assert 'the intparam parameter 999 is not supported' in refused(sim.getInt32Param, 999)
 motor = sim.getObject('/FrontMotor')
 assert sim.getObjectInt32Param(motor, sim.jointintparam_dynctrlmode) == sim.jointdynctrl_velocity
 assert sim.getObjectInt32Param(motor, sim.jointintparam_motor_enabled) == 1
