@@ -207,4 +207,6 @@ class ParameterFunctions(JointFunctions, RandomFunctions):
         return names[0] if names else f"{prefix} {parameter}"
 
     def _unknown(self, what: str, parameter: int, prefix: str) -> ValueError:
-        return ValueError(f"the {what} parameter {parameter} is not supported: use a constant of sim that begins with {prefix}")
+        return ValueError(
+            f"the {what} parameter {parameter} is not supported: use a constant of sim that begins with {prefix}"
+        )
