@@ -49,6 +49,7 @@ class ChildScripts final : public PythonSystem {
 
  private:
   friend class NodeServices;
+  friend class RemoteDoor;
 
   void after_call() override;
 

@@ -28,6 +28,8 @@ struct StepGate {
   std::function<std::string()> why_closed;
 };
 
+using GateId = std::uint64_t;
+
 struct RunnerOptions {
   double speed = 1;  ///< simulated seconds per second; infinity: as fast as possible
   RunState initial = RunState::kPaused;
@@ -42,7 +44,7 @@ struct RunnerOptions {
 };
 
 /// While run() or a thread of run_in_background() runs a simulation, other threads use it through this class only.
-/// Its functions are thread-safe, except run(), run_in_background(), finish() and set_gate().
+/// Its functions are thread-safe, except run(), run_in_background(), finish() and those for gates.
 ///
 /// Commands go to an inbox and are carried out between steps, in their order; they wake a runner that waits. The result
 /// is ready when the command has been carried out; it is an exception (NotCarriedOut) when that is not possible, or
@@ -106,8 +108,11 @@ class Runner {
   /// Puts a failure into the report.
   void report_failure(const std::string& why);
 
-  /// At most one gate; call it before run(), or on the runner's thread.
-  void set_gate(StepGate gate);
+  /// A step waits until all gates are open. Call these before run(), after it, or on the runner's thread, but not in a
+  /// function of a gate.
+  GateId add_gate(StepGate gate);
+  void remove_gate(GateId gate);
+  void remove_gates();
   /// Runs the simulation on this thread until end(), the time limit, is_ending, or a stop that ends it. Throws what a
   /// step throws, except a divergence that a reset can mend.
   void run();

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
         scene_folders,
         scene_names,
     )
+    from bubblesim.remote.connection import connect
 
 __all__ = [
     "AltimeterReading",
@@ -79,6 +80,7 @@ __all__ = [
     "Simulation",
     "Wind",
     "WrongObject",
+    "connect",
     "scene_folders",
     "scene_names",
 ]
@@ -88,6 +90,10 @@ def __getattr__(name: str) -> Any:
     """Load the core on first use: some commands of `bubblesim` do not need it, and loading takes 0.1 s."""
     if name not in __all__:
         raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
+    if name == "connect":
+        from bubblesim.remote.connection import connect
+
+        return connect
     from bubblesim import _core
 
     return getattr(_core, name)

@@ -18,6 +18,7 @@
 #include "bubblesim/gazebo_plugins.hpp"
 #include "bubblesim/node_services.hpp"
 #include "bubblesim/observers.hpp"
+#include "bubblesim/remote_door.hpp"
 #include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_system.hpp"
 #include "bubblesim/runner.hpp"
@@ -101,8 +102,9 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts)
   RunnerOptions how;
   how.speed = options.speed;
   how.initial = options.paused ? RunState::kPaused : RunState::kRunning;
+  if (options.remote_port && !options.start && !options.paused) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
-  how.ends_at_stop = !options.ros || options.until;  // nothing can or should start it again
+  how.ends_at_stop = (!options.ros && !options.remote_port) || options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
@@ -175,6 +177,11 @@ int run_scene(const Options& options, int& argc, char** argv) {
     simulation.add(*services);
   }
   if (observers) simulation.add(*observers);
+  std::unique_ptr<RemoteDoor> door;
+  if (options.remote_port) {
+    door = std::make_unique<RemoteDoor>(python, scripts, options.remote_address, *options.remote_port);
+    simulation.add(*door);
+  }
   counts.watch(scripts);
   const Finally end_of_scripts([&counts] { counts.keep(); });
 
@@ -186,6 +193,7 @@ int run_scene(const Options& options, int& argc, char** argv) {
     summarize(runner);
     throw;
   }
+  if (door) door->close();
   scripts.finish();
   guard.reset();
   summarize(runner);

@@ -14,6 +14,8 @@
 namespace bubblesim::app {
 namespace {
 
+constexpr int kRemotePort = 23000;  // of CoppeliaSim's ZeroMQ remote API
+
 double parse_speed(const std::string& text) {
   if (text == "max") return std::numeric_limits<double>::infinity();
   double speed = 0;
@@ -99,6 +101,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   bool list_scenes = false;
   bool no_ros = false;
   double until = 0;
+  int remote_port = kRemotePort;
 
   options.arguments = xacro_arguments(argc, argv);
   CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
@@ -131,6 +134,16 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_option("--record", options.record, "FILE: record the messages that scripts publish and receive in a bag");
   app.add_option("--lockstep", options.lockstep, "TOPIC: in each step, wait for one message on it (repeatable)")
       ->allow_extra_args(false);
+  CLI::Option* remote =
+      app.add_option("--remote", remote_port,
+                     "PORT: open the door for CoppeliaSim's remote client for Python (default 23000); the simulation "
+                     "is stopped until a client or ~unpause starts it")
+          ->expected(0, 1)
+          ->default_str("23000")
+          ->check(CLI::Range(0, 65535));
+  app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)")
+      ->needs(remote);
+  app.add_flag("--start", options.start, "with --remote: start the simulation at once")->needs(remote);
   app.add_flag("--replace", options.replace, "shut down a running node of the same name");
   app.add_flag("--strict", options.strict, "end with exit code 3 when a script fails");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
@@ -143,6 +156,7 @@ ParsedOptions parse_options(int argc, char** argv) {
     }
     if (options.scene.empty()) throw CLI::RequiredError("SCENE (see --list-scenes)");
     if (*until_option) options.until = until;
+    if (*remote) options.remote_port = remote_port;
     options.speed = parse_speed(speed);
     options.ros = !no_ros;
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");

@@ -37,7 +37,10 @@ struct Options {
   std::vector<std::string> allowed_programs;
   bool watch = false;
   std::filesystem::path record;
-  std::vector<std::string> lockstep;   ///< topics
+  std::vector<std::string> lockstep;  ///< topics
+  std::optional<int> remote_port;     ///< of the door for remote clients
+  std::string remote_address = "127.0.0.1";
+  bool start = false;                  ///< with the door, which otherwise leaves the start to a client
   std::vector<std::string> arguments;  ///< NAME:=VALUE, for a xacro scene
 };
 

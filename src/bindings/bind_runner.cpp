@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <functional>
 #include <future>
 #include <limits>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "bubblesim/file_watch.hpp"
 #include "bubblesim/runner.hpp"
 
 namespace bubblesim::bindings {
@@ -98,19 +100,37 @@ std::unique_ptr<Runner> make_runner(Simulation& simulation, double speed) {
   return std::make_unique<Runner>(simulation, std::move(options));
 }
 
-void set_gate(Runner& runner, py::function is_open, py::function why_closed) {
-  const auto with_gil = [](py::function function, auto as) {
-    // Destroyed with the GIL, wherever the runner is destroyed.
-    const std::shared_ptr<py::function> held(new py::function(std::move(function)), [](py::function* last) {
-      const py::gil_scoped_acquire gil;
-      delete last;  // NOLINT(cppcoreguidelines-owning-memory): the deleter of a shared_ptr
-    });
-    return [held, as] {
-      const py::gil_scoped_acquire gil;
-      return (*held)().template cast<decltype(as)>();
-    };
+/// Makes a Python function callable without the GIL; destroyed with the GIL, wherever the last copy is.
+template <class Result>
+std::function<Result()> with_gil(py::function function) {
+  const std::shared_ptr<py::function> held(new py::function(std::move(function)), [](py::function* last) {
+    const py::gil_scoped_acquire gil;
+    delete last;  // NOLINT(cppcoreguidelines-owning-memory): the deleter of a shared_ptr
+  });
+  return [held] {
+    const py::gil_scoped_acquire gil;
+    return (*held)().template cast<Result>();
   };
-  runner.set_gate({with_gil(std::move(is_open), bool()), with_gil(std::move(why_closed), std::string())});
+}
+
+GateId add_gate(Runner& runner, py::function is_open, py::function why_closed) {
+  return runner.add_gate({with_gil<bool>(std::move(is_open)), with_gil<std::string>(std::move(why_closed))});
+}
+
+void post(Runner& runner, py::function function) {
+  auto action = with_gil<py::object>(std::move(function));
+  runner.call([action = std::move(action)] {
+    const py::gil_scoped_acquire gil;  // for the result, too
+    try {
+      action();
+    } catch (py::error_already_set& error) {
+      error.discard_as_unraisable("a function that was posted to a runner");
+    }
+  });
+}
+
+std::unique_ptr<FileWatch> watch(Runner& runner, int descriptor, py::function serve) {
+  return std::make_unique<FileWatch>(runner, descriptor, with_gil<bool>(std::move(serve)));
 }
 
 using FramePtr = std::shared_ptr<const Frame>;
@@ -164,6 +184,10 @@ void bind_runner(py::module_& module) {
                              "n x 7 float32: x, y, z in m and the quaternion x, y, z, w of each link in the world.")
       .def_property_readonly("joint_positions", &joint_positions, "float32, rad or m.");
 
+  py::class_<FileWatch>(module, "FileWatch", "Calls a function of a runner when a file descriptor is readable.")
+      .def("close", &FileWatch::close, py::call_guard<py::gil_scoped_release>(),
+           "End it; after that the function is not called any more.");
+
   py::class_<Runner>(module, "Runner", R"(Runs a simulation on a thread of its own.
 
 >>> with bubblesim.Runner(bubblesim.Simulation("tricycle")) as runner:
@@ -204,12 +228,23 @@ itself refuses other threads. Commands are carried out between steps, in their o
            "step.")
       .def("call", &call_and_wait, py::arg("function"),
            "Call `function(simulation)` between two steps, and return what it returns.")
-      .def("set_gate", &set_gate, py::arg("is_open"), py::arg("why_closed"),
-           "Make each step wait until `is_open()` is true; `why_closed()` returns the reason of a timeout.")
+      .def("post", &post, py::arg("function"),
+           "Call `function()` between two steps, after the commands so far, without waiting for it.")
+      .def("add_gate", &add_gate, py::arg("is_open"), py::arg("why_closed"),
+           "Make each step wait until `is_open()` is true; `why_closed()` returns the reason of a timeout. Return a\n"
+           "number for `remove_gate`. While the runner runs, call both in its thread only.")
+      .def("remove_gate", &Runner::remove_gate, py::arg("gate"))
+      .def(
+          "watch", &watch, py::arg("descriptor"), py::arg("serve"), py::keep_alive<0, 1>(),
+          "Call `serve()` between two steps when a file descriptor is readable, and again as long as it returns true.\n"
+          "Return an object whose close() ends this.")
       .def_property_readonly(
           "simulation", [](Runner& runner) -> Simulation& { return runner.simulation(); },
           py::return_value_policy::reference_internal)
       .def_property_readonly("state", &Runner::state, "The RunState.")
+      .def_property_readonly(
+          "speed", [](const Runner& runner) { return runner.options().speed; },
+          "Simulated seconds per second; math.inf is as fast as possible.")
       .def_property_readonly("stop_is_due", &Runner::stop_is_due, "Whether a requested stop is pending.")
       .def_property_readonly(
           "frame", [](const Runner& runner) { return std::const_pointer_cast<Frame>(runner.frame()); },

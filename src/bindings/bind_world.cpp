@@ -66,6 +66,7 @@ void bind_world(py::module_& module) {
           py::arg("path"), py::arg("start") = kNoObject, py::arg("index") = 0)
       .def("name", [](const World& w, ObjectId id) { return w.tree().at(id).name; })
       .def("kind", [](const World& w, ObjectId id) { return std::string(kind_name(w.tree().at(id).kind)); })
+      .def("is_static", [](const World& w, ObjectId id) { return w.description(id).is_static; })
       .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })

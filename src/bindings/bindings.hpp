@@ -9,6 +9,7 @@ namespace bubblesim::bindings {
 void bind_messages(pybind11::module_& core);
 void bind_added_types(pybind11::module_& messages);
 void bind_bridge(pybind11::module_& core);
+void bind_cbor(pybind11::module_& core);
 void bind_scene(pybind11::module_& core);
 void bind_simulation(pybind11::module_& core);
 void bind_objects(pybind11::module_& core);

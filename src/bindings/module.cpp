@@ -16,4 +16,5 @@ PYBIND11_MODULE(_core, core) {
   bind_scene(core);
   bind_simulation(core);
   bind_runner(core);
+  bind_cbor(core);
 }

@@ -59,7 +59,7 @@ ChildScripts::ChildScripts(PythonEngine& engine, const ScriptOptions& options)
                               options.search_paths, py::arg("lua_unsafe") = options.lua_unsafe,
                               py::arg("allowed_programs") = options.allowed_programs,
                               py::arg("watch") = options.watch));
-    methods_->start();
+    if (engine.runner().state() != RunState::kStopped) methods_->start();
   });
 }
 

@@ -21,7 +21,7 @@ PythonEngine::PythonEngine(Runner& runner, messages::Bridge* bridge)
 
 PythonEngine::~PythonEngine() {
   const py::gil_scoped_acquire gil;
-  runner_.set_gate({});  // its functions may be Python's, and the runner outlives the interpreter
+  runner_.remove_gates();  // their functions may be Python's, and the runner outlives the interpreter
   objects_->runner = objects_->bridge = py::object();
 }
 

@@ -21,7 +21,7 @@ IN_PYTHON = """
         lambda inner: st.lists(inner, max_size=8) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
         max_leaves=8,
     )
-    FITTING = [1, 'a', b'a', [1, 2], [1, 2, 3], [1, 2, 3, 4], [1] * 7, {}, {'sec': 1, 'nanosec': 2}]
+    FITTING = [1, 'a', b'a', [1, 2], [1, 2, 3], [1, 2, 3, 4], [1] * 7, [1] * 12, {}, {'sec': 1, 'nanosec': 2}]
 
     def takes(kind, value):
         try:
@@ -75,6 +75,7 @@ LUA_VALUES: list[tuple[str, object]] = [
     ("{1, 2, 3}", [1, 2, 3]),
     ("{1, 2, 3, 4}", [1, 2, 3, 4]),
     ("{1, 2, 3, 4, 5, 6, 7}", [1, 2, 3, 4, 5, 6, 7]),
+    (f"{{{', '.join('1' * 12)}}}", [1] * 12),
     ("{1, 2}", [1, 2]),
     ("{sec = 1, nanosec = 2}", {"sec": 1, "nanosec": 2}),
     ("7", 7),

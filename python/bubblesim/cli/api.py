@@ -40,7 +40,8 @@ def _show(options: argparse.Namespace) -> int:
     if not wanted or wanted in MODULES:
         for name, function in known.items():
             if name.startswith(f"{wanted}." if wanted else ""):
-                print(f"{call(name, function)}: {_first_sentence(function)}")
+                mark = " (remote clients only)" if function.for_remote_only else ""
+                print(f"{call(name, function)}{mark}: {_first_sentence(function)}")
         return 0
     chosen = {name: f for name, f in known.items() if wanted in (name, f.name)} or {
         name: f for name, f in known.items() if wanted.lower() in name.lower()
@@ -63,8 +64,12 @@ def _described(name: str, function: ScriptFunction) -> str:
     kinds = kinds_of(MODULES[name.partition(".")[0]], function.name)
     width = max(map(len, kinds), default=0)
     for parameter in function.signature.parameters.values():
-        kind = kinds[parameter.name]
+        kind = kinds.get(parameter.name)
         optional = "" if parameter.default is inspect.Parameter.empty else ", optional"
         lines.append(f"  {parameter.name:{width}}  {kind.words if kind else 'anything'}{optional}")
+    if name.startswith("sim."):
+        lines.append(
+            f"  for {'remote clients only' if function.for_remote_only else 'child scripts and remote clients'}"
+        )
     lines.append(textwrap.fill(text(function), _WIDTH, initial_indent="  ", subsequent_indent="  "))
     return "\n".join(lines)

@@ -40,7 +40,7 @@ class LockStep:
         self._warned = False
         self._connections: object = None
         self._settled_at = 0.0
-        runner.set_gate(self.is_ready, self.timeout_reason)
+        runner.add_gate(self.is_ready, self.timeout_reason)
 
     def advertised(self, publisher: int) -> None:
         """Store the publisher, whose subscribers are checked before the second step."""

@@ -8,7 +8,25 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from bubblesim.scripting.dummies import Dummies
+
 Hook = Callable[[], object]
+
+
+class Scripts(Protocol):
+    """The child scripts, for calls between callers."""
+
+    def has_script(self, handle: int) -> bool:
+        """Return whether a script is attached to an object."""
+
+    def script_functions(self, handle: int) -> list[str]:
+        """Return the names of the global functions of an object's script."""
+
+    def call_script(self, handle: int, function: str, arguments: tuple[Any, ...]) -> Any:
+        """Call a global function of an object's script; raise RuntimeError if that fails."""
+
+    def remove_model(self, model: int) -> None:
+        """Remove a model and its scripts."""
 
 
 @dataclass
@@ -16,14 +34,24 @@ class SharedData:
     """Data shared by all callers of one simulation."""
 
     has_ros: bool
+    scripts: Scripts | None = None
+    """None outside of the node."""
+    dummies: Dummies = field(default_factory=Dummies)
+    custom_data: dict[tuple[int, str], Any] = field(default_factory=dict)
+    """By object, -12 for the scene, and name; stays after a stop."""
+    loaded_models: list[int] = field(default_factory=list)
+    """Handles of the models that callers have added."""
+    settings: dict[tuple[type, int | str], Any] = field(default_factory=dict)
+    """Parameters that only store their value, by kind and number or name; stay after a stop."""
     signals: dict[tuple[type, str], Any] = field(default_factory=dict)
     """By kind and name."""
     cleared_scans: dict[str, float] = field(default_factory=dict)
     """Time of the last measurement, s, when a lidar's signal was cleared, by the signal's name."""
 
     def clear(self) -> None:
-        """Delete all values."""
+        """Delete what ends with a run."""
         self.signals.clear()
+        self.dummies.end_run()
         self.cleared_scans.clear()
 
 
@@ -32,6 +60,8 @@ class Caller(Protocol):
 
     object_path: str
     object_handle: int
+    """-1 for a remote client, which is not attached to an object."""
+    is_remote: bool
     shared: SharedData
     at_end: dict[Hashable, Hook]
     """Functions that release the caller's resources, by resource; run when the caller ends."""

@@ -80,13 +80,28 @@ void RunLoop::carry_out_commands() {
 /// Whether the simulation may run by itself.
 bool RunLoop::may_step() const { return state_ == RunState::kRunning && (!synchronous_ || triggers_ > 0); }
 
-bool RunLoop::step_is_due() const { return (order_ || may_step()) && (!gate_.is_open || gate_.is_open()); }
+bool RunLoop::step_is_due() const { return (order_ || may_step()) && closed_gate() == nullptr; }
+
+GateId RunLoop::add_gate(StepGate gate) {
+  gates_.emplace(next_gate_, std::move(gate));
+  return next_gate_++;
+}
+
+/// The first gate that is not open; null if all are.
+const StepGate* RunLoop::closed_gate() const {
+  for (const auto& [id, gate] : gates_) {
+    if (!gate.is_open()) return &gate;
+  }
+  return nullptr;
+}
 
 void RunLoop::wait_for_input() {
   simulation_.process_input();
   publish_frame();
   if (step_is_due()) return;
-  if (order_.has_waited(kGateTimeout)) order_.fail(gate_.why_closed());
+  if (order_.has_waited(kGateTimeout)) {
+    if (const StepGate* closed = closed_gate()) order_.fail(closed->why_closed());
+  }
   const AccessLock::Pause others_may_use_it(simulation_.world().access());
   inbox_.wait_for_input(Clock::now() + kIdlePeriod);
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -24,7 +25,9 @@ class RunLoop {
   void run();
   /// Refuses what is asked for, from here on.
   void close();
-  void set_gate(StepGate gate) { gate_ = std::move(gate); }
+  GateId add_gate(StepGate gate);
+  void remove_gate(GateId gate) { gates_.erase(gate); }
+  void remove_gates() { gates_.clear(); }
 
   // What commands do:
   RunState start();
@@ -46,6 +49,7 @@ class RunLoop {
   void carry_out_commands();
   bool may_step() const;
   bool step_is_due() const;
+  const StepGate* closed_gate() const;
   void wait_for_input();
   bool wait_for_time();
   void run_step();
@@ -56,7 +60,8 @@ class RunLoop {
   Inbox inbox_;
   Pacer pacer_;
   RunMeter meter_;
-  StepGate gate_;
+  std::map<GateId, StepGate> gates_;
+  GateId next_gate_ = 0;
   StepOrder order_;
   std::atomic<RunState> state_;
   bool ending_ = false;

@@ -100,7 +100,11 @@ std::string Runner::summary() { return impl_->loop.meter().summary(); }
 
 void Runner::report_failure(const std::string& why) { impl_->loop.meter().fail(why); }
 
-void Runner::set_gate(StepGate gate) { impl_->loop.set_gate(std::move(gate)); }
+GateId Runner::add_gate(StepGate gate) { return impl_->loop.add_gate(std::move(gate)); }
+
+void Runner::remove_gate(GateId gate) { impl_->loop.remove_gate(gate); }
+
+void Runner::remove_gates() { impl_->loop.remove_gates(); }
 
 void Runner::run() {
   /// Knows the thread, and lets no command wait for ever.

@@ -60,7 +60,8 @@ std::vector<std::string_view> split(std::string_view path) {
 
 // Free places that are kept, so that handles come back late.
 constexpr std::size_t kMostFree = 1024;
-constexpr std::uint32_t kGenerations = 1U << 11U;
+// The last generation is left to handles that the scripts' side makes itself: of dummies.
+constexpr std::uint32_t kGenerations = (1U << 11U) - 1;
 
 }  // namespace
 

@@ -236,7 +236,7 @@ TEST_F(Run, AClosedGateHoldsBackStepsUntilInputOpensIt) {
   bool open = false;
   witness.on_input = [&] { open = open || arrived; };
   witness.on_step = [&] { open = arrived = false; };
-  runner->set_gate({[&] { return open; }, [] { return "no answer"; }});
+  runner->add_gate({[&] { return open; }, [] { return "no answer"; }});
   runner->run_in_background();
   for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
   EXPECT_EQ(runner->frame()->time, 0);
@@ -245,6 +245,23 @@ TEST_F(Run, AClosedGateHoldsBackStepsUntilInputOpensIt) {
   while (runner->frame()->time == 0) std::this_thread::yield();
   for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
   EXPECT_DOUBLE_EQ(runner->frame()->time, kStep);
+}
+
+TEST_F(Run, AStepWaitsForAllGates) {
+  make(fast(RunState::kRunning));
+  bool first = false;
+  bool second = true;
+  const auto reason = [] { return "no answer"; };
+  runner->add_gate({[&] { return first; }, reason});
+  const GateId other = runner->add_gate({[&] { return second; }, reason});
+  runner->run_in_background();
+  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  EXPECT_EQ(runner->frame()->time, 0);
+  runner->call([&] { std::swap(first, second); }).get();
+  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  EXPECT_EQ(runner->frame()->time, 0);
+  runner->call([&] { runner->remove_gate(other); }).get();
+  while (runner->frame()->time == 0) std::this_thread::yield();
 }
 
 TEST_F(Run, KeepsToItsSpeed) {

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 import operator
 import typing
 from collections.abc import Callable, Sized
 from dataclasses import dataclass
-from typing import Any, SupportsIndex, TypeVar
+from typing import Any, SupportsIndex, TypeVar, cast
 
 from bubblesim.scripting.api.kinds import HANDLE, PLAIN, HandleError, Kind, MismatchError, shown
 from bubblesim.scripting.api.missing_names import explain
@@ -34,6 +35,7 @@ class ScriptFunction:
     signature: inspect.Signature  # without self
     doc: str
     group: type  # the class that defines the function; its group in the reference
+    for_remote_only: bool  # the other callers get an error
 
 
 class ArgumentError(TypeError):
@@ -51,6 +53,18 @@ def script_module(name: str) -> Callable[[Module], Module]:
         return module
 
     return register
+
+
+def variant_of_module(name: str) -> Callable[[Module], Module]:
+    """Let the functions that a subclass of a module defines anew check their arguments, too."""
+
+    def complete(module: Module) -> Module:
+        for function_name, function in _public_methods(module):
+            if function_name in vars(module):
+                setattr(module, function_name, _checked(f"{name}.{function_name}", function))
+        return module
+
+    return complete
 
 
 def value_first(function: Function) -> Function:
@@ -71,6 +85,19 @@ def any_time(function: Function) -> Function:
     return function
 
 
+def for_remote_only(function: Function) -> Function:
+    """Mark a function that only remote clients may call: a child script runs inside of what it would change."""
+
+    @functools.wraps(function)
+    def call(self: Any, *arguments: Any) -> Any:
+        if not self._caller.is_remote:
+            raise RuntimeError(f"sim.{function.__name__} is for remote clients; a child script cannot call it")
+        return function(self, *arguments)
+
+    call.for_remote_only = True  # type: ignore[attr-defined]
+    return cast(Function, call)
+
+
 def checked_on_failure(function: Function) -> Function:
     """Check the arguments only if the call raises a TypeError: for functions with critical run time."""
     function.checked_on_failure = True  # type: ignore[attr-defined]
@@ -82,7 +109,8 @@ def functions(module: type) -> list[ScriptFunction]:
     found = []
     for name, function in _public_methods(module):
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
-        found.append(ScriptFunction(name, _signature(function), inspect.getdoc(function) or "", group))
+        doc = inspect.getdoc(function) or ""
+        found.append(ScriptFunction(name, _signature(function), doc, group, hasattr(function, "for_remote_only")))
     return found
 
 
@@ -126,8 +154,10 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
     converters = [kind.convert if kind else _unchanged for kind in kinds]
     reorder = getattr(function, "reorder", None)
     at_any_time = hasattr(function, "any_time")
-    most = len(converters)
-    least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values())
+    variadic = any(p.kind is inspect.Parameter.VAR_POSITIONAL for p in signature.parameters.values())
+    fixed = len(converters) - variadic
+    most = math.inf if variadic else fixed
+    least = sum(p.default is inspect.Parameter.empty for p in signature.parameters.values()) - variadic
 
     @functools.wraps(function)
     def call_first(*arguments: Any, **named: Any) -> Any:  # including self, which is faster
@@ -153,11 +183,12 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
         if named or not least <= len(arguments) <= most:
             arguments = _bound(full_name, signature, arguments, named)
         try:
-            return tuple(map(operator.call, converters, arguments))  # stops where defaults begin
+            taken = tuple(map(operator.call, converters[:fixed], arguments))  # stops where defaults begin
+            return taken + arguments[fixed:]
         except (TypeError, ValueError, OverflowError):
             raise _argument_error(full_name, signature, kinds, arguments) from None
 
-    plain = _plain_types(kinds, least)
+    plain = _plain_types(kinds[:fixed], least)
 
     @functools.wraps(function)
     def call(self: Any, /, *arguments: Any, **named: Any) -> Any:

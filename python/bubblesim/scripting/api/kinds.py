@@ -79,6 +79,14 @@ def numbers(count: int) -> Kind:
     return Kind(f"{count} numbers", convert)
 
 
+def _matrix(values: Any) -> list[float]:
+    """Return the upper three rows of a matrix."""
+    taken = _numbers(values)
+    if len(taken) not in (12, 16):
+        raise MismatchError(f"found {len(taken)}")
+    return taken[:12]
+
+
 def _numbers(values: Any) -> list[float]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise TypeError
@@ -112,6 +120,7 @@ Handle = Annotated[int, HANDLE]
 Vector3 = Annotated[list[float], numbers(3)]
 Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]
+Vector12 = Annotated[list[float], Kind("12 or 16 numbers, the rows of a matrix", _matrix)]
 Numbers = Annotated[list[float], Kind("a list of numbers", _numbers)]
 Integers = Annotated[list[int], Kind("a list of integers", _integers)]
 Bytes = Annotated[bytes, Kind("bytes", _bytes)]

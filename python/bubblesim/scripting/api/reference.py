@@ -39,13 +39,18 @@ def _title(group: type, module: type) -> str:
 
 
 def _entry(module: str, function: ScriptFunction) -> str:
-    return f"- `{call(f'{module}.{function.name}', function)}`: {text(function)}"
+    mark = " *(remote clients only)*" if function.for_remote_only else ""
+    return f"- `{call(f'{module}.{function.name}', function)}`{mark}: {text(function)}"
 
 
 def call(name: str, function: ScriptFunction) -> str:
     """Return the signature of a function with its defaults."""
     arguments = ", ".join(
-        name if parameter.default is inspect.Parameter.empty else f"{name}={_shown(parameter.default)}"
+        f"*{name}"
+        if parameter.kind is inspect.Parameter.VAR_POSITIONAL
+        else name
+        if parameter.default is inspect.Parameter.empty
+        else f"{name}={_shown(parameter.default)}"
         for name, parameter in function.signature.parameters.items()
     )
     return f"{name}({arguments})"

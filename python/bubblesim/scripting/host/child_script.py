@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import difflib
 import sys
 from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.messages.names import did_you_mean
 from bubblesim.output import write_line
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
@@ -33,6 +35,7 @@ class ChildScript:
         self.object_path = object_path
         self.object_handle = object_handle
         self.file = file
+        self.is_remote = False
         self.alive = True
         self.failed = False
         self.failure = ""  # the first line of its error
@@ -198,6 +201,33 @@ class ChildScript:
                 f"error: child script of {self.object_path} was interrupted in {where} and is disabled: it did not "
                 "return while a stop or a reset was pending"
             )
+
+    def functions(self) -> list[str]:
+        """Return the names of its global functions."""
+        return sorted(name for name in self._code.functions_by_name() if callable(self._code.function(name)))
+
+    def call_function(self, name: str, arguments: tuple[Any, ...]) -> Any:
+        """Call a global function for another caller, which gets its errors as a RuntimeError."""
+        target = self._code.function(name) if self.alive else None
+        if not self.alive:
+            raise RuntimeError(f"the child script of {self.object_path} has failed or ended: it cannot be called")
+        if not callable(target):
+            near = did_you_mean(difflib.get_close_matches(name, self.functions(), n=2))
+            raise RuntimeError(f"the child script of {self.object_path} has no function '{name}'{near}")
+        results: list[Any] = []
+        errors: list[Exception] = []
+
+        def call() -> None:
+            try:
+                results.append(target(*arguments))
+            except Exception as error:  # the caller's problem: the script goes on
+                errors.append(error)
+
+        self.run(f"the function {name}", call)
+        if results:
+            return results[0]
+        why = self._code.reason(errors[0]) if errors else "it was interrupted"
+        raise RuntimeError(f"{name} of the child script of {self.object_path}: {why}")
 
     def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
         """Return a callback that ends the script on failure. ``function`` may be the name of a global of the script."""

@@ -61,7 +61,7 @@ class ScriptHost:
         self.disabled = 0  # number of loaded scripts that have failed
         self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
-        self.shared = SharedData(has_ros=bridge is not None)
+        self.shared = SharedData(has_ros=bridge is not None, scripts=self)
         self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
@@ -106,6 +106,11 @@ class ScriptHost:
         """Call sysCall_cleanup of the scripts of a model that is about to be removed, and remove them."""
         ending = self._scripts_of(model)
         _finish(ending)
+        tree = self.simulation.world
+        gone = {model, *(int(o.handle) for o in self.simulation.objects if tree.outermost_model_of(o.handle) == model)}
+        self.shared.dummies.remove_below(gone)
+        for key in [key for key in self.shared.custom_data if key[0] in gone]:
+            del self.shared.custom_data[key]
         self._keep([script for script in self.scripts if script not in ending])
         model_of = self.simulation.world.outermost_model_of
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
@@ -115,6 +120,26 @@ class ScriptHost:
         if any(script.running for script in self._scripts_of(model)):
             raise RuntimeError("a child script cannot remove its own model")
         self.simulation.remove_model(model)
+
+    def has_script(self, handle: int) -> bool:
+        """Return whether a script is attached to an object."""
+        return any(placed == handle for _, placed, _ in self._placed)
+
+    def script_functions(self, handle: int) -> list[str]:
+        """Return the names of the global functions of an object's script."""
+        return self._script_at(handle).functions()
+
+    def call_script(self, handle: int, function: str, arguments: tuple[Any, ...]) -> Any:
+        """Call a global function of an object's script; raise RuntimeError if that fails."""
+        return self._script_at(handle).call_function(function, arguments)
+
+    def _script_at(self, handle: int) -> ChildScript:
+        for script in self.scripts:
+            if script.object_handle == handle:
+                return script
+        if self.has_script(handle):
+            raise RuntimeError("the simulation is stopped: its scripts can be called when it has been started")
+        raise RuntimeError(f"{self.simulation.world.short_path(handle)} has no child script")
 
     def _scripts_of(self, model: int) -> list[ChildScript]:
         model_of = self.simulation.world.outermost_model_of

@@ -46,9 +46,83 @@ class SimConstants:
     jointdynctrl_velocity = 4
     jointdynctrl_position = 8
 
+    jointintparam_motor_enabled = 2000
+    jointfloatparam_velocity = 2012
+    jointfloatparam_upper_limit = 2017
+
     object_shape_type = 0
     object_joint_type = 1
     object_dummy_type = 4
     object_proximitysensor_type = 5
     object_visionsensor_type = 9
     object_forcesensor_type = 12
+
+    scripttype_main = 0
+    scripttype_simulation = scripttype_childscript = 1
+
+    colorcomponent_ambient = colorcomponent_ambient_diffuse = 0
+    colorcomponent_diffuse = 1
+    colorcomponent_specular = 2
+    colorcomponent_emission = 3
+
+    modelproperty_not_collidable = 0x1
+    modelproperty_not_measurable = 0x2
+    modelproperty_not_detectable = 0x8
+    modelproperty_not_dynamic = 0x20
+    modelproperty_not_respondable = 0x40
+    modelproperty_not_reset = 0x80
+    modelproperty_not_visible = 0x100
+    modelproperty_scripts_inactive = 0x200
+    modelproperty_not_model = 0xF000
+
+    shapeintparam_static = 3003
+    visionintparam_resolution_x = 1002
+    visionintparam_resolution_y = 1003
+    visionfloatparam_perspective_angle = 1004
+    objfloatparam_abs_x_velocity = 11
+    objfloatparam_abs_y_velocity = 12
+    objfloatparam_abs_z_velocity = 13
+    objfloatparam_abs_rot_velocity = 14
+
+    boolparam_hierarchy_visible = 0
+    boolparam_console_visible = 1
+    boolparam_dynamics_handling_enabled = 6
+    boolparam_proximity_sensor_handling_enabled = 9
+    boolparam_vision_sensor_handling_enabled = 10
+    boolparam_browser_visible = 12
+    boolparam_shape_textures_are_visible = 15
+    boolparam_display_enabled = 16
+    boolparam_infotext_visible = 17
+    boolparam_statustext_open = 18
+    boolparam_fog_enabled = 19
+    boolparam_mirrors_enabled = 22
+    boolparam_realtime_simulation = 25
+    boolparam_video_recording_triggered = 29
+    boolparam_threaded_rendering_enabled = 32
+    boolparam_fullscreen = 33
+    boolparam_headless = 34
+
+    intparam_program_version = 1
+    intparam_current_page = 5
+    intparam_dynamic_engine = 8
+    intparam_visible_layers = 11
+    intparam_platform = 19
+    intparam_scene_unique_id = 20
+    intparam_core_count = 24
+    intparam_idle_fps = 26
+    intparam_program_revision = 30
+    intparam_scene_index = 34
+
+    floatparam_rand = 0
+    floatparam_simulation_time_step = 1
+
+    stringparam_application_path = 0
+    stringparam_scene_path_and_name = 13
+    stringparam_scene_path = 15
+    stringparam_scene_name = 16
+
+    arrayparam_gravity = 0
+    arrayparam_fog_color = 2
+    arrayparam_background_color1 = 3
+    arrayparam_background_color2 = 4
+    arrayparam_ambient_light = 5

@@ -7,6 +7,7 @@ from typing import Any
 
 from bubblesim.scripting.api.kinds import HandleError
 from bubblesim.scripting.api.sim.constants import SimConstants
+from bubblesim.scripting.api.sim.object_tree import ObjectTree
 from bubblesim.scripting.caller import Caller
 
 _MAX_HANDLE = 2**31 - 1
@@ -21,12 +22,13 @@ class ApiContext(SimConstants):
         self._simulation = runner.simulation
         self._world = self._simulation.world
         self._caller = caller
+        self._tree = ObjectTree(self._world, caller.shared.dummies)
 
     def _with_all_below(self, handle: int) -> list[int]:
         """Return an object and all its descendants, parents first."""
         found = [handle]
-        for child in self._world.children(handle):
-            found += self._with_all_below(int(child))
+        for child in self._tree.children(handle):
+            found += self._with_all_below(child)
         return found
 
     def _resolve(self, handle: int) -> int:
@@ -36,5 +38,5 @@ class ApiContext(SimConstants):
         if handle == self.handle_self:
             return self._caller.object_handle
         if handle == self.handle_parent:
-            return int(self._world.parent(self._caller.object_handle))
+            return self._tree.parent(self._caller.object_handle)
         raise HandleError(handle)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from bubblesim._core import MotorMode
 from bubblesim.scripting.api.kinds import Handle
@@ -51,16 +52,16 @@ class JointFunctions(ApiContext):
         """Return the target position of a position-controlled joint."""
         return float(self._world.target_position(self._resolve(joint)))
 
-    def setJointTargetPosition(self, joint: Handle, position: float) -> None:
-        """Set the target position of a position-controlled joint."""
+    def setJointTargetPosition(self, joint: Handle, position: float, motion: Any = None) -> None:
+        """Set the target position of a position-controlled joint. ``motion`` is for kinematic joints: ignored."""
         self._world.set_target_position(self._resolve(joint), position)
 
     def getJointTargetVelocity(self, joint: Handle) -> float:
         """Return the target velocity of a velocity-controlled joint."""
         return float(self._world.target_velocity(self._resolve(joint)))
 
-    def setJointTargetVelocity(self, joint: Handle, velocity: float) -> None:
-        """Set the target velocity of a velocity-controlled joint."""
+    def setJointTargetVelocity(self, joint: Handle, velocity: float, motion: Any = None) -> None:
+        """Set the target velocity of a velocity-controlled joint. ``motion`` is for kinematic joints: ignored."""
         self._world.set_target_velocity(self._resolve(joint), velocity)
 
     def getJointTargetForce(self, joint: Handle) -> float:
@@ -84,22 +85,19 @@ class JointFunctions(ApiContext):
         """Set the maximum force or torque of the joint's motor (old name)."""
         self.setJointTargetForce(joint, force, False)
 
-    def getObjectInt32Param(self, joint: Handle, parameter: int) -> int:
-        """Return sim.jointintparam_dynctrlmode, the control mode of a joint: sim.jointdynctrl_free, force, velocity or
-        position. There are no other parameters."""
-        self._require_control_mode(parameter)
-        mode = self._world.motor_mode(self._resolve(joint))
-        return next(number for number, known in self._control_modes().items() if known == mode)
+    def setJointForce(self, joint: Handle, force: float, signed: bool = True) -> None:
+        """The same as setJointTargetForce (old name)."""
+        self.setJointTargetForce(joint, force, signed)
 
-    def setObjectInt32Param(self, joint: Handle, parameter: int, value: int) -> None:
-        """Set sim.jointintparam_dynctrlmode, the control mode of a joint, until the scene is reset."""
-        self._require_control_mode(parameter)
-        if value not in self._control_modes():
-            raise ValueError(
-                f"{value} is not a control mode of a joint; valid ones: sim.jointdynctrl_free, jointdynctrl_force, "
-                "jointdynctrl_velocity and jointdynctrl_position"
-            )
-        self._world.set_motor_mode(self._resolve(joint), self._control_modes()[value])
+    def getJointMaxForce(self, joint: Handle) -> float:
+        """Return the maximum force or torque of the joint's motor (old name)."""
+        return float(self._world.max_force(self._resolve(joint)))
+
+    def setJointMode(self, joint: Handle, mode: int, options: int = 0) -> None:
+        """Accept sim.jointmode_dynamic, the only mode of joints here; raise ValueError for others."""
+        if mode != self.getJointMode(joint)[0]:
+            path = self._tree.short_path(self._resolve(joint))
+            raise ValueError(f"the mode of {path} cannot be changed: all joints except fixed ones are dynamic")
 
     def _control_modes(self) -> dict[int, MotorMode]:
         return {
@@ -108,7 +106,3 @@ class JointFunctions(ApiContext):
             self.jointdynctrl_velocity: MotorMode.VELOCITY,
             self.jointdynctrl_position: MotorMode.POSITION,
         }
-
-    def _require_control_mode(self, parameter: int) -> None:
-        if parameter != self.jointintparam_dynctrlmode:
-            raise ValueError(f"parameter {parameter} is not supported; supported: sim.jointintparam_dynctrlmode")

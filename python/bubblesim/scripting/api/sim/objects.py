@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from bubblesim._core import sensor_kind
-from bubblesim.geometry import rotations
+from bubblesim.geometry import poses, rotations
 from bubblesim.scripting.api.functions import value_first
-from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vector3, Vector4, Vector7
+from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vector3, Vector4, Vector7, Vector12
 from bubblesim.scripting.api.sim.context import ApiContext
 
 Vector = list[float]
@@ -26,9 +26,9 @@ class ObjectFunctions(ApiContext):
         unknown = options.keys() - {"index", "noError", "proxy"}
         if unknown:
             raise ValueError(f"getObject has no option '{min(unknown)}'; valid options: index, noError and proxy")
-        start = self._resolve(options.get("proxy", self._caller.object_handle))
+        start = self._resolve(options["proxy"]) if "proxy" in options else self._caller.object_handle
         try:
-            return int(self._world.find(path, start, INTEGER.convert(options.get("index", 0))))
+            return self._tree.find(path, start, INTEGER.convert(options.get("index", 0)))
         except LookupError:
             if options.get("noError"):
                 return -1
@@ -37,7 +37,7 @@ class ObjectFunctions(ApiContext):
     def getObjectHandle(self, name: str) -> int:
         """Return the handle of the object with the name ``name``, anywhere in the scene (old style)."""
         path = name if name.startswith(("/", ".", ":")) else f"/{name}"
-        return int(self._world.find(path, self._caller.object_handle))
+        return self._tree.find(path, self._caller.object_handle)
 
     def getObjectAssociatedWithScript(self, script: Handle) -> int:
         """Return the handle of the object that the script is attached to."""
@@ -49,21 +49,30 @@ class ObjectFunctions(ApiContext):
         3 bare, or 'name__handle__' if other objects have the same name; 4 always 'name__handle__'.
         """
         handle = self._resolve(handle)
-        name = str(self._world.name(handle))
-        full = str(self._world.path(handle))
+        name = self._tree.name(handle)
+        full = self._tree.path(handle)
         match option:
             case 0:
                 return full.rpartition("/")[2]
             case 1:
-                return str(self._world.short_path(handle))
+                return self._tree.short_path(handle)
             case 2 | 5:
                 return full
             case 3:
-                return name if self._world.short_path(handle) == f"/{name}" else f"{name}__{handle}__"
+                return name if self._tree.short_path(handle) == f"/{name}" else f"{name}__{handle}__"
             case 4:
                 return f"{name}__{handle}__"
             case _:
                 return name
+
+    def isHandle(self, handle: int) -> bool:
+        """Return whether there is an object with this handle."""
+        return handle >= 0 and self._tree.contains(handle)
+
+    def getObjects(self, index: int, object_type: int = HANDLE_ALL) -> int:
+        """Return the handle of the ``index``-th object of a type in the scene, -1 if there are fewer."""
+        found = self.getObjectsInTree(self.handle_scene, object_type)
+        return found[index] if 0 <= index < len(found) else -1
 
     def getObjectName(self, handle: Handle) -> str:
         """Return the name of an object (old style)."""
@@ -71,12 +80,12 @@ class ObjectFunctions(ApiContext):
 
     def getObjectParent(self, handle: Handle) -> int:
         """Return the handle of the parent object, -1 at the top of the scene."""
-        return int(self._world.parent(self._resolve(handle)))
+        return self._tree.parent(self._resolve(handle))
 
     def getObjectChild(self, handle: Handle, index: int) -> int:
         """Return the handle of the ``index``-th child, -1 if there are fewer."""
-        children = self._world.children(self._resolve(handle))
-        return int(children[index]) if 0 <= index < len(children) else -1
+        children = self._tree.children(handle if handle == WORLD else self._resolve(handle))
+        return children[index] if 0 <= index < len(children) else -1
 
     def getObjectsInTree(self, base: Handle, object_type: int = HANDLE_ALL, options: int = 0) -> list[int]:
         """Return the handles of an object and all its descendants, or of the whole scene for sim.handle_scene.
@@ -85,12 +94,11 @@ class ObjectFunctions(ApiContext):
         its direct children.
         """
         if base == self.handle_scene:
-            roots = [int(model) for model in self._world.models if int(self._world.parent(model)) < 0]
+            roots = self._tree.children(WORLD)
             found = [handle for root in roots for handle in ([root] if options & 2 else self._with_all_below(root))]
         else:
             base = self._resolve(base)
-            children = [int(child) for child in self._world.children(base)]
-            below = children if options & 2 else self._with_all_below(base)[1:]
+            below = self._tree.children(base) if options & 2 else self._with_all_below(base)[1:]
             found = below if options & 1 else [base, *below]
         wants_all = object_type == self.handle_all
         return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
@@ -99,10 +107,10 @@ class ObjectFunctions(ApiContext):
         """Return sim.object_shape_type for models and links, and the type of joints and sensors.
 
         object_joint_type, object_proximitysensor_type, object_visionsensor_type for cameras, object_forcesensor_type
-        for force-torque sensors, and object_dummy_type for other sensors.
+        for force-torque sensors, and object_dummy_type for dummies and other sensors.
         """
         handle = self._resolve(handle)
-        kind = str(self._world.kind(handle))
+        kind = self._tree.kind(handle)
         if kind == "sensor":
             sensors = {
                 "proximity sensor": self.object_proximitysensor_type,
@@ -110,6 +118,8 @@ class ObjectFunctions(ApiContext):
                 "force-torque sensor": self.object_forcesensor_type,
             }
             return sensors.get(sensor_kind(self._simulation, handle), self.object_dummy_type)
+        if kind == "dummy":
+            return self.object_dummy_type
         return self.object_joint_type if kind == "joint" else self.object_shape_type
 
     def getObjectPose(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -118,7 +128,7 @@ class ObjectFunctions(ApiContext):
 
     @value_first
     def setObjectPose(self, handle: Handle, pose: Vector7, relative_to: Handle = WORLD) -> None:
-        """Set the pose of a model or link. Also accepts the old order (handle, relative_to, pose)."""
+        """Set the pose of a model, link or dummy. Also accepts the old order (handle, relative_to, pose)."""
         self._set_pose(handle, pose, relative_to)
 
     def getObjectPosition(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -127,7 +137,7 @@ class ObjectFunctions(ApiContext):
 
     @value_first
     def setObjectPosition(self, handle: Handle, position: Vector3, relative_to: Handle = WORLD) -> None:
-        """Set the position of a model or link. Also accepts the old order (handle, relative_to, position)."""
+        """Set the position of a model, link or dummy. Also accepts the old order (handle, relative_to, position)."""
         self._set_pose(handle, [*position, *self._pose(handle, relative_to)[3:]], relative_to)
 
     def getObjectQuaternion(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -136,7 +146,7 @@ class ObjectFunctions(ApiContext):
 
     @value_first
     def setObjectQuaternion(self, handle: Handle, quaternion: Vector4, relative_to: Handle = WORLD) -> None:
-        """Set the orientation of a model or link. Also accepts the old order (handle, relative_to, quaternion)."""
+        """Set the orientation of a model, link or dummy. Also accepts the old order (relative_to before quaternion)."""
         self._set_pose(handle, [*self._pose(handle, relative_to)[:3], *quaternion], relative_to)
 
     def getObjectOrientation(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -145,9 +155,14 @@ class ObjectFunctions(ApiContext):
 
     @value_first
     def setObjectOrientation(self, handle: Handle, angles: Vector3, relative_to: Handle = WORLD) -> None:
-        """Set the Euler angles of a model or link. Also accepts the old order (handle, relative_to, angles)."""
+        """Set the Euler angles of a model, link or dummy. Also accepts the old order (handle, relative_to, angles)."""
         position = self._pose(handle, relative_to)[:3]
         self._set_pose(handle, [*position, *rotations.quaternion_of_euler(angles)], relative_to)
+
+    @value_first
+    def setObjectMatrix(self, handle: Handle, matrix: Vector12, relative_to: Handle = WORLD) -> None:
+        """Set the pose of a model, link or dummy by a matrix of 12 numbers. Also accepts the old order."""
+        self._set_pose(handle, poses.of_matrix(matrix), relative_to)
 
     def getObjectMatrix(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
         """Return the upper three rows of the transformation matrix, 12 numbers row by row."""
@@ -155,27 +170,27 @@ class ObjectFunctions(ApiContext):
 
     def getObjectVelocity(self, handle: Handle) -> tuple[Vector, Vector]:
         """Return the linear (m/s) and angular (rad/s) velocity in world axes."""
-        linear, angular = self._world.velocity(self._resolve(handle))
+        handle = self._resolve(handle)
+        if self._tree.kind(handle) == "dummy":
+            raise ValueError(f"{self._tree.path(handle)} is a dummy, whose velocity is not known")
+        linear, angular = self._world.velocity(handle)
         return list(linear), list(angular)
 
     def _pose(self, handle: int, relative_to: int) -> Vector:
         handle = self._resolve(handle)
         frame = self._frame(handle, relative_to)
-        return list(self._world.pose(handle) if frame is None else self._world.pose_in(handle, frame))
+        return self._tree.pose(handle) if frame is None else self._tree.pose_in(handle, frame)
 
     def _frame(self, handle: Handle, relative_to: int) -> int | None:
         """Return the object with the reference frame; None for the world's."""
         if relative_to == self.handle_world:
             return None
         if relative_to == self.handle_parent:
-            parent = int(self._world.parent(handle))
+            parent = self._tree.parent(handle)
             return None if parent < 0 else parent
         return self._resolve(relative_to)
 
     def _set_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
         handle = self._resolve(handle)
         frame = self._frame(handle, relative_to)
-        if frame is None:
-            self._world.set_pose(handle, pose)
-        else:
-            self._world.set_pose_in(handle, pose, frame)
+        self._tree.set_pose(handle, pose, WORLD if frame is None else frame)

@@ -9,6 +9,7 @@ from bubblesim._core import read_lidar, reading_time
 from bubblesim.scripting.api.kinds import Handle, TextOrBytes
 from bubblesim.scripting.api.sim.context import ApiContext
 
+_DATA_PREFIX = "customData."
 _PREFIX = "signal."  # of the names in the newer functions: properties of the scene
 
 
@@ -62,35 +63,70 @@ class SignalFunctions(ApiContext):
         self._clear(int, name)
 
     def setStringProperty(self, target: Handle, name: str, value: TextOrBytes) -> None:
-        """Set the text 'signal.NAME' of the scene (newer name of setStringSignal)."""
-        self._set(str, self._signal(target, name), value)
+        """Set the text 'signal.NAME' of the scene (newer name of setStringSignal), or 'customData.NAME' of it or an
+        object."""
+        self._set_property(str, target, name, value)
 
     def getStringProperty(self, target: Handle, name: str) -> str | bytes | None:
-        """Return the text 'signal.NAME' of the scene."""
-        return self._get_text(self._signal(target, name))
+        """Return the text 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
+        if self._data_key(target, name) is None:
+            return self._get_text(self._signal(target, name))
+        value: str | bytes | None = self._get_property(str, target, name)
+        return value
 
     def setFloatProperty(self, target: Handle, name: str, value: float) -> None:
-        """Set the number 'signal.NAME' of the scene (newer name of setFloatSignal)."""
-        self._set(float, self._signal(target, name), value)
+        """Set the number 'signal.NAME' of the scene (newer name of setFloatSignal), or 'customData.NAME' of it or an
+        object."""
+        self._set_property(float, target, name, value)
 
     def getFloatProperty(self, target: Handle, name: str) -> float | None:
-        """Return the number 'signal.NAME' of the scene."""
-        value: float | None = self._get(float, self._signal(target, name))
+        """Return the number 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
+        value: float | None = self._get_property(float, target, name)
         return value
 
     def setIntProperty(self, target: Handle, name: str, value: int) -> None:
-        """Set the integer 'signal.NAME' of the scene (newer name of setInt32Signal)."""
-        self._set(int, self._signal(target, name), value)
+        """Set the integer 'signal.NAME' of the scene (newer name of setInt32Signal), or 'customData.NAME' of it or an
+        object."""
+        self._set_property(int, target, name, value)
 
     def getIntProperty(self, target: Handle, name: str) -> int | None:
-        """Return the integer 'signal.NAME' of the scene."""
-        value: int | None = self._get(int, self._signal(target, name))
+        """Return the integer 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
+        value: int | None = self._get_property(int, target, name)
         return value
 
     def _signal(self, target: int, name: str) -> str:
         if target != self.handle_scene or not name.startswith(_PREFIX):
-            raise ValueError(f"object {target} has no property '{name}'; expected sim.handle_scene and 'signal.NAME'")
+            raise ValueError(
+                f"object {target} has no property '{name}'; expected 'customData.NAME', or sim.handle_scene and "
+                "'signal.NAME'"
+            )
         return name.removeprefix(_PREFIX)
+
+    def _data_key(self, target: int, name: str) -> tuple[int, str] | None:
+        """Return the key of 'customData.NAME'; None for other properties."""
+        if not name.startswith(_DATA_PREFIX):
+            return None
+        if target != self.handle_scene:
+            target = self._resolve(target)
+            self._tree.kind(target)  # raises
+        return target, name.removeprefix(_DATA_PREFIX)
+
+    def _set_property(self, kind: type, target: int, name: str, value: object) -> None:
+        key = self._data_key(target, name)
+        if key is None:
+            self._set(kind, self._signal(target, name), value)
+        else:
+            self._caller.shared.custom_data[key] = value
+
+    def _get_property(self, kind: type, target: int, name: str) -> Any:
+        key = self._data_key(target, name)
+        if key is None:
+            return self._get(kind, self._signal(target, name))
+        value = self._caller.shared.custom_data.get(key)
+        wanted = {float: (int, float), str: (str, bytes), dict: (dict, list, tuple)}.get(kind, kind)
+        if value is not None and not isinstance(value, wanted):
+            raise ValueError(f"the property '{name}' is of type {type(value).__name__}")
+        return value
 
     def _get_text(self, name: str) -> str | bytes | None:
         value: str | bytes | None = self._get(str, name)

@@ -4,12 +4,18 @@
 from __future__ import annotations
 
 from bubblesim.scripting.api.functions import script_module
+from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
+from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
 from bubblesim.scripting.api.sim.forces import ForceFunctions
 from bubblesim.scripting.api.sim.joints import JointFunctions
+from bubblesim.scripting.api.sim.matrices import MatrixFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
+from bubblesim.scripting.api.sim.parameters import ParameterFunctions
 from bubblesim.scripting.api.sim.programs import ProgramFunctions
 from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
+from bubblesim.scripting.api.sim.scene_files import SceneFileFunctions
+from bubblesim.scripting.api.sim.scripts import ScriptFunctions
 from bubblesim.scripting.api.sim.sensors import SensorFunctions
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 from bubblesim.scripting.api.sim.threads import ThreadFunctions
@@ -20,15 +26,21 @@ from bubblesim.scripting.api.sim.vision import VisionFunctions
 @script_module("sim")
 class SimApi(
     ObjectFunctions,
+    SceneFileFunctions,
+    CreatedObjectFunctions,
+    MatrixFunctions,
+    ParameterFunctions,
     JointFunctions,
     ForceFunctions,
     SensorFunctions,
     VisionFunctions,
+    CustomDataFunctions,
     SignalFunctions,
     PackFunctions,
     TimeFunctions,
     ThreadFunctions,
     RandomFunctions,
     ProgramFunctions,
+    ScriptFunctions,
 ):
     """All functions and constants of `sim`."""

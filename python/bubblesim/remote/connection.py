@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A client for Python programs: ``bubblesim.connect``."""
+
+from __future__ import annotations
+
+import functools
+import uuid
+from types import SimpleNamespace
+from typing import Any, Self
+
+import cbor2
+import numpy as np
+import zmq
+
+from bubblesim.remote.remote_sim import RemoteSim
+from bubblesim.scripting.api.functions import functions
+
+_PORT = 23000
+
+
+class Connection:
+    """A running simulator, driven from another process.
+
+    ``sim`` has the functions and constants of `sim` with their documentation. Lists of numbers arrive as numpy arrays.
+    """
+
+    def __init__(self, port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0) -> None:
+        """Connect to a node that was started with --remote.
+
+        :param timeout: s to wait for a reply, more than the longest ``sim.wait``.
+        :raises TimeoutError: if there is no answer.
+        """
+        self._address = f"{host}:{port}"
+        self._uuid = str(uuid.uuid4())
+        self._timeout = timeout
+        self._context = zmq.Context()
+        self._socket = self._context.socket(zmq.REQ)
+        self._socket.setsockopt(zmq.LINGER, 0)
+        self._socket.connect(f"tcp://{self._address}")
+        try:
+            known = self.call("zmqRemoteApi.info", "sim")
+        except TimeoutError:
+            self.close()
+            raise
+        self.sim: Any = SimpleNamespace(**{name: e["const"] for name, e in known.items() if "const" in e})
+        for function in functions(RemoteSim):
+            if function.name in known:
+                setattr(self.sim, function.name, self._function(function.name))
+
+    def call(self, function: str, *arguments: Any) -> Any:
+        """Call a function by its full name, such as 'sim.getObject'; raise RuntimeError with its error."""
+        plain = [value.tolist() if isinstance(value, np.ndarray | np.generic) else value for value in arguments]
+        self._socket.send(cbor2.dumps({"func": function, "args": plain, "uuid": self._uuid}))
+        if not self._socket.poll(int(1000 * self._timeout)):
+            raise TimeoutError(f"no answer from {self._address} to {function} in {self._timeout:g} s")
+        reply = cbor2.loads(self._socket.recv())
+        if "err" in reply:
+            raise RuntimeError(reply["err"])
+        results = [_typed(value) for value in reply["ret"]]
+        return results[0] if len(results) == 1 else tuple(results) if results else None
+
+    def close(self) -> None:
+        """Disconnect, which ends the stepping mode of this connection."""
+        self._socket.close()
+        self._context.term()
+
+    def __enter__(self) -> Self:
+        """Return this connection."""
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        """Disconnect."""
+        self.close()
+
+    def _function(self, name: str) -> Any:
+        @functools.wraps(getattr(RemoteSim, name))
+        def call(*arguments: Any) -> Any:
+            return self.call(f"sim.{name}", *arguments)
+
+        return call
+
+
+def _typed(value: Any) -> Any:
+    """Return a list of numbers as an array."""
+    if isinstance(value, list) and value and all(isinstance(each, float) for each in value):
+        return np.array(value)
+    return value
+
+
+def connect(port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0) -> Connection:
+    """Connect to a node that was started with --remote; see Connection.
+
+    >>> with bubblesim.connect() as simulator:
+    ...     simulator.sim.startSimulation()
+    """
+    return Connection(port, host, timeout=timeout)

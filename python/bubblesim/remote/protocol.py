@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The messages of CoppeliaSim's remote API, protocol version 2: CBOR maps."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from typing import Any
+
+import cbor2
+import numpy as np
+
+from bubblesim._core import cbor_problem
+
+MOST_BYTES = 64 * 1024 * 1024
+EXECUTED = "_*executed*_"
+END = "_*end*_"
+_NIL = "_*NIL*_"
+_CALLBACK = "@func"
+_DEFAULT_TIMEOUT = 600.0  # s
+_LONGEST_TIMEOUT = 86400.0
+
+
+class RequestError(ValueError):
+    """A message that is not a request."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A call of a function by a client."""
+
+    function: str
+    arguments: list[Any]
+    uuid: str
+    """Empty if the client sends none."""
+    timeout: float | None
+    """s of silence after which the client is forgotten; only in the first request."""
+
+
+def decode(data: bytes) -> Request:
+    """Return the request in a message.
+
+    :raises RequestError: for everything else; nothing is allocated that the message does not contain.
+    """
+    if len(data) > MOST_BYTES:
+        raise RequestError(f"a message of {len(data)} bytes: at most {MOST_BYTES} are accepted")
+    if problem := cbor_problem(data):
+        raise RequestError(f"the message is not a CBOR map: {problem}")
+    try:
+        message = cbor2.loads(data)
+    except Exception as error:  # cbor2 raises what its parts raise, such as UnicodeDecodeError
+        raise RequestError(f"the message is not a CBOR map: {error}") from None
+    if not isinstance(message, dict) or not isinstance(message.get("func"), str):
+        raise RequestError("the message is not a map with the text 'func'")
+    arguments = message.get("args", [])
+    if arguments is None:
+        arguments = []
+    if not isinstance(arguments, list | tuple):
+        raise RequestError(f"'args' is not a list but of type {type(arguments).__name__}")
+    uuid = message.get("uuid", "")
+    if not isinstance(uuid, str) or len(uuid) > 200:
+        raise RequestError("'uuid' is not a text of at most 200 characters")
+    return Request(message["func"], list(arguments), uuid, _timeout(message.get("timeout")))
+
+
+def _timeout(value: Any) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return min(max(float(value), 1.0), _LONGEST_TIMEOUT) if value == value else _DEFAULT_TIMEOUT
+
+
+def callback_name(value: Any) -> str | None:
+    """Return the client's name of a function among the arguments; None for other values."""
+    return value.removesuffix(_CALLBACK) if isinstance(value, str) and value.endswith(_CALLBACK) else None
+
+
+def is_nil(value: str) -> bool:
+    """Return whether an argument stands for nil."""
+    return value == _NIL
+
+
+def result(value: Any) -> bytes:
+    """Return the reply with the result of a function; a tuple is several results."""
+    values = [] if value is None else list(value) if isinstance(value, tuple) else [value]
+    return encode({"ret": values})
+
+
+def error(text: str) -> bytes:
+    """Return the reply with an error."""
+    return encode({"err": text})
+
+
+def encode(message: Any) -> bytes:
+    """Return the bytes of a message; raise TypeError for values that have no counterpart in the client."""
+    _buffer.seek(0)
+    _buffer.truncate()
+    try:
+        _encoder.encode(message)
+    except cbor2.CBOREncodeError as failure:
+        raise TypeError(f"the result cannot be sent: {failure}") from None
+    return _buffer.getvalue()
+
+
+def _convert(encoder: Any, value: Any) -> None:
+    if isinstance(value, np.ndarray):
+        encoder.encode(np.ascontiguousarray(value).tobytes())
+    elif isinstance(value, np.generic):
+        encoder.encode(value.item())
+    elif isinstance(value, memoryview):
+        encoder.encode(value.tobytes())
+    else:
+        raise TypeError(f"the result cannot be sent: it contains a value of type {type(value).__name__}")
+
+
+# A new encoder for each message takes three times as long. Only the simulating thread encodes.
+_buffer = io.BytesIO()
+_encoder = cbor2.CBOREncoder(_buffer, default=_convert)

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A remote client as a caller of `sim`, and what it waits for."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Generator, Hashable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from bubblesim.scripting.allowed_programs import is_allowed
+from bubblesim.scripting.caller import Hook, SharedData
+
+Conversation = Generator[tuple[str, tuple[Any, ...]], Any, Any]
+"""A call that calls functions of the client, yielding name and arguments; it returns the result of the call."""
+
+
+@dataclass
+class Pending:
+    """A call that is answered later."""
+
+    is_done: Callable[[], bool]
+    """Asked after each step and after commands."""
+    result: Callable[[], Any] = lambda: None
+    fits_the_end: bool = False
+    """The end of the simulator is what the client asked for."""
+
+
+@dataclass
+class Line:
+    """A socket of a client. It has one call at a time."""
+
+    identity: bytes
+    client: RemoteClient | None
+    descriptor: int
+    """Of the connection, to find the line when it breaks."""
+    pending: Pending | None = None
+    reply: bytes | None = None
+    """Sent when the client has returned from the callbacks before it."""
+    conversation: Conversation | None = None
+    calls_back: bool = False
+    outer: list[tuple[Pending | None, bytes | None, Conversation | None]] = field(default_factory=list)
+    """The calls whose callbacks have made the current one."""
+
+    def begin_inner(self) -> None:
+        """Set the current call aside: its callback makes a call."""
+        self.outer.append((self.pending, self.reply, self.conversation))
+        self.pending = self.reply = self.conversation = None
+        self.calls_back = False
+
+    def end_inner(self) -> None:
+        """Go back to the call whose callback has made a call."""
+        self.pending, self.reply, self.conversation = self.outer.pop()
+        self.calls_back = True
+
+    def clear(self) -> None:
+        """Forget all calls."""
+        self.outer.clear()
+        self.pending = self.reply = self.conversation = None
+        self.calls_back = False
+
+    @property
+    def is_open(self) -> bool:
+        """Return whether the client waits for a reply."""
+        return self.calls_back or self.pending is not None or self.reply is not None or self.conversation is not None
+
+
+class Door(Protocol):
+    """The server, as its clients see it."""
+
+    steps: int
+    """Number of steps since the start of the server."""
+    host: Any
+
+    def stepping_changed(self) -> None:
+        """A client has changed its level of stepping."""
+
+    def after_commands(self, done: Callable[[], None]) -> None:
+        """Call a function when the commands given so far have been carried out, and answer pending calls then."""
+
+    def deliver(self, client: RemoteClient) -> None:
+        """Send the callbacks of a client if it waits for a reply."""
+
+
+@dataclass(eq=False)
+class RemoteClient:
+    """A program outside; see Caller."""
+
+    door: Door
+    shared: SharedData
+    number: int
+    timeout: float
+    object_handle: int = -1
+    is_remote: bool = True
+    at_end: dict[Hashable, Hook] = field(default_factory=dict)
+    in_each_step: dict[Hashable, Hook] = field(default_factory=dict)
+    programs: list[Any] = field(default_factory=list)
+    lines: dict[bytes, Line] = field(default_factory=dict)
+    callbacks: deque[tuple[str, tuple[Any, ...]]] = field(default_factory=lambda: deque(maxlen=1000))
+    level: int = 0
+    """Of nested setStepping."""
+    granted: int = 0
+    """Steps that may run."""
+    waits_for_time: bool = False
+    """In sim.wait, where all steps may run."""
+    last_seen: float = field(default_factory=time.monotonic)
+    object_path: str = ""
+
+    def __post_init__(self) -> None:
+        """Name the client for messages."""
+        self.object_path = f"remote client {self.number}"
+
+    def may_start(self, program: Path) -> bool:
+        """Return whether the client may start this program: those that a Lua script may start."""
+        return is_allowed(program, self.door.host.allowed_programs)
+
+    def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
+        """Return a function that calls a function of the client."""
+        if not isinstance(function, RemoteCallback):
+            raise TypeError(f"a callback must be a function, found {type(function).__name__}")
+        return function
+
+    def answering_callback(
+        self, function: Callable[..., Any] | str, check: Callable[[object], None]
+    ) -> Callable[..., Any]:
+        """Raise RuntimeError: a step cannot wait for a remote client."""
+        raise RuntimeError("a remote client cannot provide a service: a step would wait for it")
+
+
+@dataclass(frozen=True)
+class RemoteCallback:
+    """A function of a client. A call is sent when the client waits for a reply, at the latest with its next call."""
+
+    client: RemoteClient
+    name: str
+
+    def __call__(self, *arguments: Any) -> None:
+        """Have the client call it; of more than 1000 calls that wait, the oldest are dropped."""
+        self.client.callbacks.append((self.name, arguments))
+        self.client.door.deliver(self.client)

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A runner that serves a file descriptor.
+#include <gtest/gtest.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <thread>
+
+#include "bubblesim/file_watch.hpp"
+#include "bubblesim/runner.hpp"
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_file_watch {
+namespace {
+
+/// A counter that is readable above 0.
+struct FileWatchTest : testing::Test {
+  FileWatchTest() : runner(simulation) {}
+  ~FileWatchTest() override { ::close(counter); }
+  FileWatchTest(const FileWatchTest&) = delete;
+  FileWatchTest& operator=(const FileWatchTest&) = delete;
+
+  void add(std::uint64_t count) const { ASSERT_EQ(write(counter, &count, sizeof count), sizeof count); }
+  std::uint64_t take() const {
+    std::uint64_t count = 0;
+    return read(counter, &count, sizeof count) < 0 ? 0 : count;
+  }
+  static void wait_until(const std::atomic<std::uint64_t>& value, std::uint64_t least) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (value < least && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_GE(value, least);
+  }
+
+  int counter = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  Simulation simulation{scene({model("Ball", link("link"))}), 1};
+  Runner runner;
+};
+
+TEST_F(FileWatchTest, CallsOnTheRunnersThreadWhenTheFileIsReadable) {
+  std::atomic<std::uint64_t> served{0};
+  std::atomic<bool> elsewhere{false};
+  FileWatch watch(runner, counter, [&] {
+    if (!runner.is_this_thread()) elsewhere = true;
+    served += take();
+    return false;
+  });
+  runner.run_in_background();
+  for (std::uint64_t round = 1; round <= 20; ++round) {
+    add(1);
+    wait_until(served, round);
+  }
+  EXPECT_FALSE(elsewhere);
+  runner.finish();
+}
+
+TEST_F(FileWatchTest, CallsAgainWhileThereIsMore) {
+  std::atomic<std::uint64_t> calls{0};
+  add(1);
+  FileWatch watch(runner, counter, [&] {
+    take();
+    return ++calls < 5;
+  });
+  runner.run_in_background();
+  wait_until(calls, 5);
+  runner.finish();
+  EXPECT_EQ(calls, 5);
+}
+
+TEST_F(FileWatchTest, StepsComeBetweenItsCalls) {
+  FileWatch watch(runner, counter, [] { return true; });
+  runner.run_in_background();
+  EXPECT_DOUBLE_EQ(runner.step(20).get(), 1.0);
+  runner.finish();
+}
+
+TEST_F(FileWatchTest, EndsOnTheRunnersThreadWhileACallIsPending) {
+  std::atomic<std::uint64_t> calls{0};
+  auto watch = std::make_unique<FileWatch>(runner, counter, [&] {
+    ++calls;
+    return true;
+  });
+  runner.run_in_background();
+  wait_until(calls, 3);
+  std::uint64_t at_end = 0;
+  runner
+      .call([&] {
+        watch->close();
+        at_end = calls;
+      })
+      .get();
+  runner.step(2).get();
+  EXPECT_EQ(calls, at_end);
+  runner.finish();
+}
+
+TEST_F(FileWatchTest, EndsWithoutARun) {
+  FileWatch watch(runner, counter, [] { return false; });
+  watch.close();
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_file_watch
