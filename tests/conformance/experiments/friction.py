@@ -136,24 +136,6 @@ def torsion(engine: Any, coefficient: float, patch: float) -> float:
     return float(before - world.spin("ball")[2]) / 0.1
 
 
-def rolling_theory(coefficient: float) -> float:
-    """The torque k N against rolling slows a ball by k g / (r (1 + 2/5)) (any textbook); here r = 0.1 m."""
-    return coefficient * GRAVITY / (0.1 * 1.4)
-
-
-def rolling(engine: Any, coefficient: float) -> float:
-    """Return the deceleration of a rolling ball."""
-    surface = f"<bubblesim:rolling>{coefficient}</bubblesim:rolling>"
-    ball = Body("ball", 1.0, sphere_inertia(1.0, 0.1), (Shape("sphere", (0.1,)),), mu=0.8, torsional=surface)
-    world = engine(Scene((Model("ball", (ball,), position=(0, 0, 0.1)),)))
-    world.run(0.2)
-    world.set_velocity("ball", (3, 0, 0), (0, 30, 0))
-    world.run(0.2)
-    before = world.velocity("ball")[0]
-    world.run(0.5)
-    return float(before - world.velocity("ball")[0]) / 0.5
-
-
 SOFT = "bisection to 0.05 and a creep of a centimetre"
 EXPERIMENTS = [
     Experiment(
@@ -201,16 +183,6 @@ EXPERIMENTS = [
         torsion,
         Tolerance("the load of one contact", relative=0.03),
         ({"coefficient": 0.5, "patch": 0.02}, {"coefficient": 1.0, "patch": 0.01}),
-        peers=(),
-    ),
-    Experiment(
-        "rolling_resistance",
-        "Rolling resistance of a ball, deceleration",
-        "m/s^2",
-        rolling_theory,
-        rolling,
-        Tolerance("the load of one contact", relative=0.03),
-        ({"coefficient": 0.002}, {"coefficient": 0.01}),
         peers=(),
     ),
 ]
