@@ -108,9 +108,7 @@ class Drive:
         return SPEED * (_stamp(message) - self.at)
 
     def heading(self, message: Message) -> float:
-        """Return the heading of a body that turns freely: ODE turns it by 2 atan(w h / 2) in a substep of 5 ms."""
-        substeps = round((_stamp(message) - self.at) / 0.005)
-        return substeps * 2 * math.atan(self.turning * 0.005 / 2)
+        return self.turning * (_stamp(message) - self.at)
 
     def ahead(self, message: Message) -> float:
         """Return the distance to the wall along the heading."""

@@ -93,7 +93,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
 }
 
 void share_load(double inverse_mass, double step, SurfacePair& pair) {
-  if ((pair.ode.mode & dContactSoftCFM) != 0) return;
+  // A contact that yields bounces less.
+  if ((pair.ode.mode & (dContactSoftCFM | dContactBounce)) != 0) return;
   pair.ode.mode |= dContactSoftCFM;
   pair.ode.soft_cfm = std::max(kLoadSharing * step * inverse_mass, kConstraintSoftness);
 }
