@@ -90,6 +90,7 @@ def test_the_page_about_testing_is_right(tmp_path: Path) -> None:
     code = re.findall(
         r"^```python\n(.*?)^```", (REPOSITORY / "docs" / "testing.md").read_text(), re.MULTILINE | re.DOTALL
     )
+    code = [block for block in code if "def test_" in block]
     for number, block in enumerate(code):
         (tmp_path / f"test_block_{number}.py").write_text(block)
     run = bubblesim("test", tmp_path)
