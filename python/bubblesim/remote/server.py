@@ -11,7 +11,7 @@ import ipaddress
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import zmq
@@ -20,9 +20,9 @@ from zmq.utils.monitor import recv_monitor_message
 from bubblesim._core import RunState
 from bubblesim.output import write_line
 from bubblesim.remote import protocol
-from bubblesim.remote.remote_client import Line, Pending, RemoteCallback, RemoteClient
+from bubblesim.remote.function_calls import carry_out, info
+from bubblesim.remote.remote_client import Line, Pending, RemoteClient
 from bubblesim.remote.remote_sim import RemoteSim
-from bubblesim.scripting.api.functions import functions
 from bubblesim.scripting.host.started_programs import end_programs
 
 _SLICE = 0.005  # s of requests between two looks at other commands
@@ -52,7 +52,7 @@ class RemoteServer:
         self._gate: int | None = None
         self._next_look = 0.0
         self._ending = False
-        self._info = protocol.encode({"ret": [_info()]})
+        self._info = protocol.encode({"ret": [info()]})
         self._context = zmq.Context()
         self._socket = self._listen(address, port)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
@@ -67,7 +67,7 @@ class RemoteServer:
         socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
         socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
         socket.setsockopt(zmq.SNDHWM, 16)  # replies that are not read
-        socket.setsockopt(zmq.ROUTER_MANDATORY, 1)  # tells of clients that are gone
+        socket.setsockopt(zmq.ROUTER_MANDATORY, 1)  # sending to a client that is gone is an error
         socket.setsockopt(zmq.HEARTBEAT_IVL, 10_000)  # ms; finds machines that are gone
         socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30_000)
         try:
@@ -237,7 +237,7 @@ class RemoteServer:
             if request.function == "zmqRemoteApi.info" and request.arguments == ["sim"]:
                 reply = self._info
             else:
-                value = self._result(request, client)
+                value = carry_out(request, self._modules[request.uuid], client)
                 if isinstance(value, Pending) and not value.is_done():
                     line.pending = value
                     self._pump(line)
@@ -251,23 +251,6 @@ class RemoteServer:
             reply = protocol.error(_text(error))
         line.reply = reply
         self._pump(line)
-
-    def _result(self, request: protocol.Request, client: RemoteClient) -> Any:
-        module, _, name = request.function.partition(".")
-        if module == "zmqRemoteApi" and name in ("require", "info"):
-            wanted = request.arguments[0] if request.arguments else ""
-            if wanted != "sim" and not (isinstance(wanted, str) and wanted.partition("-")[0] == "sim"):
-                raise ImportError(f"module '{wanted}' not found: remote clients have the module sim")
-            return None if name == "require" else _info()
-        if module != "sim" or name.startswith("_"):
-            raise AttributeError(f"there is no function '{request.function}': remote clients have those of sim")
-        function = getattr(self._modules[request.uuid], name)
-        if not callable(function):
-            raise TypeError(f"sim.{name} is a constant, not a function")
-        arguments = [_argument(client, value) for value in request.arguments]
-        while arguments and arguments[-1] is None:  # a trailing nil is an omitted argument
-            arguments.pop()
-        return function(*arguments)
 
     def _returned(self, line: Line, values: list[Any]) -> None:
         """Handle the end of a callback in the client."""
@@ -399,20 +382,6 @@ class RemoteServer:
             self._forget(client)
 
 
-def _argument(client: RemoteClient, value: Any, depth: int = 0) -> Any:
-    """Return an argument with the client's functions, down to the second level, as callables."""
-    if isinstance(value, str):
-        if protocol.is_nil(value):
-            return None
-        name = protocol.callback_name(value)
-        return value if name is None else RemoteCallback(client, name)
-    if depth == 0 and isinstance(value, list):
-        return [_argument(client, each, 1) for each in value] if any(isinstance(e, str) for e in value) else value
-    if depth == 0 and isinstance(value, dict):
-        return {key: _argument(client, each, 1) for key, each in value.items()}
-    return value
-
-
 def _is_silent(client: RemoteClient, now: float) -> bool:
     return now - client.last_seen > client.timeout and not any(line.is_open for line in client.lines.values())
 
@@ -426,19 +395,3 @@ def _is_loopback(address: str) -> bool:
         return address == "localhost" or ipaddress.ip_address(address).is_loopback
     except ValueError:
         return False
-
-
-def _info() -> dict[str, dict[str, Any]]:
-    """Return the functions and constants of `sim` as clients ask for them."""
-    return {**{name: {"func": {}} for name in _function_names()}, **{name: {"const": v} for name, v in _constants()}}
-
-
-def _function_names() -> list[str]:
-    return [function.name for function in functions(RemoteSim)]
-
-
-def _constants() -> Iterator[tuple[str, int]]:
-    for name in dir(RemoteSim):
-        value = getattr(RemoteSim, name)
-        if not name.startswith("_") and isinstance(value, int):
-            yield name, value

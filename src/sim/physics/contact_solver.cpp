@@ -50,8 +50,7 @@ void ContactSolver::add_body(const Link& link, const Vector3& gravity, double st
   dMass mass;
   dBodyGetMass(body, &mass);
   made.inverse_mass = 1 / mass.mass;
-  const SymmetricMatrix in_body = {to_vector(mass.I), to_vector(mass.I + 4), to_vector(mass.I + 8)};
-  const SymmetricMatrix inertia = turned(dBodyGetRotation(body), in_body);
+  const SymmetricMatrix inertia = turned(dBodyGetRotation(body), inertia_of(body));
   made.inverse_inertia = inverse(inertia);
   made.velocity = to_vector(dBodyGetLinearVel(body)) + to_vector(dBodyGetForce(body)) * (step * made.inverse_mass);
   if (dBodyGetGravityMode(body) != 0) made.velocity += gravity * step;

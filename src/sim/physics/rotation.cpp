@@ -30,8 +30,6 @@ constexpr double kMaxTurn = 1.5;
 constexpr double kFineTurn = 0.05;
 constexpr int kMaxFineSteps = 1000;
 
-Vector3 vector_of(const dReal* values) { return {values[0], values[1], values[2]}; }
-
 /// The axes of a body in the world.
 struct Axes {
   explicit Axes(dBodyID body) : r(dBodyGetRotation(body)) {}
@@ -45,23 +43,6 @@ struct Axes {
   }
   const dReal* r;  // three rows of four
 };
-
-Inertia inertia_of(dBodyID body) {
-  dMass mass;
-  dBodyGetMass(body, &mass);
-  return {{mass.I[0], mass.I[5], mass.I[10]}, {mass.I[1], mass.I[2], mass.I[6]}};
-}
-
-Inertia inverse_of(const Inertia& inertia) {
-  const Vector3& d = inertia.diagonal;
-  const Vector3& p = inertia.products;
-  const double xx = d.Y() * d.Z() - p.Z() * p.Z();
-  const double xy = p.Y() * p.Z() - p.X() * d.Z();
-  const double xz = p.X() * p.Z() - p.Y() * d.Y();
-  const double determinant = d.X() * xx + p.X() * xy + p.Y() * xz;
-  return {Vector3(xx, d.X() * d.Z() - p.Y() * p.Y(), d.X() * d.Y() - p.X() * p.X()) / determinant,
-          Vector3(xy, xz, p.X() * p.Y() - d.X() * p.Z()) / determinant};
-}
 
 /// The angle by which ODE rotates a body in a substep, rad.
 double turn_of(dBodyID body, double speed, double step) {
@@ -77,12 +58,14 @@ Vector3 change_by_turn(const Vector3& v, const Vector3& axis, double angle) {
 
 }  // namespace
 
-Rotation::Rotation(dBodyID body) : body_(body), inertia_(inertia_of(body)), inverse_(inverse_of(inertia_)) {}
+Rotation::Rotation(dBodyID body) : body_(body), inertia_(inertia_of(body)), inverse_(inverse(inertia_)) {}
 
 bool Rotation::is_needed(dBodyID body) {
-  const Inertia inertia = inertia_of(body);
-  const double size = inertia.diagonal.Max();
-  return size - inertia.diagonal.Min() > kRounding * size || inertia.products.Length() > kRounding * size;
+  const SymmetricMatrix inertia = inertia_of(body);
+  const Vector3 diagonal(inertia[0].X(), inertia[1].Y(), inertia[2].Z());
+  const Vector3 products(inertia[0].Y(), inertia[0].Z(), inertia[1].Z());
+  const double size = diagonal.Max();
+  return size - diagonal.Min() > kRounding * size || products.Length() > kRounding * size;
 }
 
 bool Rotation::was_moved() const {
@@ -96,8 +79,8 @@ void Rotation::begin(double step) {
   const Vector3 before = std::exchange(ahead_, Vector3::Zero);
   if (dBodyIsEnabled(body_) == 0) return;
   const Axes axes(body_);
-  const Vector3 velocity = vector_of(dBodyGetAngularVel(body_));
-  const Vector3 momentum = axes.to_world(inertia_ * axes.to_body(velocity));
+  const Vector3 velocity = to_vector(dBodyGetAngularVel(body_));
+  const Vector3 momentum = axes.to_world(times(inertia_, axes.to_body(velocity)));
   const bool steady = velocity.Cross(momentum).Length() * step <= kRounding * momentum.Length();
   if (steady && !carried) return;
   // The change of P - I w since the last substep, by the rotation of the inertia.
@@ -122,12 +105,12 @@ Vector3 Rotation::implicit_change(const Vector3& momentum, double step) const {
   const Axes axes(body_);
   const Vector3 l = axes.to_body(momentum);
   // The columns of the matrix; Cramer's rule.
-  const Vector3 x = inertia_ * Vector3::UnitX - l.Cross(Vector3::UnitX) * step;
-  const Vector3 y = inertia_ * Vector3::UnitY - l.Cross(Vector3::UnitY) * step;
-  const Vector3 z = inertia_ * Vector3::UnitZ - l.Cross(Vector3::UnitZ) * step;
+  const Vector3 x = inertia_[0] - l.Cross(Vector3::UnitX) * step;
+  const Vector3 y = inertia_[1] - l.Cross(Vector3::UnitY) * step;
+  const Vector3 z = inertia_[2] - l.Cross(Vector3::UnitZ) * step;
   const Vector3 yz = y.Cross(z);
   const Vector3 velocity = Vector3(l.Dot(yz), x.Dot(l.Cross(z)), x.Dot(y.Cross(l))) / x.Dot(yz);
-  return axes.to_world(inertia_ * velocity) - momentum;
+  return axes.to_world(times(inertia_, velocity)) - momentum;
 }
 
 void Rotation::end(double step) {
@@ -141,9 +124,9 @@ void Rotation::end(double step) {
 void Rotation::turn_freely(double step) {
   // ODE has rotated the body by its new velocity; its momentum is that at the orientation before.
   Quaternion q(orientation_[0], orientation_[1], orientation_[2], orientation_[3]);
-  const Vector3 turned = vector_of(dBodyGetAngularVel(body_));
-  const Vector3 momentum = q.RotateVector(inertia_ * q.RotateVectorReverse(turned));
-  const auto velocity_at = [&](const Quaternion& at) { return inverse_ * at.RotateVectorReverse(momentum); };
+  const Vector3 turned = to_vector(dBodyGetAngularVel(body_));
+  const Vector3 momentum = q.RotateVector(times(inertia_, q.RotateVectorReverse(turned)));
+  const auto velocity_at = [&](const Quaternion& at) { return times(inverse_, at.RotateVectorReverse(momentum)); };
   const auto rate = [&](const Quaternion& at) {
     const Vector3 w = velocity_at(at) / 2;
     return at * Quaternion(0, w.X(), w.Y(), w.Z());

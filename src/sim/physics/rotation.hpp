@@ -6,20 +6,9 @@
 #include <ode/ode.h>
 
 #include "bubblesim/math.hpp"
+#include "physics/symmetric_matrix.hpp"
 
 namespace bubblesim {
-
-/// Moments of inertia about the centre of mass, kg m^2, body axes; symmetric.
-struct Inertia {
-  Vector3 diagonal;  // xx, yy, zz
-  Vector3 products;  // xy, xz, yz
-
-  Vector3 operator*(const Vector3& v) const {
-    return {diagonal.X() * v.X() + products.X() * v.Y() + products.Y() * v.Z(),
-            products.X() * v.X() + diagonal.Y() * v.Y() + products.Z() * v.Z(),
-            products.Y() * v.X() + products.Z() * v.Y() + diagonal.Z() * v.Z()};
-  }
-};
 
 class Rotation {
  public:
@@ -43,8 +32,8 @@ class Rotation {
   bool was_moved() const;
 
   dBodyID body_;
-  Inertia inertia_;
-  Inertia inverse_;
+  SymmetricMatrix inertia_;  // body axes
+  SymmetricMatrix inverse_;
   bool free_ = false;         // in this substep it has no joint or contact, and does not rotate about a principal axis
   bool constrained_ = false;  // in this substep it has, and is rotated by the torque of begin()
   Vector3 ahead_;

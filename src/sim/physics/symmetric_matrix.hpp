@@ -30,6 +30,14 @@ inline SymmetricMatrix turned(const dReal* rotation, const SymmetricMatrix& in_b
   return made;
 }
 
+/// The moments of inertia of a body about its centre of mass, kg m^2, body axes.
+inline SymmetricMatrix inertia_of(dBodyID body) {
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  const dReal* rows = mass.I;  // three of four values
+  return {Vector3(rows[0], rows[1], rows[2]), Vector3(rows[4], rows[5], rows[6]), Vector3(rows[8], rows[9], rows[10])};
+}
+
 /// The inverse of a symmetric matrix.
 inline SymmetricMatrix inverse(const SymmetricMatrix& m) {
   const Vector3 a = m[1].Cross(m[2]);
