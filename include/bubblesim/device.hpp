@@ -2,8 +2,6 @@
 // A device of a robot that is called before physics substeps, such as a controller, a propeller or a drive.
 #pragma once
 
-#include <vector>
-
 #include "bubblesim/world.hpp"
 
 namespace bubblesim {
@@ -19,8 +17,8 @@ class Device {
   virtual void update(World& world, double time, double duration) = 0;
   /// Called after the world was reset.
   virtual void reset(World& world);
-  /// The numbers that determine its future updates, for World::state_hash().
-  virtual std::vector<double> state() const;
+  /// Saves or restores what determines its future updates and changes while the simulation runs.
+  virtual void transfer(StateArchive& archive);
 };
 
 }  // namespace bubblesim

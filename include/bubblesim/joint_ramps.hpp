@@ -33,7 +33,7 @@ class JointRamps final : public Device {
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   std::vector<double> rates_;

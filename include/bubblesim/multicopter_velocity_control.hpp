@@ -39,7 +39,7 @@ class MulticopterVelocityControl final : public Device {
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   struct Command {

@@ -2,8 +2,6 @@
 // The drive of a robot that moves in the plane in any direction.
 #pragma once
 
-#include <vector>
-
 #include "bubblesim/device.hpp"
 
 namespace bubblesim {
@@ -21,7 +19,7 @@ class PlanarDrive final : public Device {
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   ObjectId model_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "bubblesim/device.hpp"
 #include "bubblesim/wind.hpp"
@@ -46,7 +45,7 @@ class Rotor final : public Device {
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   void take_command_of_joint(const World& world);

@@ -32,7 +32,7 @@ class TimedEfforts final : public Device {
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   struct TimedWrench {
@@ -40,11 +40,13 @@ class TimedEfforts final : public Device {
     Wrench wrench;
     std::optional<Vector3> point;
     Interval interval;
+    void transfer(StateArchive& archive);
   };
   struct TimedEffort {
     ObjectId joint;
     double effort;
     Interval interval;
+    void transfer(StateArchive& archive);
   };
 
   std::vector<TimedWrench> wrenches_;

@@ -28,6 +28,8 @@ class Wind final : public Device {
     double turn_noise = 0;          ///< rad, standard deviation
     double vertical_rise_time = 1;  ///< s
     double vertical_noise = 0;      ///< m/s, standard deviation
+
+    void transfer(StateArchive& archive);
   };
 
   /// The mean in m/s, world axes. Noise depends on the seed and the simulation time alone.
@@ -44,10 +46,12 @@ class Wind final : public Device {
   /// 1/s; 1 by default. Not changed by a reset. Throws InvalidInput unless it is from 0 to 1e6.
   void set_force_factor(double factor);
   double force_factor() const { return force_factor_; }
+  /// Of the noise from now on.
+  void set_seed(std::uint64_t seed) { seed_ = seed; }
 
   void update(World& world, double time, double duration) override;
   void reset(World& world) override;
-  std::vector<double> state() const override;
+  void transfer(StateArchive& archive) override;
 
  private:
   void blow(double time, double duration);

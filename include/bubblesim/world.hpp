@@ -16,6 +16,7 @@
 #include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
+#include "bubblesim/state_archive.hpp"
 
 namespace bubblesim {
 
@@ -34,6 +35,12 @@ struct PlacedShape {
   Pose pose;  ///< in the world
 };
 
+/// A point where two shapes touch.
+struct TouchPoint {
+  Vector3 position;         ///< m, in the world
+  double normal_force = 0;  ///< N
+};
+
 /// Force and torque on a body.
 struct Wrench {
   Vector3 force;   ///< N
@@ -45,6 +52,8 @@ struct Inertial {
   Vector3 angular_velocity;  ///< rad/s, at present, or filtered if the unit has a bandwidth
   Vector3 specific_force;    ///< m/s^2, mean over the last advance() in the axes of each substep, or filtered
 };
+
+void transfer(StateArchive& archive, Wrench& wrench);
 
 /// The frame of the vectors of a wrench.
 enum class WrenchFrame { kWorld, kObject };
@@ -91,6 +100,13 @@ class World {
   /// the simulation equals that of a new world of these models, bit by bit. Clears a divergence.
   void reset();
 
+  /// Whether no model was added or removed.
+  bool has_scene_models() const { return has_scene_models_; }
+  /// Builds the models of the scene again, instead of the current ones.
+  void rebuild(const Scene& scene);
+  /// Sets the seed of the iterative solver's random numbers, from now on.
+  void set_seed(std::uint64_t seed);
+
   /// Simulates `duration` seconds in physics substeps of `step` seconds. Throws Diverged when a body leaves the finite
   /// world (over 1e6 m away or faster than 1e6 m/s); the world cannot be used until it is reset or diverged_models()
   /// are removed. `time` is the simulation time at the start, for devices; by default the time since the last reset.
@@ -112,6 +128,19 @@ class World {
   /// Acceleration of the object's origin, world axes: mean over the last advance(), including jumps of the velocity.
   Vector3 acceleration(ObjectId object) const;
   Vector3 gravity() const;
+  /// Sets the gravity, m/s^2, until the world is reset. All bodies wake.
+  void set_gravity(const Vector3& gravity);
+  /// Mass of a link, or of all links of a model, kg. Throws WrongObject for other objects.
+  double mass(ObjectId object) const;
+  /// Sets the mass of a link, or scales those of all links of a model to this sum, until the world is reset. The
+  /// moments of inertia are scaled likewise, the centres of mass stay. Throws WrongObject for static models.
+  void set_mass(ObjectId object, double mass);
+  /// Coulomb friction coefficient mu of the first collision of a link, or of a model's links. Throws WrongObject for
+  /// objects without collisions.
+  double friction(ObjectId object) const;
+  /// Sets the friction coefficient, in all directions, of all collisions of a link or of a model's links, until the
+  /// world is reset. A contact has the lower one of its two collisions.
+  void set_friction(ObjectId object, double mu);
   /// Moves a model (with all its links) or a single link to a pose; velocities are kept.
   void set_pose(ObjectId object, const Pose& pose);
   /// Sets the velocity of a model (all its links move as one rigid body) or of a single link.
@@ -165,6 +194,10 @@ class World {
   void set_target_velocity(ObjectId joint, double velocity, int axis = 0);
   void set_target_effort(ObjectId joint, double effort, int axis = 0);
   void set_max_force(ObjectId joint, double force, int axis = 0);
+  /// Factor between a target and what the motor does, 1 at first and after a reset: of its velocity, its effort, and in
+  /// position control the speed with which it approaches. Throws InvalidInput for numbers below 0 and above 1000.
+  void set_motor_gain(ObjectId joint, double gain, int axis = 0);
+  double motor_gain(ObjectId joint, int axis = 0) const;
   /// Moves the links below a revolute, continuous or prismatic joint so that the joint has this position; the joint
   /// velocity is kept. Throws InvalidInput for other joint types and for a joint in a closed chain of links.
   void set_joint_position(ObjectId joint, double position);
@@ -174,6 +207,8 @@ class World {
   /// The contacts of a link during the last advance(). Only links with a contact sensor record them, for the collisions
   /// of the sensor; throws InvalidInput for other links.
   std::vector<Contact> contacts(ObjectId link) const;
+  /// The contact points of all links in the last physics substep, also of those that sleep.
+  std::vector<TouchPoint> contact_points() const;
   /// The wrench of a joint's child on its parent in world axes, about the joint's origin, mean over the last advance().
   /// Only joints with a force-torque sensor record it; throws InvalidInput for other joints.
   Wrench joint_wrench(ObjectId joint) const;
@@ -195,16 +230,25 @@ class World {
   /// hashes in every process. Not covered: how long a body has been at rest, which ODE does not report.
   std::uint64_t state_hash() const;
 
+  /// Saves or restores all that determines the future: the physics with its memory, motors, applied wrenches, devices
+  /// and their schedules, random numbers. Restoring needs a world with the same models and devices, throws InvalidInput
+  /// when they differ, and then leaves a state to be reset or restored. Saving throws Diverged after a divergence.
+  void transfer(StateArchive& archive);
+
   struct State;  // see src/sim/physics/world_state.hpp
 
  private:
+  void build(const Scene& scene, std::uint64_t seed);
+
   struct Discard {
     void operator()(State* state) const;
   };
 
   std::unique_ptr<State, Discard> state_;
+  std::shared_ptr<const std::string> start_;  // the physics of the scene's models at the start
   mutable AccessLock access_;
   std::uint64_t revision_ = 0;
+  bool has_scene_models_ = true;
 };
 
 }  // namespace bubblesim

@@ -60,6 +60,6 @@ void Drag::update(World& world, double, double duration) {
 
 void Drag::reset(World&) { current_ = Vector3::Zero; }
 
-std::vector<double> Drag::state() const { return {current_.X(), current_.Y(), current_.Z()}; }
+void Drag::transfer(StateArchive& archive) { archive(current_); }
 
 }  // namespace bubblesim

@@ -63,11 +63,10 @@ void JointRamps::update(World& world, double, double duration) {
 
 void JointRamps::reset(World&) { stop(); }
 
-std::vector<double> JointRamps::state() const {
-  std::vector<double> numbers = inputs_;
-  numbers.insert(numbers.end(), targets_.begin(), targets_.end());
-  numbers.push_back(changing_ ? 1 : 0);
-  return numbers;
+void JointRamps::transfer(StateArchive& archive) {
+  archive.require(inputs_.size(), "number of inputs of a device");
+  for (std::size_t i = 0; i < inputs_.size(); ++i) archive(inputs_[i], targets_[i]);
+  archive(changing_);
 }
 
 }  // namespace bubblesim

@@ -131,9 +131,11 @@ void MulticopterVelocityControl::update(World& world, double, double) {
 
 void MulticopterVelocityControl::reset(World&) { command_.reset(); }
 
-std::vector<double> MulticopterVelocityControl::state() const {
-  if (!command_) return {};
-  return {command_->linear.X(), command_->linear.Y(), command_->linear.Z(), command_->yaw_rate};
+void MulticopterVelocityControl::transfer(StateArchive& archive) {
+  bool commanded = command_.has_value();
+  Command command = command_.value_or(Command{});
+  archive(commanded, command.linear, command.yaw_rate);
+  if (archive.restores()) command_ = commanded ? std::make_optional(command) : std::nullopt;
 }
 
 }  // namespace bubblesim

@@ -34,6 +34,6 @@ void PlanarDrive::reset(World&) {
   commanded_ = false;
 }
 
-std::vector<double> PlanarDrive::state() const { return {forward_, leftward_, turning_, commanded_ ? 1.0 : 0.0}; }
+void PlanarDrive::transfer(StateArchive& archive) { archive(forward_, leftward_, turning_, commanded_); }
 
 }  // namespace bubblesim

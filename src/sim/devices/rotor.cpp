@@ -103,6 +103,6 @@ void Rotor::reset(World& world) {
   turn_by_velocity(world, description_.joint);
 }
 
-std::vector<double> Rotor::state() const { return {wanted_, speed_, target_}; }
+void Rotor::transfer(StateArchive& archive) { archive(wanted_, speed_, target_); }
 
 }  // namespace bubblesim

@@ -100,20 +100,14 @@ void TimedEfforts::reset(World&) {
   efforts_.clear();
 }
 
-std::vector<double> TimedEfforts::state() const {
-  std::vector<double> numbers;
-  const auto add = [&](const Vector3& v) { numbers.insert(numbers.end(), {v.X(), v.Y(), v.Z()}); };
-  for (const TimedWrench& one : wrenches_) {
-    add(one.wrench.force);
-    add(one.wrench.torque);
-    if (one.point) add(*one.point);
-    numbers.insert(numbers.end(), {static_cast<double>(one.link), one.interval.start, one.interval.duration});
-  }
-  for (const TimedEffort& one : efforts_) {
-    numbers.insert(numbers.end(),
-                   {static_cast<double>(one.joint), one.effort, one.interval.start, one.interval.duration});
-  }
-  return numbers;
+void TimedEfforts::TimedWrench::transfer(StateArchive& archive) {
+  archive(link, wrench, point, interval.start, interval.duration);
 }
+
+void TimedEfforts::TimedEffort::transfer(StateArchive& archive) {
+  archive(joint, effort, interval.start, interval.duration);
+}
+
+void TimedEfforts::transfer(StateArchive& archive) { archive(wrenches_, efforts_); }
 
 }  // namespace bubblesim

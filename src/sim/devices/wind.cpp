@@ -111,10 +111,13 @@ void Wind::reset(World&) {
   restart();
 }
 
-std::vector<double> Wind::state() const {
-  std::vector<double> numbers{mean_.X(), mean_.Y(), mean_.Z(), force_factor_};
-  if (variation_) numbers.insert(numbers.end(), {speed_, direction_, vertical_});
-  return numbers;
+void Wind::transfer(StateArchive& archive) {
+  archive(mean_, seed_, force_factor_, velocity_, speed_, direction_, vertical_, variation_);
+}
+
+void Wind::Variation::transfer(StateArchive& archive) {
+  archive(rise_time, sine_part, sine_period, speed_noise, turn_time, turn_sine, turn_period, turn_noise,
+          vertical_rise_time, vertical_noise);
 }
 
 }  // namespace bubblesim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collision detection and contact joints.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "physics/contact_cone.hpp"
@@ -68,12 +69,14 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
 
   ContactPoints points;
-  const int most = std::max(std::min(a.surface.max_contacts, b.surface.max_contacts), 1);
+  const Surface& surface_a = a.surface();
+  const Surface& surface_b = b.surface();
+  const int most = std::max(std::min(surface_a.max_contacts, surface_b.max_contacts), 1);
   const int count = std::min(find_contact_points(first, second, points), most);
   if (count == 0) return;
   state.islands.touch(a.island, b.island, count);
   state.found.pairs.push_back({&a, &b, state.found.points.size(), count});
-  SurfacePair pair = combine(a.surface, b.surface, step);
+  SurfacePair pair = combine(surface_a, surface_b, step);
   share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
   for (int i = 0; i < count; ++i) {
     FoundContact& point = state.found.points.emplace_back();
@@ -81,10 +84,14 @@ void touch(void* data, dGeomID first, dGeomID second) {
     dContact& contact = point.contact;
     contact.surface = pair.ode;
     contact.geom = points[static_cast<std::size_t>(i)];
+    if (pair.torsion_by_depth > 0) {
+      const double patch = pair.torsion_by_depth * std::sqrt(std::max(contact.geom.depth, 0.0));
+      contact.surface.rhoN = std::max(contact.surface.rhoN, patch);
+    }
     sink(contact.geom.depth, pair, step, contact);
     contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
     if (pair.directed != nullptr) {
-      direct(turned(pair.directed == &a.surface ? first : second, pair.directed->fdir1), contact);
+      direct(turned(pair.directed == &surface_a ? first : second, pair.directed->fdir1), contact);
     }
   }
 }
@@ -142,10 +149,22 @@ void join_contacts(World::State& state, double step) {
     if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
     const RememberedPair* remembered = recollection.pair(pair);
     FoundContact* points = &state.found.points[pair.begin];
-    limit_friction(pair, remembered, state.memory, step, state.iterates(state.islands.of(pair.first->island)), points);
+    limit_friction(pair, remembered, state.memory, step,
+                   state.islands.is_beyond_limit(state.islands.of(pair.first->island)), points);
     for (int i = 0; i < pair.count; ++i) join(state, pair, points[i]);
   }
 }
+
+namespace {
+
+/// The resistance to rolling and spinning that ODE applied, by the place of the body after the substep: the torque is
+/// used at rest only.
+Vector3 torque_about_point(const FoundPair& pair, const FoundContact& point) {
+  const Vector3 centre = to_vector(dBodyGetPosition(pair.first->link->body.get()));
+  return to_vector(point.feedback.t1) - (to_vector(point.contact.geom.pos) - centre).Cross(point.force);
+}
+
+}  // namespace
 
 void gather_contacts(World::State& state) {
   for (const FoundPair& pair : state.found.pairs) {
@@ -153,6 +172,7 @@ void gather_contacts(World::State& state) {
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
       FoundContact& point = state.found.points[i];
       point.force = to_vector(point.feedback.f1);  // the first shape has a body
+      if (point.contact.surface.rho > 0) point.torque = torque_about_point(pair, point);
     }
   }
   remember_contacts(state.found, state.memory, state.memory_before);

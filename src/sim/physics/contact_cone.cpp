@@ -15,6 +15,9 @@ constexpr double kAcross = 0.1;
 constexpr double kAlong = 1 - kAcross * kAcross / 4;
 constexpr double kNotable = 0.1;  // of the limit; less friction has no direction
 constexpr double kSlides = 1e-3;  // m/s
+// Rolling can turn: each direction keeps this part of the limit at least.
+constexpr double kRollsAcross = 0.02;
+constexpr double kRolls = 1e-3;  // rad/s
 
 Vector3 velocity_at(const Collider& shape, const dReal* position) {
   dBodyID body = shape.link->body.get();
@@ -38,13 +41,45 @@ Vector3 tangential(const Vector3& vector, const dContact& contact) {
 
 /// Whether the friction is the same in all directions, so that its directions may be chosen.
 bool is_isotropic(const dContact& contact) {
-  return (contact.surface.mode & (dContactMu2 | dContactFDir1 | dContactSlip1 | dContactSlip2)) == 0;
+  const dSurfaceParameters& surface = contact.surface;
+  return surface.mu2 == surface.mu && (surface.mode & (dContactFDir1 | dContactSlip1 | dContactSlip2)) == 0;
 }
 
 void direct_along_slip(const FoundPair& pair, dContact& contact) {
   const dReal* position = contact.geom.pos;
   const Vector3 slip = tangential(velocity_at(*pair.first, position) - velocity_at(*pair.second, position), contact);
   if (slip.Length() > kSlides) direct_along(slip, contact);
+}
+
+Vector3 spin_of(const Collider& shape) {
+  dBodyID body = shape.link->body.get();
+  return body == nullptr ? Vector3() : to_vector(dBodyGetAngularVel(body));
+}
+
+/// Divides the resistance to rolling between its two axes, which are the friction directions, so that it opposes
+/// rolling in any direction; at rest, so that the torque that acts remains within the limit.
+void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dContact& contact) {
+  dSurfaceParameters& surface = contact.surface;
+  if (surface.rho == 0) return;
+  Vector3 along = tangential(spin_of(*pair.first) - spin_of(*pair.second), contact);
+  double least = kRollsAcross;
+  if (along.Length() < kRolls) {
+    along = tangential(expected.torque, contact);
+    const double limit = surface.rho * expected.normal;
+    const double share = limit > 0 ? std::min(along.Length() / limit, 1.0) : 0;
+    least = std::max(std::sqrt(1 - share * share), kRollsAcross);
+  }
+  dVector3 axis;
+  dVector3 other;
+  if ((surface.mode & dContactFDir1) != 0) {
+    std::copy(contact.fdir1, contact.fdir1 + 3, axis);
+  } else {
+    dPlaneSpace(contact.geom.normal, axis, other);  // as ODE
+  }
+  const double length = along.Length();
+  const double first = length > 0 ? std::min(std::abs(along.Dot(to_vector(axis))) / length, 1.0) : 1;
+  surface.rho2 = surface.rho * std::max(std::sqrt(1 - first * first), least);
+  surface.rho *= std::max(first, least);
 }
 
 void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool iterative, dContact& contact) {
@@ -67,6 +102,7 @@ void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool it
   surface.mu2 = isotropic || (surface.mode & dContactMu2) == 0 ? surface.mu * second : surface.mu2;
   surface.mu *= first;
   surface.mode |= dContactMu2;
+  limit_rolling(pair, expected, contact);
   if (iterative) return;
   surface.mode &= ~dContactApprox1;
   surface.mu *= expected.normal;
@@ -83,6 +119,7 @@ void limit_friction(const FoundPair& pair, const RememberedPair* remembered, con
   if (remembered == nullptr || !is_settled(*remembered)) {
     for (int i = 0; i < pair.count; ++i) {
       if (is_isotropic(points[i].contact)) direct_along_slip(pair, points[i].contact);
+      limit_rolling(pair, {}, points[i].contact);
     }
     return;
   }

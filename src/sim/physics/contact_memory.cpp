@@ -50,6 +50,9 @@ void ContactMemory::add_to(Fnv1a& hash) const {
       const double values[] = {point.position.X(), point.position.Y(), point.position.Z(), point.normal,
                                point.friction.X(), point.friction.Y(), point.friction.Z()};
       hash.add(values, 7);
+      if (point.torque == Vector3::Zero) continue;
+      const double torque[] = {point.torque.X(), point.torque.Y(), point.torque.Z()};
+      hash.add(torque, 3);
     }
   }
 }
@@ -84,7 +87,7 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
       least = distance;
       nearest = &other;
     }
-    expected[static_cast<std::size_t>(i)] = {nearest->normal, nearest->friction};
+    expected[static_cast<std::size_t>(i)] = {nearest->normal, nearest->friction, nearest->torque};
     sum += nearest->normal;
   }
   if (pair.count == remembered.count || sum <= 0) return expected;
@@ -92,6 +95,7 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
   for (ExpectedContact& contact : expected) {
     contact.normal *= remembered.load / sum;
     contact.friction *= remembered.load / sum;
+    contact.torque *= remembered.load / sum;
   }
   return expected;
 }
@@ -137,7 +141,7 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
       const Vector3 normal = to_vector(point.contact.geom.normal);
       const double load = std::max(point.force.Dot(normal), 0.0);
       memory.points.push_back(
-          {to_vector(point.contact.geom.pos), load, point.force - normal * point.force.Dot(normal)});
+          {to_vector(point.contact.geom.pos), load, point.force - normal * point.force.Dot(normal), point.torque});
       now.load += load;
     }
     memory.pairs.push_back(now);

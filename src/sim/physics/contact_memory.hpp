@@ -18,6 +18,7 @@ struct RememberedPoint {
   Vector3 position;   ///< m, in the world
   double normal = 0;  ///< N, normal force
   Vector3 friction;   ///< N, on the first shape, in world axes
+  Vector3 torque;     ///< N m, likewise: resistance to rolling and spinning
 };
 
 struct RememberedPair {
@@ -42,6 +43,7 @@ struct ContactMemory {
 struct ExpectedContact {
   double normal = 0;  ///< N
   Vector3 friction;   ///< N, on the first shape
+  Vector3 torque;     ///< N m, likewise: resistance to rolling and spinning
 };
 
 /// Looks pairs up in their order; a pair that is asked for must come after the one asked for before.

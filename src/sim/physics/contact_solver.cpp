@@ -2,8 +2,8 @@
 #include "physics/contact_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "physics/contact_defaults.hpp"
 #include "physics/symmetric_matrix.hpp"
@@ -85,7 +85,7 @@ SolvedRow ContactSolver::make_turning_row(int a, int b, const Vector3& axis) con
   return row;
 }
 
-void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size_t index, const Vector3& start,
+void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size_t index, const ExpectedContact& start,
                               double height, double step) {
   const dSurfaceParameters& surface = found.contact.surface;
   const Vector3 position = to_vector(found.contact.geom.pos);
@@ -113,18 +113,12 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
     t1 = to_vector(p);
   }
   point.tangent = {make_row(a, b, t1, lever_a, lever_b), make_row(a, b, n.Cross(t1), lever_a, lever_b)};
-  const SolvedBody& first = bodies_[static_cast<std::size_t>(a)];
-  const SolvedBody& second = bodies_[static_cast<std::size_t>(b)];
-  point.mixed =
-      point.tangent[1].arm_a.Dot(point.tangent[0].turned_a) + point.tangent[1].arm_b.Dot(point.tangent[0].turned_b);
   if ((surface.mode & dContactSlip1) != 0) soften(point.tangent[0], surface.slip1 / step);
   if ((surface.mode & dContactSlip2) != 0) soften(point.tangent[1], surface.slip2 / step);
-  point.determinant = point.tangent[0].admittance * point.tangent[1].admittance - point.mixed * point.mixed;
-  const double half = (point.tangent[0].admittance - point.tangent[1].admittance) / 2;
-  point.slide = 1 / (point.tangent[0].admittance - half + std::hypot(half, point.mixed));
+  point.coupling = couple(point.tangent);
   point.mu = surface.mu;
   point.mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
-  point.isotropic = (surface.mode & dContactMu2) == 0;
+  point.isotropic = point.mu2 == point.mu;
 
   const double cfm = (surface.mode & dContactSoftCFM) != 0 ? surface.soft_cfm : kConstraintSoftness;
   soften(point.normal, cfm / step);
@@ -136,21 +130,31 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
       if (body.body == nullptr) return 0.0;
       return n.Dot(to_vector(dBodyGetLinearVel(body.body))) + arm.Dot(to_vector(dBodyGetAngularVel(body.body)));
     };
-    const double incoming = now(second, point.normal.arm_b) - now(first, point.normal.arm_a);
+    const double incoming = now(bodies_[static_cast<std::size_t>(b)], point.normal.arm_b) -
+                            now(bodies_[static_cast<std::size_t>(a)], point.normal.arm_a);
     if (incoming > surface.bounce_vel) point.target = std::max(point.target, surface.bounce * incoming + motion);
   }
-  if ((surface.mode & dContactRolling) != 0) {
-    point.spinning = static_cast<int>(spins_.size());
-    SolvedSpin& spin = spins_.emplace_back();
-    spin.rolling = surface.rho;
-    spin.spinning = surface.rhoN;
-    spin.rows = {make_turning_row(a, b, t1), make_turning_row(a, b, n.Cross(t1)), make_turning_row(a, b, n)};
-  }
+  const Vector3 force = n * start.normal + start.friction;
   // A rigid contact yields only to what it did not bear before: a stack does not sink.
-  if (!found.has_own_correction) point.target += point.normal.softness * std::max(start.Dot(n), 0.0) * step;
-  const Vector3 impulse = start * step;
+  if (!found.has_own_correction) point.target += point.normal.softness * std::max(force.Dot(n), 0.0) * step;
+  const Vector3 impulse = force * step;
   apply(point, point.normal, std::max(impulse.Dot(n), 0.0));
   for (SolvedRow& row : point.tangent) apply(point, row, impulse.Dot(row.direction));
+  if ((surface.mode & dContactRolling) != 0) add_spin(point, surface, start.torque * step);
+}
+
+void ContactSolver::add_spin(SolvedPoint& point, const dSurfaceParameters& surface, const Vector3& expected) {
+  point.spinning = static_cast<int>(spins_.size());
+  SolvedSpin& made = spins_.emplace_back();
+  made.rolling = surface.rho;
+  made.spinning = surface.rhoN;
+  const auto row = [&](const SolvedRow& along) { return make_turning_row(point.a, point.b, along.direction); };
+  made.roll = {row(point.tangent[0]), row(point.tangent[1])};
+  made.spin = row(point.normal);
+  made.coupling = couple(made.roll);
+  for (SolvedRow* turning : {&made.roll[0], &made.roll[1], &made.spin}) {
+    apply(point, *turning, expected.Dot(turning->arm_a));
+  }
 }
 
 double ContactSolver::speed(const SolvedPoint& point, const SolvedRow& row) const {
@@ -169,19 +173,23 @@ void ContactSolver::apply(const SolvedPoint& point, SolvedRow& row, double impul
   b.spin -= row.turned_b * impulse;
 }
 
-void ContactSolver::solve_spin(const SolvedPoint& point, SolvedSpin& spin) {
-  const auto turn = [&](SolvedRow& row, double least, double most) {
-    const double wanted = row.impulse - speed(point, row) / row.admittance;
-    apply(point, row, std::clamp(wanted, least, most) - row.impulse);
+double ContactSolver::solve_spin(const SolvedPoint& point, SolvedSpin& spin) {
+  double change = 0;
+  const auto set = [&](SolvedRow& row, double impulse) {
+    const double more = impulse - row.impulse;
+    apply(point, row, more);
+    // At most this much, in m/s, at the point.
+    change = std::max(change, std::abs(more) * std::sqrt(row.admittance * point.tangent[0].admittance));
   };
-  const double normal = point.normal.impulse;
-  turn(spin.rows[2], -spin.spinning * normal, spin.spinning * normal);
-  if (spin.rolling == 0) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double other = spin.rows[1 - i].impulse;
-    const double most = std::sqrt(std::max(spin.rolling * normal * spin.rolling * normal - other * other, 0.0));
-    turn(spin.rows[i], -most, most);
-  }
+  const double most = spin.spinning * point.normal.impulse;
+  set(spin.spin, std::clamp(spin.spin.impulse - speed(point, spin.spin) / spin.spin.admittance, -most, most));
+  if (spin.rolling == 0) return change;
+  const double v1 = speed(point, spin.roll[0]);
+  const double v2 = speed(point, spin.roll[1]);
+  const auto [p1, p2] = stick_within(spin.roll, spin.coupling, v1, v2, spin.rolling * point.normal.impulse);
+  set(spin.roll[0], p1);
+  set(spin.roll[1], p2);
+  return change;
 }
 
 double ContactSolver::solve_point(SolvedPoint& point) {
@@ -194,28 +202,20 @@ double ContactSolver::solve_point(SolvedPoint& point) {
   auto& [first, second] = point.tangent;
   const double v1 = speed(point, first) + first.softness * first.impulse;
   const double v2 = speed(point, second) + second.softness * second.impulse;
-  double p1 = first.impulse - (second.admittance * v1 - point.mixed * v2) / point.determinant;
-  double p2 = second.impulse - (first.admittance * v2 - point.mixed * v1) / point.determinant;
+  std::array<double, 2> p{};
   if (point.isotropic) {
-    const double limit = point.mu * normal.impulse;
-    if (std::hypot(p1, p2) > limit) {
-      // A slide: a step along the velocity, since friction opposes it, and back to the cone.
-      p1 = first.impulse - v1 * point.slide;
-      p2 = second.impulse - v2 * point.slide;
-      const double scale = limit / std::max({std::hypot(p1, p2), limit, std::numeric_limits<double>::min()});
-      p1 *= scale;
-      p2 *= scale;
-    }
+    p = stick_within(point.tangent, point.coupling, v1, v2, point.mu * normal.impulse);
   } else {
-    p1 = std::clamp(p1, -point.mu * normal.impulse, point.mu * normal.impulse);
-    p2 = std::clamp(p2, -point.mu2 * normal.impulse, point.mu2 * normal.impulse);
+    p = stick(point.tangent, point.coupling, v1, v2);
+    p[0] = std::clamp(p[0], -point.mu * normal.impulse, point.mu * normal.impulse);
+    p[1] = std::clamp(p[1], -point.mu2 * normal.impulse, point.mu2 * normal.impulse);
   }
-  change = std::max(change, std::abs(p1 - first.impulse) * first.admittance);
-  change = std::max(change, std::abs(p2 - second.impulse) * second.admittance);
-  apply(point, first, p1 - first.impulse);
-  apply(point, second, p2 - second.impulse);
-  if (point.spinning >= 0) solve_spin(point, spins_[static_cast<std::size_t>(point.spinning)]);
-  return change;
+  change = std::max(change, std::abs(p[0] - first.impulse) * first.admittance);
+  change = std::max(change, std::abs(p[1] - second.impulse) * second.admittance);
+  apply(point, first, p[0] - first.impulse);
+  apply(point, second, p[1] - second.impulse);
+  if (point.spinning < 0) return change;
+  return std::max(change, solve_spin(point, spins_[static_cast<std::size_t>(point.spinning)]));
 }
 
 double ContactSolver::sweep() {
@@ -270,7 +270,13 @@ void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
     };
     for (const SolvedRow& row : point.tangent) add(row);
     if (point.spinning >= 0) {
-      for (const SolvedRow& row : spins_[static_cast<std::size_t>(point.spinning)].rows) add(row);
+      const SolvedSpin& spin = spins_[static_cast<std::size_t>(point.spinning)];
+      Vector3 turn;
+      for (const SolvedRow* row : {&spin.roll[0], &spin.roll[1], &spin.spin}) {
+        add(*row);
+        turn += row->arm_a * row->impulse;
+      }
+      points[point.found].torque = turn / step;
     }
     points[point.found].force = impulse / step;
     const auto push = [&](int number, const Vector3& force, const Vector3& torque) {

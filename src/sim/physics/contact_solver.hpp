@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
+#include "physics/contact_memory.hpp"
+#include "physics/contact_rows.hpp"
 #include "physics/found_contacts.hpp"
 
 namespace bubblesim {
@@ -25,26 +27,14 @@ struct SolvedBody {
   Vector3 spin;                            // rad/s, likewise
 };
 
-/// A direction in which an impulse acts on two bodies.
-struct SolvedRow {
-  Vector3 direction;           // of the force on the first body; zero for torques
-  Vector3 arm_a, arm_b;        // torque on each body per impulse, m (1 for torques)
-  Vector3 turned_a, turned_b;  // their effect on the spins, 1/(kg m)
-  double admittance = 0;       // 1/kg, relative velocity per impulse; with the softness
-  double softness = 0;         // 1/kg, part of the admittance: velocity that an impulse lets through
-  double impulse = 0;          // N s
-};
-
 struct SolvedPoint {
   int a = 0;
   int b = 0;          // the static world is body 0
   double height = 0;  // m, along gravity
   SolvedRow normal;
   std::array<SolvedRow, 2> tangent;
-  double mixed = 0;        // 1/kg, velocity along the second tangent per impulse along the first
-  double determinant = 0;  // 1/kg^2, of the tangents' admittances
-  double slide = 0;        // kg, the least inverse of their admittance in any direction
-  double target = 0;       // m/s
+  Coupling coupling;  // of the tangents
+  double target = 0;  // m/s
   double mu = 0;
   double mu2 = 0;
   bool isotropic = true;
@@ -56,7 +46,9 @@ struct SolvedPoint {
 
 /// Resistance to rolling about the tangents and to spinning about the normal.
 struct SolvedSpin {
-  std::array<SolvedRow, 3> rows;
+  std::array<SolvedRow, 2> roll;
+  SolvedRow spin;
+  Coupling coupling;    // of the two axes of rolling
   double rolling = 0;   // m
   double spinning = 0;  // m
 };
@@ -68,10 +60,10 @@ class ContactSolver {
   void clear();
   /// The number of a link's body; adds it as it will move in the substep without contacts. 0 is the static world.
   int number_of(const Link& link, const Vector3& gravity, double step);
-  /// Adds a point between two bodies, or a body and the static world (0). `start` in N is the expected force on the
-  /// first.
-  void add_point(int a, int b, const FoundContact& found, std::size_t index, const Vector3& start, double height,
-                 double step);
+  /// Adds a point between two bodies, or a body and the static world (0). Starts from what is
+  /// expected of it.
+  void add_point(int a, int b, const FoundContact& found, std::size_t index, const ExpectedContact& start,
+                 double height, double step);
   /// Finds the impulses, and applies them as forces in the coming substep. Sets FoundContact::force.
   void solve(std::vector<FoundContact>& points, double step);
 
@@ -85,7 +77,9 @@ class ContactSolver {
   /// Erleben, The Visual Computer 26, 2010).
   void accelerate(double part);
   double solve_point(SolvedPoint& point);
-  void solve_spin(const SolvedPoint& point, SolvedSpin& spin);
+  /// Adds the resistances to rolling and spinning of a point.
+  void add_spin(SolvedPoint& point, const dSurfaceParameters& surface, const Vector3& expected);
+  double solve_spin(const SolvedPoint& point, SolvedSpin& spin);
   void apply(const SolvedPoint& point, SolvedRow& row, double impulse);
   double speed(const SolvedPoint& point, const SolvedRow& row) const;
   SolvedRow make_row(int a, int b, const Vector3& direction, const Vector3& lever_a, const Vector3& lever_b) const;

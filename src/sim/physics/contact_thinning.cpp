@@ -21,7 +21,7 @@ using Patch = std::vector<std::size_t>;
 
 bool same_surface(const dSurfaceParameters& a, const dSurfaceParameters& b) {
   const auto values = [](const dSurfaceParameters& s) {
-    return std::tie(s.mu, s.mu2, s.rhoN, s.bounce, s.bounce_vel, s.soft_erp, s.soft_cfm, s.slip1, s.slip2);
+    return std::tie(s.mu, s.mu2, s.rho, s.rhoN, s.bounce, s.bounce_vel, s.soft_erp, s.soft_cfm, s.slip1, s.slip2);
   };
   return values(a) == values(b);  // unused values are 0 in both
 }

@@ -19,6 +19,7 @@ struct FoundContact {
   bool has_own_correction = false;  ///< see SurfacePair
   dJointFeedback feedback{};        ///< of ODE's contact joint, which keeps a pointer to it
   Vector3 force;                    ///< N, on the first shape, in world axes; known after the substep
+  Vector3 torque;                   ///< N m, likewise, about the point: where there is resistance to rolling
 };
 
 /// Two shapes that touch. The number of the first is the lower; it has a body.

@@ -236,7 +236,7 @@ Size size_of(const Collider& collider) {
 }  // namespace
 
 void measure(const Collider& collider, Sweep& sweep) {
-  if (collider.surface.collide_without_contact) return;
+  if (collider.given_surface.collide_without_contact) return;
   const Size size = size_of(collider);
   if (size.half == Sweep::kNoSize) return;
   sweep.half_size = std::min(sweep.half_size, size.half);

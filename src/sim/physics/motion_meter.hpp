@@ -24,6 +24,8 @@ class MotionMeter {
   void begin();
   void end(double step, const Vector3& gravity);
 
+  void transfer(StateArchive& archive) { archive(specific_force_, angular_velocity_); }
+
   bool has_value() const { return specific_force_.has_value(); }
   /// Acceleration minus gravity at the unit, m/s^2.
   Vector3 specific_force() const { return specific_force_.value(); }

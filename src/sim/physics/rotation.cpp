@@ -68,6 +68,18 @@ bool Rotation::is_needed(dBodyID body) {
   return size - diagonal.Min() > kRounding * size || products.Length() > kRounding * size;
 }
 
+void Rotation::scale(double factor) {
+  inertia_ = inertia_of(body_);
+  inverse_ = inverse(inertia_);
+  ahead_ *= factor;
+}
+
+void Rotation::transfer(StateArchive& archive) {
+  archive(free_, constrained_, ahead_, step_);
+  archive.bytes(orientation_, sizeof orientation_);
+  archive.bytes(velocity_, sizeof velocity_);
+}
+
 bool Rotation::was_moved() const {
   return !std::equal(velocity_, velocity_ + 3, dBodyGetAngularVel(body_)) ||
          !std::equal(orientation_, orientation_ + 4, dBodyGetQuaternion(body_));

@@ -6,6 +6,7 @@
 #include <ode/ode.h>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/state_archive.hpp"
 #include "physics/symmetric_matrix.hpp"
 
 namespace bubblesim {
@@ -23,8 +24,13 @@ class Rotation {
   /// Call after it.
   void end(double step);
 
+  /// Call after the moments of inertia of the body were multiplied by a factor.
+  void scale(double factor);
+
+  dBodyID body() const { return body_; }
   /// State beside that of the body: the angular momentum that it is ahead of its forces, kg m^2/s, world axes.
   const Vector3& ahead() const { return ahead_; }
+  void transfer(StateArchive& archive);
 
  private:
   void turn_freely(double step);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/state_archive.hpp"
 
 namespace bubblesim {
 
@@ -30,6 +31,7 @@ class SubstepSignal {
     if (bandwidth_ > 0) return filtered_;
     return time_ > 0 ? sum_ / time_ : Vector3::Zero;
   }
+  void transfer(StateArchive& archive) { archive(sum_, time_, filtered_, started_); }
   bool has_value() const { return bandwidth_ > 0 ? started_ : time_ > 0; }
 
  private:

@@ -71,7 +71,10 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   if (made.slip2 > 0) made.mode |= dContactSlip2;
 
   made.rhoN = std::max(a.torsion, b.torsion);
-  if (made.rhoN > 0) made.mode |= dContactRolling | dContactAxisDep;
+  made.rho = made.rho2 = std::max(a.rolling, b.rolling);
+  pair.torsion_by_depth = std::max(a.torsion_by_depth, b.torsion_by_depth);
+  // ODE's dContactAxisDep is dContactMu2; mu2 is always set.
+  if (made.rhoN > 0 || made.rho > 0 || pair.torsion_by_depth > 0) made.mode |= dContactRolling | dContactAxisDep;
 
   made.bounce = std::min(a.restitution, b.restitution);
   made.bounce_vel = std::min(a.bounce_threshold, b.bounce_threshold);

@@ -10,6 +10,7 @@ namespace bubblesim {
 
 struct SurfacePair {
   dSurfaceParameters ode{};
+  double torsion_by_depth = 0;        ///< m^0.5, see Surface
   const Surface* directed = nullptr;  ///< the surface whose fdir1 is used; null when none has a direction
   bool has_own_correction = false;    ///< a stiffness or an error correction is given
   double sink = 0;                    ///< m, allowed penetration depth

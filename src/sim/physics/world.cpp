@@ -30,6 +30,7 @@ void take_statics(World::State& state, World::State& from) {
   for (std::size_t i = 0; i < state.models.size(); ++i) {
     if (state.models[i] != nullptr) continue;
     state.models[i] = std::move(from.models[i]);
+    for (Collider& collider : state.models[i]->colliders) collider.own_surface.reset();
     state.model_at[SceneTree::index_of(state.models[i]->object)] = state.models[i].get();
   }
 }
@@ -42,6 +43,16 @@ void World::Discard::operator()(State* state) const {
 }
 
 World::World(const Scene& scene, std::uint64_t seed) {
+  build(scene, seed);
+  start_ = scene.prepared().start([&] {
+    std::string saved;
+    StateArchive archive(saved);
+    transfer_physics(archive, *state_);
+    return saved;
+  });
+}
+
+void World::build(const Scene& scene, std::uint64_t seed) {
   state_.reset(std::make_unique<State>(scene.description().gravity, seed).release());
   state_->shared_tree = scene.tree();
   for (std::size_t i = 0; i < scene.prepared().models.size(); ++i) {
@@ -51,15 +62,35 @@ World::World(const Scene& scene, std::uint64_t seed) {
   list_moving(*state_);
 }
 
+void World::rebuild(const Scene& scene) {
+  std::vector<DeviceSlot> devices = std::move(state_->devices);
+  build(scene, state_->seed);
+  state_->devices = std::move(devices);
+  ++revision_;
+  has_scene_models_ = true;
+}
+
+void World::set_seed(std::uint64_t seed) {
+  state_->seed = seed;
+  state_->random = static_cast<std::uint32_t>(seed);
+}
+
 World::World(SceneDescription scene, std::uint64_t seed) : World(Scene(std::move(scene)), seed) {}
 
 World::~World() = default;
 
 void World::reset() {
+  if (has_scene_models_ && !state_->interrupted) {
+    state_->random = static_cast<std::uint32_t>(state_->seed);
+    StateArchive archive(std::string_view{*start_});
+    transfer_physics(archive, *state_);
+    reset_devices(*this, std::move(state_->devices), *state_);
+    return;
+  }
   // Moving models are rebuilt, because ODE keeps more state than poses and velocities: forces of the last step, the
   // order of its lists. Static models have no state.
   const bool keeps_statics = !state_->interrupted;
-  std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->gravity, state_->seed).release());
+  std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->first_gravity, state_->seed).release());
   built->shared_tree = state_->shared_tree;
   for (const auto& model : state_->models) {
     if (keeps_statics && model->space == nullptr) {
@@ -102,6 +133,7 @@ ObjectId World::add_model(ModelDescription model, std::vector<Problem>* warnings
   if (is_static) gather_statics(*state_);
   list_moving(*state_);
   ++revision_;
+  has_scene_models_ = false;
   return id;
 }
 
@@ -136,6 +168,7 @@ void World::remove_model(ObjectId model) {
   list_moving(*state_);
   wake(*state_);
   ++revision_;
+  has_scene_models_ = false;
 }
 
 const ModelDescription& World::description(ObjectId model) const { return state_->model_of(model).description; }
@@ -181,8 +214,10 @@ void add_scheduled(Fnv1a& hash, const DeviceSlot& slot) {
   const double schedule[] = {slot.period, slot.ahead};
   hash.add(schedule, 2);
   hash.add(static_cast<std::uint64_t>(slot.substeps));
-  const std::vector<double> state = slot.device->state();
-  hash.add(state.data(), state.size());
+  std::string saved;
+  StateArchive archive(saved);
+  slot.device->transfer(archive);
+  hash.add(std::string_view(saved));
   add_wrenches(hash, slot.wrenches);
 }
 
@@ -219,8 +254,9 @@ std::uint64_t World::state_hash() const {
     for (const PlacedJoint& placed : model->joints) {
       for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
         const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
-                                  placed.joint->target_effort(axis), placed.joint->axis(axis).max_force};
-        hash.add(targets, 4);
+                                  placed.joint->target_effort(axis), placed.joint->axis(axis).max_force,
+                                  placed.joint->motor_gain(axis)};
+        hash.add(targets, 5);
         hash.add(static_cast<std::uint64_t>(placed.joint->axis(axis).motor));
       }
     }
@@ -230,7 +266,6 @@ std::uint64_t World::state_hash() const {
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   hash.add(state_->seed);
   hash.add(static_cast<std::uint64_t>(state_->random));
-  hash.add(static_cast<std::uint64_t>(state_->steps_to_iterate));
   return hash.value();
 }
 

@@ -60,12 +60,8 @@ void place_body(dBodyID body, const LinkDescription& link, const Pose& pose) {
 }
 
 ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
-  dMass mass;
-  dMassSetParameters(&mass, link.mass, 0, 0, 0, link.inertia_diagonal.X(), link.inertia_diagonal.Y(),
-                     link.inertia_diagonal.Z(), link.inertia_products.X(), link.inertia_products.Y(),
-                     link.inertia_products.Z());
   ode::BodyHandle body(dBodyCreate(world));
-  dBodySetMass(body.get(), &mass);
+  set_inertia(body.get(), link, link.mass);
   dBodySetGravityMode(body.get(), link.gravity_enabled ? 1 : 0);
   dBodySetGyroscopicMode(body.get(), 0);  // see rotation.hpp
   dBodySetFiniteRotationMode(body.get(), 1);
@@ -125,6 +121,7 @@ class ModelBuilder {
     link.pose = pose;
     if (!model_.description.is_static) {
       link.body = make_body(state_.world.get(), description, pose);
+      link.mass = description.mass;
       if (Rotation::is_needed(link.body.get())) model_.rotations.emplace_back(link.body.get());
     }
     for (const CollisionDescription& collision : description.collisions) {
@@ -277,7 +274,7 @@ class ModelBuilder {
 }  // namespace
 
 World::State::State(const Vector3& gravity_, std::uint64_t seed_)
-    : gravity(gravity_), seed(seed_), random(static_cast<std::uint32_t>(seed_)) {
+    : first_gravity(gravity_), gravity(gravity_), seed(seed_), random(static_cast<std::uint32_t>(seed_)) {
   ode::prepare_this_thread();
   threading.reset(dThreadingAllocateSelfThreadedImplementation());
   world.reset(dWorldCreate());

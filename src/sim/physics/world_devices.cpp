@@ -35,7 +35,7 @@ void check_not_updating(const World::State& state) {
 }  // namespace
 
 void Device::reset(World&) {}
-std::vector<double> Device::state() const { return {}; }
+void Device::transfer(StateArchive&) {}
 
 void update_devices(World& world, World::State& state, double time, double step) {
   for (DeviceSlot& slot : state.devices) {

@@ -167,6 +167,12 @@ std::vector<Contact> World::contacts(ObjectId link) const {
   return contacts;
 }
 
+std::vector<TouchPoint> World::contact_points() const {
+  std::vector<TouchPoint> points;
+  for (const RememberedPoint& point : state_->memory.points) points.push_back({point.position, point.normal});
+  return points;
+}
+
 Wrench World::joint_wrench(ObjectId joint) const {
   const Object& object = state_->tree().at(joint);
   const PlacedJoint* placed =

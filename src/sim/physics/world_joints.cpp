@@ -24,6 +24,8 @@ const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
   return state.model_of(id).joints[object.index];
 }
 
+constexpr double kMaxGain = 1000;  // of motors
+
 /// A joint and one of its axes. The second axis of a joint is a separate object.
 struct JointAxis {
   Joint& joint;
@@ -183,6 +185,20 @@ void World::set_max_force(ObjectId joint, double force, int axis) {
                        " is not usable: it must be zero or more");
   }
   found.joint.set_max_force(found.index, force);
+}
+
+double World::motor_gain(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  return found.joint.motor_gain(found.index);
+}
+
+void World::set_motor_gain(ObjectId joint, double gain, int axis) {
+  const JointAxis found = joint_axis(*state_, joint, axis);
+  if (!(gain >= 0 && gain <= kMaxGain)) {
+    throw InvalidInput(state_->shown(joint) + ": the motor gain " + text(gain) +
+                       " is not usable: it must be from 0 to 1000");
+  }
+  found.joint.set_motor_gain(found.index, gain);
 }
 
 }  // namespace bubblesim

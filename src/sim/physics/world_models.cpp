@@ -37,36 +37,45 @@ struct Extent {
 
 }  // namespace
 
-double total_mass(const ModelDescription& model) {
+double total_mass(const PlacedModel& model) {
+  if (model.space == nullptr) return std::numeric_limits<double>::infinity();
   double mass = 0;
-  for (const LinkDescription& link : model.links) mass += link.mass;
+  for (const Link& link : model.links) mass += link.mass;
   return mass;
 }
 
+void lower_bottom(World::State& state) {
+  const Vector3 down = state.gravity.Normalized();
+  for (const auto& model : state.models) {
+    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
+  }
+}
+
 ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
-  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0);
+  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0, model.alias);
   std::map<std::string, ObjectId> models{{"", id}};  // the outermost model, and nested models by name
   // `a::b` becomes `b` below `a`.
-  const auto add = [&](ObjectKind kind, const std::string& name, std::size_t index) {
+  const auto add = [&](ObjectKind kind, const auto& part, std::size_t index) {
+    const std::string& name = part.name;
     const std::size_t split = name.rfind("::");
     const auto outer = models.find(split == std::string::npos ? "" : name.substr(0, split));
-    if (split == std::string::npos || outer == models.end()) return tree.add(kind, name, id, index);
-    return tree.add(kind, name.substr(split + 2), outer->second, index);
+    if (split == std::string::npos || outer == models.end()) return tree.add(kind, name, id, index, part.alias);
+    return tree.add(kind, name.substr(split + 2), outer->second, index, part.alias);
   };
   for (std::size_t i = 0; i < model.nested.size(); ++i) {
-    models[model.nested[i].name] = add(ObjectKind::kModel, model.nested[i].name, i);
+    models[model.nested[i].name] = add(ObjectKind::kModel, model.nested[i], i);
   }
   std::size_t sensors = 0;
   for (std::size_t i = 0; i < model.links.size(); ++i) {
-    const ObjectId link = add(ObjectKind::kLink, model.links[i].name, i);
+    const ObjectId link = add(ObjectKind::kLink, model.links[i], i);
     for (const SensorDescription& sensor : model.links[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++);
+      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++, sensor.alias);
     }
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const ObjectId joint = add(ObjectKind::kJoint, model.joints[i].name, i);
+    const ObjectId joint = add(ObjectKind::kJoint, model.joints[i], i);
     for (const SensorDescription& sensor : model.joints[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++);
+      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++, sensor.alias);
     }
     // The second axis of a steered wheel is a separate object, so that scripts can refer to it.
     for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
@@ -79,24 +88,26 @@ ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
 void list_moving(World::State& state) {
   state.moving.clear();
   int link_number = 0;
-  const Vector3 down = state.gravity.Normalized();
   for (const auto& model : state.models) {
     const bool moves = model->space != nullptr;
     const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
     if (moves) state.moving.push_back(model.get());
-    const double mass = moves ? total_mass(model->description) : std::numeric_limits<double>::infinity();
+    const double mass = total_mass(*model);
     for (Collider& collider : model->colliders) {
       collider.island = number;
       collider.model_mass = mass;
     }
     for (Link& link : model->links) link.number = link_number += moves ? 1 : 0;
-    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
   }
-  int collider_number = 0;
+  lower_bottom(state);
+  state.colliders.clear();
   for (const bool moves : {true, false}) {
     for (const auto& model : state.models) {
       if ((model->space != nullptr) != moves) continue;
-      for (Collider& collider : model->colliders) collider.number = collider_number++;
+      for (Collider& collider : model->colliders) {
+        collider.number = static_cast<int>(state.colliders.size());
+        state.colliders.push_back(&collider);
+      }
     }
   }
 }

@@ -115,8 +115,6 @@ Vector3 World::acceleration(ObjectId object) const {
   return of_centre + angular.Cross(lever) + now.angular.Cross(now.angular.Cross(lever));
 }
 
-Vector3 World::gravity() const { return state_->gravity; }
-
 void World::set_pose(ObjectId object, const Pose& pose) {
   const std::vector<const Link*> links = moving_links(*state_, object);
   if (!within(pose.Pos(), kMaxDistance)) {

@@ -15,23 +15,30 @@ namespace {
 constexpr double kMaxAcceleration = 20;
 constexpr double kLever = 1;  // m, its torque divided by its force
 
-PlanarMotor make_motor(dWorldID world, dBodyID body, double force) {
+}  // namespace
+
+PlanarMotor make_planar_motor(const World::State& state, const PlacedModel& model) {
+  dWorldID world = state.world.get();
+  dBodyID body = state.link(model.frame.canonical_link).body.get();
   PlanarMotor motor{ode::JointHandle(dJointCreateLMotor(world, nullptr)),
                     ode::JointHandle(dJointCreateAMotor(world, nullptr))};
   dJointAttach(motor.linear.get(), body, nullptr);
   dJointSetLMotorNumAxes(motor.linear.get(), 2);
   dJointSetLMotorAxis(motor.linear.get(), 0, 0, 1, 0, 0);
   dJointSetLMotorAxis(motor.linear.get(), 1, 0, 0, 1, 0);
-  dJointSetLMotorParam(motor.linear.get(), dParamFMax, force);
-  dJointSetLMotorParam(motor.linear.get(), dParamFMax2, force);
   dJointAttach(motor.angular.get(), body, nullptr);
   dJointSetAMotorNumAxes(motor.angular.get(), 1);
   dJointSetAMotorAxis(motor.angular.get(), 0, 0, 0, 0, 1);
-  dJointSetAMotorParam(motor.angular.get(), dParamFMax, force * kLever);
+  limit_planar_motor(motor, model);
   return motor;
 }
 
-}  // namespace
+void limit_planar_motor(const PlanarMotor& motor, const PlacedModel& model) {
+  const double force = kMaxAcceleration * total_mass(model);
+  dJointSetLMotorParam(motor.linear.get(), dParamFMax, force);
+  dJointSetLMotorParam(motor.linear.get(), dParamFMax2, force);
+  dJointSetAMotorParam(motor.angular.get(), dParamFMax, force * kLever);
+}
 
 void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
   const Object& object = state_->tree().at(model);
@@ -47,7 +54,7 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
   const Link& link = state_->link(placed.frame.canonical_link);
   dBodyID body = link.body.get();
   if (placed.planar_motor.linear == nullptr) {
-    placed.planar_motor = make_motor(state_->world.get(), body, kMaxAcceleration * total_mass(placed.description));
+    placed.planar_motor = make_planar_motor(*state_, placed);
   }
   // ODE's motor moves the centre of mass, which moves in a circle around the model's origin.
   const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).Pos();

@@ -8,9 +8,6 @@
 namespace bubblesim {
 namespace {
 
-/// Substeps with the iterative solver after the exact solver found no solution.
-constexpr int kStepsToIterate = 20;
-
 using Bodies = std::vector<dBodyID>;
 
 void disable(const Bodies& bodies) {
@@ -21,9 +18,21 @@ void enable(const Bodies& bodies) {
   for (dBodyID body : bodies) dBodyEnable(body);
 }
 
-void step_exactly(World::State& state, double step) {
+/// Returns whether there was a solution. If not, the bodies are as before: the forces of a solver that gave up would
+/// throw them about.
+bool step_exactly(World::State& state, double step) {
+  std::vector<KeptBody>& kept = state.bodies_before;
+  kept.clear();
+  for (const PlacedModel* model : state.moving) {
+    for (const Link& link : model->links) {
+      dBodyID body = link.body.get();
+      if (dBodyIsEnabled(body) != 0) kept.push_back({body, numbers_of(body)});
+    }
+  }
   dWorldStep(state.world.get(), step);
-  if (ode::solver_warned()) state.steps_to_iterate = kStepsToIterate;
+  if (!ode::solver_warned()) return true;
+  for (const KeptBody& each : kept) set_numbers(each.body, each.numbers);
+  return false;
 }
 
 /// Solves the contacts of the islands without joints one by one.
@@ -51,9 +60,8 @@ void solve_free_contacts(World::State& state, double step) {
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(pair.count); ++j) {
       const FoundContact& point = state.found.points[pair.begin + j];
-      const Vector3 normal = to_vector(point.contact.geom.normal);
-      solver.add_point(a, b, point, pair.begin + j, normal * expected[j].normal + expected[j].friction,
-                       up.Dot(to_vector(point.contact.geom.pos)), step);
+      const double height = up.Dot(to_vector(point.contact.geom.pos));
+      solver.add_point(a, b, point, pair.begin + j, expected[j], height, step);
     }
     if (i + 1 == pairs.size() || pairs[i + 1].island != free.island) solver.solve(state.found.points, step);
   }
@@ -65,11 +73,14 @@ struct Split {
   Bodies iterated;
 };
 
-Split split(World::State& state) {
+/// `iterate_all`: all islands with joints, not only those beyond the limit.
+Split split(World::State& state, bool iterate_all) {
   Split made;
   for (std::size_t i = 0; i < state.moving.size(); ++i) {
     const int island = state.islands.of(static_cast<int>(i));
-    Bodies& bodies = state.islands.is_jointed(island) && state.iterates(island) ? made.iterated : made.exact;
+    Bodies& bodies = state.islands.is_jointed(island) && (iterate_all || state.islands.is_beyond_limit(island))
+                         ? made.iterated
+                         : made.exact;
     for (const Link& link : state.moving[i]->links) {
       if (dBodyIsEnabled(link.body.get()) != 0) bodies.push_back(link.body.get());
     }
@@ -77,26 +88,28 @@ Split split(World::State& state) {
   return made;
 }
 
-}  // namespace
-
-void solve(World::State& state, double step) {
-  solve_free_contacts(state, step);
-  if (state.steps_to_iterate == 0 && !state.islands.may_be_beyond_limit()) {
-    step_exactly(state, step);
-    return;
-  }
-  const Split bodies = split(state);
-  state.steps_to_iterate = std::max(state.steps_to_iterate - 1, 0);
+void step_by_islands(World::State& state, double step, bool iterate_all) {
+  const Split bodies = split(state, iterate_all);
   if (!bodies.exact.empty()) {
     disable(bodies.iterated);
-    step_exactly(state, step);
+    const bool solved = step_exactly(state, step);
     enable(bodies.iterated);
+    if (!solved) return step_by_islands(state, step, true);  // without joints there is a solution
   }
   if (!bodies.iterated.empty()) {
     disable(bodies.exact);
     ode::step_iteratively(state.world.get(), step, state.random);
     enable(bodies.exact);
   }
+}
+
+}  // namespace
+
+void solve(World::State& state, double step) {
+  solve_free_contacts(state, step);
+  const bool is_exact = !state.islands.may_be_beyond_limit();
+  if (is_exact && step_exactly(state, step)) return;
+  step_by_islands(state, step, is_exact);
 }
 
 }  // namespace bubblesim

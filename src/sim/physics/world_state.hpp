@@ -15,6 +15,7 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
+#include "physics/body_state.hpp"
 #include "physics/contact_memory.hpp"
 #include "physics/contact_solver.hpp"
 #include "physics/found_contacts.hpp"
@@ -33,6 +34,7 @@ namespace bubblesim {
 /// A link. Static ones have no body and stay at `pose`.
 struct Link {
   ode::BodyHandle body;
+  double mass = 0;         // kg, at present; 0 without a body
   Vector3 centre_of_mass;  // body's origin, in the link's frame
   Pose pose;               // of static links, in the world
   ObjectId object = kNoObject;
@@ -47,7 +49,7 @@ struct Collider {
   explicit Collider(const CollisionDescription& description)
       : name(description.name),
         geometry(description.geometry),
-        surface(description.surface),
+        given_surface(description.surface),
         in_link(description.pose) {}
 
   ode::GeomHandle geom;
@@ -55,12 +57,15 @@ struct Collider {
   const Link* link = nullptr;
   const std::string& name;
   const Geometry& geometry;
-  const Surface& surface;
+  const Surface& given_surface;                // of the description
+  std::unique_ptr<const Surface> own_surface;  // in its place, after a change
   const Pose& in_link;
   bool watched = false;         // observed by a contact sensor
   int island = Islands::kNone;  // index of its model in the islands; kNone when it is static
   int number = 0;               // in the order of the models, moving ones first
   double model_mass = 0;        // kg, of its outermost model; infinite when it is static
+
+  const Surface& surface() const { return own_surface == nullptr ? given_surface : *own_surface; }
 };
 
 /// Feedback of one of ODE's joints after each substep.
@@ -79,6 +84,8 @@ struct WrenchSignal {
   Pose in_child;           // the sensor in the child link's frame
   SubstepSignal force;     // N
   SubstepSignal torque;    // N m, about the sensor's origin
+
+  void transfer(StateArchive& archive) { archive(force, torque); }
 };
 
 /// Accumulates the wrench of a joint from the feedback of its ODE joints, which keep pointers to their reports.
@@ -174,6 +181,12 @@ struct StateSample {
 /// What pushes links, by link: the sum in world axes, the torque about the centre of mass.
 using Wrenches = std::map<ObjectId, Wrench>;
 
+/// A body as it was before a step.
+struct KeptBody {
+  dBodyID body;
+  BodyNumbers numbers;
+};
+
 /// A device and its schedule.
 struct DeviceSlot {
   std::shared_ptr<Device> device;
@@ -188,7 +201,8 @@ struct World::State {
   /// Creates the state without models.
   State(const Vector3& gravity, std::uint64_t seed);
 
-  Vector3 gravity;           // m/s^2
+  Vector3 first_gravity;     // m/s^2, of the scene
+  Vector3 gravity;           // m/s^2, at present
   double last_duration = 0;  // s, of the last advance()
   std::uint64_t seed;
   std::shared_ptr<const SceneTree> shared_tree;
@@ -208,16 +222,17 @@ struct World::State {
   std::vector<Touch> touches;                        // of the last advance()
   std::uint64_t steps = 0;                           // substeps started in the last advance()
   std::vector<PlacedModel*> moving;                  // the moving models; the index is that in the islands
+  std::vector<Collider*> colliders;                  // by Collider::number
   FoundContacts found;                               // of the last substep
   ContactMemory memory;                              // of the last substep
   ContactMemory memory_before;                       // working memory
   std::vector<double> least_rest;                    // s, by island; working memory
   std::vector<FreePair> free_pairs;                  // of the last substep, by islands
   ContactSolver contact_solver;                      // of islands without joints
+  std::vector<KeptBody> bodies_before;               // of the last exact step; working memory
   Islands islands;                                   // of the last substep; models by index
   double bottom = 0;                  // m along gravity, lowest initial position of all models and static shapes
   double age = 0;                     // s since construction
-  int steps_to_iterate = 0;           // substeps left with the iterative solver, after the exact solver failed
   unsigned long random;               // random state of the iterative solver
   std::deque<StateSample> history;    // of the last calls of advance()
   std::vector<ObjectId> lost_models;  // models that diverged
@@ -235,8 +250,6 @@ struct World::State {
     const Object& object = tree().at(id);
     return object.parent == kNoObject ? model_of(id).frame : model_of(id).nested[object.index];
   }
-  /// Whether the iterative solver takes an island with joints in this substep.
-  bool iterates(int island) const { return steps_to_iterate > 0 || islands.is_beyond_limit(island); }
   std::string shown(ObjectId id) const { return tree().short_path(id); }
 };
 
@@ -249,8 +262,21 @@ void place_model(World::State& state, ObjectId id, std::shared_ptr<const Prepare
 /// Updates the list of moving models and their indices in the islands, after models were added or removed.
 void list_moving(World::State& state);
 
-/// In kg.
-double total_mass(const ModelDescription& model);
+/// In kg, at present; infinite for a static model.
+double total_mass(const PlacedModel& model);
+
+/// Sets the mass of a body, with the moments of inertia of the description scaled to it.
+void set_inertia(dBodyID body, const LinkDescription& link, double mass);
+/// Sets the present mass of a moving link, and its moments of inertia.
+void apply_mass(PlacedModel& model, Link& link, double mass);
+/// Sets the present gravity, and which models may sleep in it.
+void apply_gravity(World::State& state, const Vector3& gravity);
+/// Updates the lowest initial position by the present poses.
+void lower_bottom(World::State& state);
+/// Saves or restores the masses of a model's links.
+void transfer_masses(StateArchive& archive, PlacedModel& model);
+/// Saves or restores the friction coefficients that were changed.
+void transfer_frictions(StateArchive& archive, World::State& state);
 
 /// Rebuilds the space of the static shapes with a fitting size.
 void gather_statics(World::State& state);
@@ -288,6 +314,16 @@ void update_devices(World& world, World::State& state, double time, double step)
 void reset_devices(World& world, std::vector<DeviceSlot> devices, World::State& state);
 /// Removes the devices of a model.
 void remove_devices(World::State& state, ObjectId model);
+/// Saves or restores the physics without devices, seed and random numbers.
+void transfer_physics(StateArchive& archive, World::State& state);
+/// Saves or restores the devices and their schedules.
+void transfer_devices(StateArchive& archive, World::State& state);
+
+/// Creates the motor that holds the planar velocity of a model.
+PlanarMotor make_planar_motor(const World::State& state, const PlacedModel& model);
+/// Sets its force to that for the model's present mass.
+void limit_planar_motor(const PlanarMotor& motor, const PlacedModel& model);
+
 /// Passes forces and torques to ODE, which applies them in the next substep only.
 void push_links(const World::State& state, const Wrenches& wrenches);
 /// Removes the wrenches of links that do not exist any more.

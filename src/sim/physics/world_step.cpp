@@ -109,6 +109,7 @@ void World::advance(double duration, double step, std::optional<double> time) {
     update_devices(*this, *state_, start + static_cast<double>(done) * step, step);
     substep(*state_, wrenches, step);
   }
+  dWorldCleanupWorkingMemory(state_->world.get());  // a third of the memory of a small world, for one of many
   state_->age += duration;
 }
 

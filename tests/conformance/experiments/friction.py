@@ -9,7 +9,20 @@ from typing import Any
 import numpy as np
 
 from .experiment import Experiment, Tolerance, lowest, product_of
-from .scene import GRAVITY, Body, Joint, Model, Scene, Shape, Vector, box, box_inertia, sphere_inertia, turned
+from .scene import (
+    GRAVITY,
+    Body,
+    Joint,
+    Model,
+    Scene,
+    Shape,
+    Vector,
+    box,
+    box_inertia,
+    cylinder_inertia,
+    sphere_inertia,
+    turned,
+)
 
 
 def tilted(slope: float, heading: float) -> Vector:
@@ -136,6 +149,58 @@ def torsion(engine: Any, coefficient: float, patch: float) -> float:
     return float(before - world.spin("ball")[2]) / 0.1
 
 
+def roller(shape: str, heading: float, coefficient: float, *, jointed: bool) -> Model:
+    """Return a ball or a cylinder of 1 kg and 0.1 m that rolls towards a heading; a joint makes it a robot."""
+    form, inertia = Shape("sphere", (0.1,)), sphere_inertia(1.0, 0.1)
+    if shape == "cylinder":
+        form = Shape("cylinder", (0.1, 0.3), orientation=turned((1, 0, 0), math.pi / 2))
+        inertia = cylinder_inertia(1.0, 0.1, 0.3, axis=1)
+    bodies = [Body("body", 1.0, inertia, (form,), mu=0.8, rolling=coefficient)]
+    joints = []
+    if jointed:
+        bodies.append(Body("core", 1e-4, (1e-8, 1e-8, 1e-8)))
+        joints.append(Joint("fixed", "fixed", "body", "core"))
+    facing = turned((0, 0, 1), math.radians(heading))
+    return Model("body", tuple(bodies), tuple(joints), position=(0, 0, 0.1), orientation=facing)
+
+
+def rolling_theory(shape: str, heading: float, coefficient: float, jointed: bool) -> float:
+    """The torque k N against rolling slows a body by k g / (r (1 + I / (m r^2))) (any textbook); here r = 0.1 m."""
+    return coefficient * GRAVITY / (0.1 * (1.4 if shape == "sphere" else 1.5))
+
+
+def rolling(engine: Any, shape: str, heading: float, coefficient: float, jointed: bool) -> float:
+    """Return the deceleration of a rolling body against its direction."""
+    world = engine(Scene((roller(shape, heading, coefficient, jointed=jointed),)))
+    world.run(0.2)
+    way = np.array((math.cos(math.radians(heading)), math.sin(math.radians(heading)), 0))
+    world.set_velocity("body", tuple(3 * way), (-30 * way[1], 30 * way[0], 0))
+    world.run(0.2)
+    before = way @ world.velocity("body")
+    world.run(0.5)
+    return float(before - way @ world.velocity("body")) / 0.5
+
+
+def holding_theory(heading: float, jointed: bool) -> float:
+    """tan(s) = k / r (any textbook), here with k = 1 cm and r = 10 cm."""
+    return math.degrees(math.atan(0.1))
+
+
+def holding(engine: Any, heading: float, jointed: bool) -> float:
+    """Return the least slope at which a ball rolls by a centimetre in 1.2 s (0.2 degrees steeper: 1.5 cm)."""
+
+    def rolls(slope: float) -> bool:
+        model = roller("sphere", heading, 0.01, jointed=jointed)
+        world = engine(Scene((model,), gravity=tilted(slope, heading)))
+        world.run(0.2)
+        start = world.position("body")
+        world.run(1.2)
+        return float(np.linalg.norm(world.position("body") - start)) > 0.01
+
+    angle = holding_theory(heading, jointed)
+    return lowest(rolls, angle - 3, angle + 3, 0.05)
+
+
 SOFT = "bisection to 0.05 and a creep of a centimetre"
 EXPERIMENTS = [
     Experiment(
@@ -184,5 +249,26 @@ EXPERIMENTS = [
         Tolerance("the load of one contact", relative=0.03),
         ({"coefficient": 0.5, "patch": 0.02}, {"coefficient": 1.0, "patch": 0.01}),
         peers=(),
+    ),
+    Experiment(
+        "rolling_resistance",
+        "Resistance to rolling in any direction, deceleration",
+        "m/s^2",
+        rolling_theory,
+        rolling,
+        Tolerance("contact penetration shortens the lever by 1 mm of 100", relative=0.02),
+        product_of(shape=("sphere",), heading=(0.0, 30.0, 45.0), coefficient=(0.002, 0.01), jointed=(False, True))
+        + product_of(shape=("cylinder",), heading=(0.0, 45.0), coefficient=(0.005,), jointed=(False, True)),
+        peers=("MuJoCo",),
+    ),
+    Experiment(
+        "rolling_slope",
+        "Ball with resistance to rolling on a slope, least slope",
+        "deg",
+        holding_theory,
+        holding,
+        Tolerance("bisection to 0.05 and a way of a centimetre", absolute=0.3),
+        product_of(heading=(0.0, 30.0, 45.0), jointed=(False, True)),
+        peers=("MuJoCo",),
     ),
 ]

@@ -25,7 +25,8 @@ def quaternion(q: Quaternion) -> str:
 def geom_text(shape: Shape, body: Body) -> str:
     """Return a geom. Of two geoms, the one with the lower friction defines it."""
     where = f'pos="{numbers(*shape.position)}" quat="{quaternion(shape.orientation)}"'
-    friction = f'friction="{body.mu} 0 0" priority="{round(1000 * (2 - min(body.mu, 2)))}" condim="3"'
+    kind = f'condim="{6 if body.rolling else 3}"'
+    friction = f'friction="{body.mu} 0 {body.rolling}" priority="{round(1000 * (2 - min(body.mu, 2)))}" {kind}'
     if shape.kind in ("box", "mesh"):
         size = numbers(*(s / 2 for s in shape.size))
     elif shape.kind == "cylinder":

@@ -48,9 +48,9 @@ def geometry_text(shape: Shape, folder: Path) -> str:
     return f"<geometry>{inside}</geometry>"
 
 
-def surface_text(mu: float, bounce: float, torsional: str = "") -> str:
-    """Return an SDFormat surface."""
-    return f"""<surface><friction><ode><mu>{mu!r}</mu><mu2>{mu!r}</mu2></ode>{torsional}</friction>
+def surface_text(mu: float, bounce: float, more: str = "") -> str:
+    """Return an SDFormat surface; `more` stands in its <friction>."""
+    return f"""<surface><friction><ode><mu>{mu!r}</mu><mu2>{mu!r}</mu2></ode>{more}</friction>
         <bounce><restitution_coefficient>{bounce!r}</restitution_coefficient><threshold>0</threshold></bounce>
         </surface>"""
 
@@ -58,9 +58,11 @@ def surface_text(mu: float, bounce: float, torsional: str = "") -> str:
 def link_text(body: Body, folder: Path) -> str:
     """Return an SDFormat link."""
     ixx, iyy, izz = body.inertia
+    rolling = f"<bubblesim:rolling>{body.rolling!r}</bubblesim:rolling>" if body.rolling else ""
+    more = body.torsional + rolling
     shapes = "".join(
         f"""<collision name="shape{i}">{pose_text(shape.position, shape.orientation)}{geometry_text(shape, folder)}
-        {surface_text(body.mu, body.bounce, body.torsional)}</collision>"""
+        {surface_text(body.mu, body.bounce, more)}</collision>"""
         for i, shape in enumerate(body.shapes)
     )
     return f"""<link name="{body.name}">{pose_text(body.position, (0, 0, 0, 1))}

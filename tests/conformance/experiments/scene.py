@@ -66,6 +66,7 @@ class Body:
     bounce: float = 0.0  # restitution
     sensors: str = ""  # SDFormat, for bubblesim only
     torsional: str = ""  # SDFormat in <friction>, for bubblesim only
+    rolling: float = 0.0  # m, resistance to rolling; for bubblesim and MuJoCo
 
 
 @dataclass(frozen=True)

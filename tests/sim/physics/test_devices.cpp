@@ -9,6 +9,7 @@
 #include "bubblesim/device.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
+#include "bubblesim/state_archive.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_devices {
@@ -27,7 +28,7 @@ struct Recorder : Device {
     durations.push_back(duration);
   }
   void reset(World&) override { ++resets; }
-  std::vector<double> state() const override { return {value}; }
+  void transfer(StateArchive& archive) override { archive(value); }
 
   std::vector<double> times;
   std::vector<double> durations;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/body_state.hpp"
 #include "physics/contact_defaults.hpp"
 #include "physics/joints/kinds.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
@@ -166,6 +167,11 @@ class Gearbox final : public Joint {
       pair.tooth.hold(pair.first, pair.second, frame.pose.CoordPositionAdd(pair.mesh.point),
                       frame.pose.Rot().RotateVector(pair.mesh.direction), -gain * error * pair.mesh.arm / pair.ratio);
     }
+  }
+
+  void transfer_own(StateArchive& archive) override {
+    archive(followed_[0], followed_[1]);
+    if (layshaft_ != nullptr) transfer_body(archive, layshaft_.get());
   }
 
   dBodyID reference_;

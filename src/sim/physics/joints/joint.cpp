@@ -82,13 +82,13 @@ void Joint::apply_motor(Axis& axis) {
   const AxisDescription& description = axis.description;
   if (description.motor == MotorMode::kEffort && !description.mimic) {
     // A motor that cannot reach its speed exerts its limit.
-    const double effort = std::min(std::abs(axis.target_effort), description.max_force);
-    axis.motor->hold(std::copysign(kMaxSpeed, axis.target_effort), effort);
+    const double wanted = axis.gain * axis.target_effort;
+    axis.motor->hold(std::copysign(kMaxSpeed, wanted), std::min(std::abs(wanted), description.max_force));
     return;
   }
   const bool driven = description.motor != MotorMode::kNone || description.mimic;
   const bool by_velocity = description.motor == MotorMode::kVelocity && !description.mimic;
-  axis.motor->hold(by_velocity ? target_speed(description, axis.target_velocity) : 0,
+  axis.motor->hold(by_velocity ? target_speed(description, axis.gain * axis.target_velocity) : 0,
                    driven ? description.max_force : 0);
 }
 
@@ -127,6 +127,12 @@ void Joint::set_max_force(int axis, double force) {
   apply_motor(set);
 }
 
+void Joint::set_motor_gain(int axis, double gain) {
+  Axis& set = axes_[static_cast<std::size_t>(axis)];
+  set.gain = gain;
+  apply_motor(set);
+}
+
 dJointID Joint::motor_joint(int axis) const {
   const Motor* motor = axes_[static_cast<std::size_t>(axis)].motor;
   return motor == nullptr ? nullptr : motor->joint();
@@ -156,7 +162,7 @@ void Joint::drive_motor(int index, double step) {
   }
   if (description.motor == MotorMode::kVelocity) {
     // Stop at the limit: a motor and a stop with unlimited forces would settle somewhere behind it.
-    const double speed = target_speed(description, axis.target_velocity);
+    const double speed = target_speed(description, axis.gain * axis.target_velocity);
     const double room = speed > 0 ? description.upper - here : here - description.lower;
     axis.motor->set(dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
     return;
@@ -164,7 +170,7 @@ void Joint::drive_motor(int index, double step) {
   const double gap = has_limits(description)
                          ? std::clamp(axis.target_position, description.lower, description.upper) - here
                          : shortest_turn(here, axis.target_position);
-  axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime, step)));
+  axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime / axis.gain, step)));
 }
 
 void Joint::drive_spring(int index, double step) {
@@ -200,6 +206,32 @@ void Joint::set_stops(int index, double step) {
   axis.stop = stop;
   set_range(*axis.rows, stop == Stop::kLower ? 2 * here - lower : -dInfinity,
             stop == Stop::kUpper ? 2 * here - upper : dInfinity);
+}
+
+void Joint::transfer_own(StateArchive&) {}
+
+void Joint::transfer(StateArchive& archive) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    Axis& axis = axes_[i];
+    MotorMode mode = axis.description.motor;
+    archive(axis.target_position, axis.target_velocity, axis.target_effort, mode, axis.description.max_force, axis.gain,
+            axis.stop);
+    if (!archive.restores()) continue;
+    if (axis.motor != nullptr) set_motor_mode(static_cast<int>(i), mode);
+  }
+  if (archive.restores()) {
+    for (const int index : stopped_) restore_stop(axes_[static_cast<std::size_t>(index)]);
+  }
+  transfer_own(archive);
+}
+
+/// Sets ODE's rows so that the next set_stops() continues from `axis.stop`.
+void Joint::restore_stop(Axis& axis) {
+  if (axis.stop == Stop::kNone) {
+    set_range(*axis.rows, -dInfinity, dInfinity);
+  } else {
+    axis.rows->set(dParamStopERP, axis.stop == Stop::kBeyond ? kErrorReduction : -1);
+  }
 }
 
 Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "bubblesim/state_archive.hpp"
 #include "physics/joints/motor.hpp"
 #include "physics/ode_handles.hpp"
 
@@ -42,6 +43,7 @@ class Joint {
   double target_position(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_position; }
   double target_velocity(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_velocity; }
   double target_effort(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_effort; }
+  double motor_gain(int axis) const { return axes_[static_cast<std::size_t>(axis)].gain; }
   /// Whether the axis has a motor and a command for it.
   bool is_driven(int axis) const;
   void set_motor_mode(int axis, MotorMode mode);
@@ -49,6 +51,7 @@ class Joint {
   void set_target_velocity(int axis, double velocity);
   void set_target_effort(int axis, double effort);
   void set_max_force(int axis, double force);
+  void set_motor_gain(int axis, double gain);
 
   /// ODE's joint with the motor of an axis; null when it has none.
   dJointID motor_joint(int axis) const;
@@ -59,6 +62,9 @@ class Joint {
   /// Sets ODE's motors for the next substep of `step` seconds.
   void drive(double step);
 
+  /// Saves or restores commands, and what the joint remembers of the last substep.
+  void transfer(StateArchive& archive);
+
  protected:
   enum class Motion { kTurns, kSlides };
   /// Call for each axis in order, after the ODE joint is created. `rows` are the joint's rows of the axis.
@@ -67,6 +73,8 @@ class Joint {
   void shift_limits(int axis, double shift) { axes_[static_cast<std::size_t>(axis)].shift = shift; }
   /// Called before each substep.
   virtual void follow(double step);
+  /// Saves or restores the state that a kind of joint has itself.
+  virtual void transfer_own(StateArchive& archive);
 
  private:
   /// What the row of an axis's stop does in a substep.
@@ -81,6 +89,7 @@ class Joint {
     double target_position = 0;
     double target_velocity = 0;
     double target_effort = 0;
+    double gain = 1;  // of the motor: factor of its targets, of position control of its speed
     const Joint* leader = nullptr;
     // ODE handles the stop and the motor of an axis in one constraint: a motor that pushes against a stop becomes a
     // plain force, infinite without a limit. Therefore an axis with limits does not use the motor of its rows.
@@ -96,6 +105,7 @@ class Joint {
   void drive_motor(int index, double step);
   void drive_spring(int index, double step);
   void set_stops(int index, double step);
+  void restore_stop(Axis& axis);
 
   std::vector<Axis> axes_;
   std::vector<int> driven_;  // axes whose motor is set in each substep

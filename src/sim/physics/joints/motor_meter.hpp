@@ -5,6 +5,7 @@
 #include <ode/ode.h>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/state_archive.hpp"
 
 namespace bubblesim {
 
@@ -32,6 +33,7 @@ class MotorMeter {
   void clear() { impulse_ = 0; }
   /// Of the motor on the child since clear(), N s or N m s.
   double impulse() const { return impulse_; }
+  void transfer(StateArchive& archive) { archive(impulse_); }
 
  private:
   MeteredAxis axis_;
