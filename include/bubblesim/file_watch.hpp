@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a runner serve a socket: its requests are commands of the runner.
+// Lets a runner serve a socket between its steps.
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include "bubblesim/runner.hpp"
 
 namespace bubblesim {
 
-/// Waits on a thread of its own until a file descriptor is readable, and then has the runner call a function between
-/// two steps; a runner that waits is woken at once. The thread looks at the descriptor again after the function has
-/// returned, and without looking when it returned true: there is more.
+/// A file descriptor that the loop of a runner looks at.
+struct WatchedFile {
+  int descriptor;
+  std::function<bool()> serve;
+  /// It is served without a look at the descriptor: there is more, or there was some before the first look.
+  bool has_more = true;
+};
+
+/// Has a runner call a function between two steps, on its thread, when a file descriptor is readable; a runner that
+/// waits for input or for real time is woken by it. After a call that returned true (there is more) the function is
+/// called again without a look at the descriptor, after commands and after a step that is due. An exception of the
+/// function ends the watch.
+///
+/// Use this class before the run of the runner, after it, or on the runner's thread.
 class FileWatch {
  public:
-  /// The runner and the descriptor must outlive this object. Throws std::system_error.
+  /// The runner and the descriptor must outlive this object.
   FileWatch(Runner& runner, int descriptor, std::function<bool()> serve);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// After it has returned, the function is not called any more. Call it on the runner's thread, or after its run.
+  /// Has the function called even if the descriptor is not readable: for sockets whose descriptor signals edges.
+  void look_again() {
+    if (file_) file_->has_more = true;
+  }
+  /// After it has returned, the function is not called any more.
   void close();
 
  private:
-  struct State;
-
-  std::shared_ptr<State> state_;  // also of a call that the runner has not made yet
-  std::thread thread_;
+  Runner& runner_;
+  std::shared_ptr<WatchedFile> file_;
 };
 
 }  // namespace bubblesim

@@ -2,6 +2,7 @@
 // A scene that is read, checked and prepared once, for any number of simulations.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Scene {
   const std::vector<Problem>& warnings() const { return warnings_; }
   /// The objects at the start of each simulation, with their handles.
   const std::shared_ptr<const SceneTree>& tree() const { return tree_; }
+
+  /// Of all that determines how the scene behaves, equal in every process; computed at the first call. Thread-safe.
+  std::uint64_t hash() const;
 
   struct Prepared;  // see src/sim/run/prepared.hpp
   const Prepared& prepared() const { return *prepared_; }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "bubblesim/messages/bridge.hpp"
 #include "bubblesim/runner.hpp"
@@ -13,19 +14,25 @@ namespace bubblesim {
 /// The embedded Python interpreter, and what Python's systems are made with. At most one per process; it outlives them.
 class PythonEngine {
  public:
-  /// `bridge` may be null: without ROS.
-  PythonEngine(Runner& runner, messages::Bridge* bridge);
+  PythonEngine();
   ~PythonEngine();
   PythonEngine(const PythonEngine&) = delete;
   PythonEngine& operator=(const PythonEngine&) = delete;
 
-  Runner& runner() { return runner_; }
+  /// The systems that are made from here on belong to this runner. `bridge` may be null: without ROS.
+  void begin(Runner& runner, messages::Bridge* bridge);
+  /// Call it before the runner is destroyed. Systems that stay may not use the simulation any more.
+  void end();
+  /// Throws std::logic_error between end() and begin().
+  Runner& runner();
+  /// Null between end() and begin().
+  Simulation* simulation();
 
   struct Objects;
   Objects& objects() { return *objects_; }
 
  private:
-  Runner& runner_;
+  Runner* runner_ = nullptr;
   std::unique_ptr<Objects> objects_;
 };
 
@@ -45,6 +52,9 @@ class PythonSystem : public System {
   void reset() override;
   void model_added(World& world, ObjectId model) override;
   void model_removing(World& world, ObjectId model) override;
+  std::string state_name() const override;
+  std::string save_state() override;
+  void restore_state(std::string_view state) override;
 
  protected:
   struct Methods;

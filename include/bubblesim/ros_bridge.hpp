@@ -97,6 +97,9 @@ class RosBridge final : public messages::Bridge {
   /// script advertises /clock itself, does not publish.
   void publish_clock(double sim_time);
 
+  /// Shuts down all publishers, subscribers, servers and clients of the functions above: those of a scene that ends.
+  void shutdown_endpoints();
+
   /// Publishes on /diagnostics immediately, for the final report of a simulation. Waits until the message is sent, at
   /// most half a second.
   void publish_diagnostics();

@@ -14,6 +14,7 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/frame.hpp"
+#include "bubblesim/frame_memory.hpp"
 #include "bubblesim/run_report.hpp"
 #include "bubblesim/run_state.hpp"
 #include "bubblesim/simulation.hpp"
@@ -30,6 +31,8 @@ struct StepGate {
 
 using GateId = std::uint64_t;
 
+struct WatchedFile;
+
 struct RunnerOptions {
   double speed = 1;  ///< simulated seconds per second; infinity: as fast as possible
   RunState initial = RunState::kPaused;
@@ -44,7 +47,8 @@ struct RunnerOptions {
 };
 
 /// While run() or a thread of run_in_background() runs a simulation, other threads use it through this class only.
-/// Its functions are thread-safe, except run(), run_in_background(), finish() and those for gates.
+/// Its functions are thread-safe, except run(), run_in_background(), finish() and those for gates and
+/// files.
 ///
 /// Commands go to an inbox and are carried out between steps, in their order; they wake a runner that waits. The result
 /// is ready when the command has been carried out; it is an exception (NotCarriedOut) when that is not possible, or
@@ -73,6 +77,11 @@ class Runner {
   /// them. The result is the simulation time in s after the last step. Not carried out in other states, during another
   /// request for steps, after a divergence, and when a start, pause or stop comes before the last step.
   std::future<double> step(std::uint64_t count = 1);
+  /// The same without an answer; functions that the runner calls between steps may call it.
+  void request_steps(std::uint64_t count);
+  /// Sets the simulated seconds per second; infinity: as fast as possible. Throws InvalidInput for other values.
+  std::future<void> set_speed(double speed);
+  double speed() const;
   /// In synchronous mode each step waits for one trigger. Early triggers are kept until a stop. step() does not need
   /// triggers.
   std::future<void> set_synchronous(bool synchronous);
@@ -101,6 +110,9 @@ class Runner {
   void wake();
   /// The state after the last step, or after the last input and commands of a pause. Does not wait for a step.
   std::shared_ptr<const Frame> frame() const;
+  /// Memory in which other processes find each frame from now on. Call it before run(), after it, or on the runner's
+  /// thread. It lives as long as the runner.
+  FrameMemory& share_frames();
   /// Statistics since the last call; what concerns scripts is left empty.
   RunReport take_report();
   /// Totals of all steps in one line: simulated seconds, real-time factor, steps.
@@ -113,6 +125,9 @@ class Runner {
   GateId add_gate(StepGate gate);
   void remove_gate(GateId gate);
   void remove_gates();
+  /// For FileWatch, which see.
+  void add_file(std::shared_ptr<WatchedFile> file);
+  void remove_file(const WatchedFile& file);
   /// Runs the simulation on this thread until end(), the time limit, is_ending, or a stop that ends it. Throws what a
   /// step throws, except a divergence that a reset can mend.
   void run();

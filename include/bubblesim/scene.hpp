@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/random_quantity.hpp"
 #include "bubblesim/sensor_kinds.hpp"
 
 namespace bubblesim {
@@ -60,6 +61,8 @@ struct Surface {
   double slip1 = 0;                      ///< m/s of sliding along fdir1 per N of friction
   double slip2 = 0;                      ///< across fdir1
   double torsion = 0;                    ///< m; torque against spinning = torsion * normal force
+  double torsion_by_depth = 0;           ///< m^0.5; likewise, times the square root of the depth in m
+  double rolling = 0;                    ///< m; torque against rolling = rolling * normal force
   /// Contact stiffness in N/m and damping in N s/m; rigid when not set.
   std::optional<double> kp{};
   std::optional<double> kd{};
@@ -185,6 +188,7 @@ struct GzTopic {
 
 struct SensorDescription {
   std::string name;
+  std::string alias;       ///< its name in paths; empty: the name
   std::string type;        ///< SDFormat's name, such as gpu_lidar
   Pose pose;               ///< in the frame of its link or joint; the sensor looks along its x axis
   double update_rate = 0;  ///< Hz; 0: every step
@@ -198,6 +202,7 @@ struct SensorDescription {
 
 struct LinkDescription {
   std::string name;
+  std::string alias;            ///< its name in paths; empty: the name
   bool gravity_enabled = true;  ///< gravity acts on it
   bool wind_enabled = false;    ///< the wind pushes it: see Wind
   double linear_decay = 0;      ///< 1/s, decay of its velocity: see VelocityDecay
@@ -248,6 +253,7 @@ struct AxisDescription {
 
 struct JointDescription {
   std::string name;
+  std::string alias;   ///< its name in paths; empty: the name
   std::string type;    ///< SDFormat's name: see joint_kinds() in src/sim/physics/joints
   std::string parent;  ///< link of the same model, or "world"
   std::string child;
@@ -263,18 +269,27 @@ struct JointDescription {
 /// A nested model. Its links and joints are in the lists of the outermost model, named `inner::link`.
 struct NestedModelDescription {
   std::string name;  ///< relative to the outermost model: `inner`, `inner::deeper`; outer models come before inner ones
-  Pose pose;         ///< in the outermost model's frame
+  std::string alias;  ///< its name in paths; empty: the last part of the name
+  Pose pose;          ///< in the outermost model's frame
   std::string canonical_link;
   std::filesystem::path child_script;  ///< empty: none
   std::vector<PluginDescription> plugins;
   Source source;
 };
 
+/// The axes that scripts and remote clients see of joints, proximity sensors and cameras.
+enum class AxisConvention {
+  kSdformat,     ///< as in the file: sensors look along x
+  kCoppeliaSim,  ///< joints move along or about z, sensors look along z with y up
+};
+
 struct ModelDescription {
   std::string name;
-  Pose pose;  ///< in the world
+  std::string alias;  ///< its name in paths; empty: the name
+  Pose pose;          ///< in the world
   bool is_static = false;
   bool self_collide = false;
+  AxisConvention axes = AxisConvention::kSdformat;
   std::string canonical_link;
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
@@ -302,6 +317,7 @@ struct SceneDescription {
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<PluginDescription> plugins;
+  std::vector<RandomQuantity> randomized;  ///< in each simulation, by its seed
   bool is_model_file = false;  ///< the file contains a model and no world; the model stands on a ground plane
   Source source;
 };

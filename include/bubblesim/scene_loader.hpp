@@ -31,6 +31,9 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path, const X
 SceneDescription read_scene(const std::string& name_or_path, const XacroArguments& arguments = {},
                             std::vector<Problem>* warnings = nullptr);
 
+/// A ground plane and a light, without a file.
+std::shared_ptr<const Scene> empty_scene();
+
 /// Reads a model from the text of an SDFormat or URDF file. Child scripts are searched in `folder`. Adds the warnings
 /// to `warnings`, unless it is null. Throws SceneError with all problems of the text; the file name in them is
 /// <data-string>.

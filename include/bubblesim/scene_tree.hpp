@@ -27,6 +27,7 @@ struct Object {
   ObjectId id = kNoObject;
   ObjectKind kind = ObjectKind::kModel;
   std::string name;
+  std::string alias;  ///< the name in paths, which siblings may share; the name itself if the file has no other
   ObjectId parent = kNoObject;  ///< kNoObject: top level
   std::vector<ObjectId> children;
   std::size_t index = 0;  ///< among the objects of its kind in the outermost model, in the order of the scene file
@@ -37,8 +38,8 @@ std::string as_path(std::string scoped_name);
 
 class SceneTree {
  public:
-  /// Throws InvalidInput when the tree has a million objects.
-  ObjectId add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index);
+  /// Throws InvalidInput when the tree has a million objects. An empty alias stands for the name.
+  ObjectId add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index, std::string alias = "");
   /// Removes an object and everything below it. Throws NoSuchObject.
   void remove(ObjectId id);
 
@@ -65,7 +66,8 @@ class SceneTree {
   std::vector<ObjectId> parts(ObjectId model, ObjectKind kind) const;
 
   /// Finds an object by path. `/a/b` starts at the scene and may omit levels, so `/b` finds an object at any level;
-  /// `./b`, `../b`, `:/b`, `::/b` start at `from`, its parent, its model, its model's parent. `name[i]` selects the
+  /// `./b`, `../b`, `:/b`, `::/b` start at `from`, its parent, its model, its model's parent; without `from`, `./b` and
+  /// `:/b` start at the scene. A name is an object's alias, or its own name. `name[i]` selects the
   /// i-th of several siblings, `name{i}` the i-th in the scene, `*` matches any characters. Of several matches, the one
   /// nearest to the top is returned; `index` selects a later one. Throws NoSuchObject with similar names.
   ObjectId find(std::string_view path, ObjectId from = kNoObject, std::size_t index = 0) const;
@@ -92,13 +94,14 @@ class SceneTree {
   void take_out(ObjectId id, const std::string& parent_path);
   const std::vector<ObjectId>& level_below(ObjectId parent) const;
   std::string indexed_name(const Object& object) const;
-  std::vector<ObjectId> matches(std::string_view path, ObjectId from) const;
+  /// `name`: the names that are compared.
+  std::vector<ObjectId> matches(std::string_view path, ObjectId from, std::string Object::*name) const;
   /// The only match of an absolute path whose last name is unique, or kNoObject when the path must be searched.
   ObjectId unique_match(std::string_view path) const;
 
   std::vector<Place> places_;
   std::deque<std::size_t> free_;  // places, in the order in which they became free
-  std::unordered_map<std::string, std::vector<ObjectId>> by_name_;
+  std::unordered_map<std::string, std::vector<ObjectId>> by_alias_;
   std::vector<ObjectId> models_;
   std::size_t size_ = 0;
   std::uint64_t added_ = 0;

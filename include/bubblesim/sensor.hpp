@@ -31,6 +31,8 @@ struct MeasurementContext {
   RayScene& rays;
   double time = 0;         ///< s, of the state of `world`
   std::uint64_t seed = 0;  ///< of the simulation; noise depends on it, the sensor and the time only
+  double noise_scale = 1;  ///< factor of the standard deviations of the sensor's noise
+  double brightness = 1;   ///< factor of all lights
 };
 
 class Sensor {
@@ -44,6 +46,8 @@ class Sensor {
   void reset();
   /// Replaces the last measurement.
   void replace(double time, Measurement measurement);
+  /// Saves or restores the last measurement.
+  void transfer(StateArchive& archive);
   /// The last measurement. It does not change while a caller holds it; the next one is written to another buffer.
   std::shared_ptr<const Reading> reading() const { return reading_; }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,8 @@
 #include "bubblesim/world.hpp"
 
 namespace bubblesim {
+
+class Randomization;
 
 /// Extends the simulation step, such as child scripts and the ROS bridge. The phases are called in the order below.
 /// `time` is state_time(), s: the time of the state of `world`.
@@ -40,6 +43,11 @@ class System {
   virtual void model_added(World& world, ObjectId model);
   /// Called before a model is removed.
   virtual void model_removing(World& world, ObjectId model);
+  /// Its name in saved states; empty: it has no state of its own there.
+  virtual std::string state_name() const;
+  /// Returns what determines its future, empty for nothing, and takes it back.
+  virtual std::string save_state();
+  virtual void restore_state(std::string_view state);
 };
 
 /// A thread that uses a simulation while another thread steps it must hold world().access(). step() holds it except
@@ -69,12 +77,31 @@ class Simulation {
   /// Resets the models that are there now, and the sensors, to the start; time goes on.
   void reset_world();
   /// Like reset_world(), and sets time to 0: from here on the simulation equals a new one of these models, bit by bit.
+  /// Both put back mass, friction, gravity, motor gains, noise and brightness too. What the scene randomizes is drawn
+  /// again, by the seed.
   void reset();
+  /// Like reset() with another seed; and models that were removed are back, models that were added are gone. For
+  /// simulations without systems.
+  void reset_to_scene(std::uint64_t seed);
+  /// Whether the models are those of the scene: none was added or removed.
+  bool has_scene_models() const { return world_.has_scene_models(); }
+  /// Sets the seed of what is random from now on. What the scene randomizes is drawn in the next reset.
+  void set_seed(std::uint64_t seed);
   /// Adds a model with its sensors, and calls model_added() of the systems. Throws like World::add_model; nothing is
   /// changed then. Adds warnings to `warnings`, unless it is null.
   ObjectId add_model(ModelDescription model, std::vector<Problem>* warnings = nullptr);
   /// Calls model_removing() of the systems, and removes a model with its sensors. Throws like World::remove_model.
   void remove_model(ObjectId model);
+
+  /// The state as bytes, which a file may keep: from restore() on, the simulation, or another one of the same scene in
+  /// any process, continues bit by bit as this one did after save(). With sensors' readings and schedules, devices,
+  /// random numbers, the seed and the states of systems; without child scripts. Throws Diverged after a divergence.
+  std::string save();
+  /// Likewise, into a string that may be used again.
+  void save(std::string& bytes);
+  /// Restores a saved state. Models that were added since are removed. Throws InvalidInput when the bytes are no state
+  /// of this version and scene, or are damaged, and then changes nothing; and when models or devices are missing.
+  void restore(std::string_view state);
 
   /// Simulation time in s: the start of the current step, constant during a step, 0 in the first one. Between steps it
   /// equals state_time().
@@ -116,6 +143,20 @@ class Simulation {
   /// world or the simulation is reset. Throws WrongObject when the object is not a camera, InvalidInput when the size
   /// is wrong.
   void override_image(ObjectId camera, const std::vector<std::uint8_t>& rgb);
+  /// Factor of the standard deviations of a sensor's noise and of its bias, 1 at first and after a reset. Throws
+  /// WrongObject when the object is not a sensor, InvalidInput for numbers below 0.
+  void set_noise_scale(ObjectId sensor, double scale);
+  double noise_scale(ObjectId sensor);
+  /// Factor of all lights and of the ambient light that cameras see, 1 at first and after a reset. Throws InvalidInput
+  /// for numbers below 0.
+  void set_brightness(double brightness);
+  double brightness() const { return brightness_; }
+  /// Gives all visuals of a link, or of a model with its nested models, one colour in place of their own, which cameras
+  /// see from their next measurement on. It stays when the world is reset. Throws WrongObject for other objects,
+  /// InvalidInput unless the parts are from 0 to 1.
+  void set_color(ObjectId object, const Color& color);
+  /// The colour that was set, or the diffuse colour of the first visual.
+  Color color(ObjectId object) const;
   /// Number of measurements of all sensors so far.
   std::uint64_t measurements() const { return measurements_; }
   /// See kind_name(). Does not measure.
@@ -139,18 +180,25 @@ class Simulation {
   void restart_sensors();
   void index_sensors();
   SensorSlot& slot(ObjectId sensor, const char* wanted = "sensor");
+  MeasurementContext context_of(const SensorSlot& slot);
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);
   void update_sensors();
+  void transfer(StateArchive& archive);
+  void transfer_systems(StateArchive& archive);
+  void randomize();
+  void remove_models_except(const std::vector<ObjectId>& saved);
 
   std::shared_ptr<const Scene> scene_;
   std::uint64_t seed_;
   World world_;
   std::shared_ptr<Wind> wind_;
+  std::unique_ptr<const Randomization> randomization_;  // of the scene; null when nothing is random
   std::unique_ptr<RayScene> rays_;
   std::vector<SensorSlot> sensors_;
   std::vector<std::size_t> slot_at_;  // index into sensors_ by SceneTree::index_of(); out of range: not a sensor
   std::uint64_t measurements_ = 0;
+  double brightness_ = 1;
   std::vector<System*> systems_;
   std::uint64_t steps_ = 0;     // whose physics have run
   double time_step_;            // s

@@ -109,6 +109,26 @@ void bind_objects(py::module_& module) {
           "max_force", [](const View& v) { return v.world().max_force(v.id()); },
           [](const View& v, double force) { v.world().set_max_force(v.id(), force); },
           "Largest effort of the joint's motor, N m or N.")
+      .def_property(
+          "mass", [](const View& v) { return v.world().mass(v.id()); },
+          [](const View& v, double mass) { v.world().set_mass(v.id(), mass); },
+          "Mass of a link, or of all links of a model, kg. Setting it scales the inertia too, and all links of a "
+          "model\n"
+          "by one factor; the centres of mass stay. Until the simulation is reset.")
+      .def_property(
+          "friction", [](const View& v) { return v.world().friction(v.id()); },
+          [](const View& v, double mu) { v.world().set_friction(v.id(), mu); },
+          "Coulomb friction coefficient of a link's or model's first collision. Setting it sets those of all its\n"
+          "collisions, in all directions, until the simulation is reset. A contact has the lower one of two "
+          "collisions.")
+      .def_property(
+          "motor_gain", [](const View& v) { return v.world().motor_gain(v.id()); },
+          [](const View& v, double gain) { v.world().set_motor_gain(v.id(), gain); },
+          "Factor between the target of a joint's motor and what it does, until the simulation is reset.")
+      .def_property(
+          "noise_scale", [](const View& v) { return v.simulation().noise_scale(v.id()); },
+          [](const View& v, double scale) { v.simulation().set_noise_scale(v.id(), scale); },
+          "Factor of the standard deviations of a sensor's noise, until the simulation is reset.")
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
           "A sensor's last reading: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"

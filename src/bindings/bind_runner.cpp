@@ -58,9 +58,19 @@ void set_synchronous(Runner& runner, bool synchronous, bool wait) {
   if (wait) wait_for(std::move(result));
 }
 
-double step_and_wait(Runner& runner, std::uint64_t steps) {
+std::optional<double> step_runner(Runner& runner, std::uint64_t steps, bool wait) {
+  if (!wait) {
+    runner.request_steps(steps);
+    return std::nullopt;
+  }
   check_can_wait(runner);
   return wait_for(runner.step(steps));
+}
+
+void set_speed(Runner& runner, double speed, bool wait) {
+  if (wait) check_can_wait(runner);
+  std::future<void> result = runner.set_speed(speed);
+  if (wait) wait_for(std::move(result));
 }
 
 /// What a Python function returned or raised in the runner's thread; made and destroyed with the GIL.
@@ -186,7 +196,10 @@ void bind_runner(py::module_& module) {
 
   py::class_<FileWatch>(module, "FileWatch", "Calls a function of a runner when a file descriptor is readable.")
       .def("close", &FileWatch::close, py::call_guard<py::gil_scoped_release>(),
-           "End it; after that the function is not called any more.");
+           "End it; after that the function is not called any more.")
+      .def("look_again", &FileWatch::look_again,
+           "Have the function called even if the descriptor is not readable: for sockets whose descriptor signals "
+           "edges.");
 
   py::class_<Runner>(module, "Runner", R"(Runs a simulation on a thread of its own.
 
@@ -222,14 +235,17 @@ itself refuses other threads. Commands are carried out between steps, in their o
       .def("set_synchronous", &set_synchronous, py::arg("synchronous"), py::kw_only(), py::arg("wait") = true,
            "Run one step per trigger_step(), and no others.")
       .def("trigger_step", command(&Runner::trigger_step), py::kw_only(), py::arg("wait") = true)
-      .def("step", &step_and_wait, py::arg("steps") = 1,
-           "Run steps of a paused simulation as fast as possible; return the simulation time in seconds.\n\n"
+      .def("step", &step_runner, py::arg("steps") = 1, py::kw_only(), py::arg("wait") = true,
+           "Run steps of a paused simulation as fast as possible; return the simulation time in seconds, or None\n"
+           "without `wait`.\n\n"
            ":raises NotCarriedOut: if it is not paused, diverges, or is started, paused or stopped before the last "
            "step.")
       .def("call", &call_and_wait, py::arg("function"),
            "Call `function(simulation)` between two steps, and return what it returns.")
       .def("post", &post, py::arg("function"),
            "Call `function()` between two steps, after the commands so far, without waiting for it.")
+      .def("set_speed", &set_speed, py::arg("speed"), py::kw_only(), py::arg("wait") = true,
+           "Set the simulated seconds per second; math.inf is as fast as possible.")
       .def("add_gate", &add_gate, py::arg("is_open"), py::arg("why_closed"),
            "Make each step wait until `is_open()` is true; `why_closed()` returns the reason of a timeout. Return a\n"
            "number for `remove_gate`. While the runner runs, call both in its thread only.")
@@ -237,14 +253,15 @@ itself refuses other threads. Commands are carried out between steps, in their o
       .def(
           "watch", &watch, py::arg("descriptor"), py::arg("serve"), py::keep_alive<0, 1>(),
           "Call `serve()` between two steps when a file descriptor is readable, and again as long as it returns true.\n"
-          "Return an object whose close() ends this.")
+          "Return an object whose close() ends this. While the runner runs, use it in the runner's thread only.")
+      .def("share_frames", &Runner::share_frames, py::return_value_policy::reference_internal,
+           "Return the FrameMemory in which other processes find the frames from now on. Call it in the runner's\n"
+           "thread, or while it does not run.")
       .def_property_readonly(
           "simulation", [](Runner& runner) -> Simulation& { return runner.simulation(); },
           py::return_value_policy::reference_internal)
       .def_property_readonly("state", &Runner::state, "The RunState.")
-      .def_property_readonly(
-          "speed", [](const Runner& runner) { return runner.options().speed; },
-          "Simulated seconds per second; math.inf is as fast as possible.")
+      .def_property_readonly("speed", &Runner::speed, "Simulated seconds per second; math.inf is as fast as possible.")
       .def_property_readonly("stop_is_due", &Runner::stop_is_due, "Whether a requested stop is pending.")
       .def_property_readonly(
           "frame", [](const Runner& runner) { return std::const_pointer_cast<Frame>(runner.frame()); },

@@ -38,6 +38,8 @@ It does not change: any number of simulations share it, also in several threads.
              return std::const_pointer_cast<Scene>(loaded_scene(scene, arguments));  // pybind11 holds no const
            }),
            py::arg("scene"), py::kw_only(), py::arg("arguments") = NamedArguments())
+      .def_static(
+          "empty", [] { return std::const_pointer_cast<Scene>(empty_scene()); }, "A ground plane and a light.")
       .def_property_readonly("warnings", &warnings_of,
                              "Values that were replaced and elements that have no effect: 'FILE:LINE: OBJECT: TEXT'.")
       .def_property_readonly("name", [](const Scene& s) { return s.description().name; })

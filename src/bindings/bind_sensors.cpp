@@ -12,6 +12,7 @@
 #include "guarded.hpp"
 #include "held_readings.hpp"
 #include "numpy_values.hpp"
+#include "object_axes.hpp"
 #include "object_view.hpp"
 
 namespace bubblesim::bindings {
@@ -37,8 +38,11 @@ struct ToPython {
   }
 };
 
-py::tuple proximity_tuple(const ProximityReading& r) {
-  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(r.point), r.object, to_list(r.normal));
+/// In the sensor's axes as scripts see them.
+py::tuple proximity_tuple(const Simulation& simulation, ObjectId sensor, const ProximityReading& r) {
+  const Quaternion axes = object_axes(simulation.world(), sensor);
+  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(axes.RotateVectorReverse(r.point)), r.object,
+                        to_list(axes.RotateVectorReverse(r.normal)));
 }
 
 py::tuple camera_optics(Simulation& simulation, ObjectId sensor) {
@@ -66,10 +70,12 @@ void bind_sensors(py::module_& core) {
       },
       "Return the last reading of a sensor of any kind: (simulated seconds, reading).");
   module.def(
-      "read_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.read_proximity(sensor)); },
-      "Return the last reading as (detected, distance, point, handle, normal).");
+      "read_proximity",
+      [](Simulation& s, ObjectId sensor) { return proximity_tuple(s, sensor, s.read_proximity(sensor)); },
+      "Return the last reading as (detected, distance, point, handle, normal), with the axes of ObjectFrames.");
   module.def(
-      "measure_proximity", [](Simulation& s, ObjectId sensor) { return proximity_tuple(s.measure_proximity(sensor)); },
+      "measure_proximity",
+      [](Simulation& s, ObjectId sensor) { return proximity_tuple(s, sensor, s.measure_proximity(sensor)); },
       "Measure now; return the same as read_proximity().");
   module.def(
       "reading_time", [](Simulation& s, ObjectId sensor) { return s.reading_time(sensor); },

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <map>
 
@@ -19,6 +20,7 @@
 #include "loaded_scene.hpp"
 #include "numpy_values.hpp"
 #include "object_view.hpp"
+#include "random_quantities.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -76,7 +78,7 @@ py::array_t<float> vertices(const CollisionShape& shape) {
 }
 
 /// Steps without the GIL, but checks Python's signals regularly so that Ctrl-C ends a long call.
-void step(Simulation& simulation, std::uint64_t steps) {
+void step_simulation(Simulation& simulation, std::uint64_t steps) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kBetweenSignals{50};
   Clock::time_point look = Clock::now() + kBetweenSignals;
@@ -161,6 +163,21 @@ ObjectView add_model(const py::object& owner, const std::string& text, const std
   return {owner, id};
 }
 
+py::bytes save(Simulation& simulation) {
+  std::string state;
+  {
+    const py::gil_scoped_release others_may_run;
+    simulation.save(state);
+  }
+  return py::bytes(state);
+}
+
+void restore(Simulation& simulation, const py::bytes& state) {
+  const std::string_view bytes = state;
+  const py::gil_scoped_release others_may_run;
+  simulation.restore(bytes);
+}
+
 void bind_errors(py::module_& module) {
   static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
@@ -225,7 +242,7 @@ Equal seeds and equal commands give bitwise equal states in every process.
            }),
            py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
       .def(
-          "step", &step, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
+          "step", &step_simulation, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
           "Run `steps` simulation steps of `time_step` seconds, without holding the GIL.\n\n"
           ":raises Diverged: if a body's state is no longer finite; then reset the simulation or load the scene again.")
       .def("reset_world", &Simulation::reset_world, py::call_guard<py::gil_scoped_release>(),
@@ -236,7 +253,28 @@ Equal seeds and equal commands give bitwise equal states in every process.
            "runs.")
       .def("reset", &Simulation::reset, py::call_guard<py::gil_scoped_release>(),
            "Like `reset_world`, and time starts at 0 again: the following steps bitwise equal those of a\n"
-           "new simulation of these models.")
+           "new simulation of these models. Mass, friction and gravity are put back too, and what the\n"
+           "scene randomizes is drawn again by the seed.")
+      .def("save", &save, R"(Return the state as bytes, which a file may keep.
+
+After `restore`, this simulation or another one of the same scene, in any process, continues bit by bit as this one
+did after `save`: with sensors, devices, random numbers and the seed, without child scripts.
+
+:raises Diverged: after a divergence.)")
+      .def("restore", &restore, py::arg("state"), R"(Restore a state that `save` returned.
+
+Models that were added since are removed. Call it where `reset_world` may be called.
+
+:raises ValueError: if the bytes are not a state of this version and scene or are damaged; nothing is changed then.
+    Also if models or devices (such as plugins) are missing.)")
+      .def("randomize", &randomize, py::arg("distributions"), R"(Draw quantities by the seed, and set them.
+
+What is drawn depends on the seed, the quantity and the distribution alone: the same again after `reset`, and the same in
+world i of a Batch with this seed.
+
+:param distributions: a Distribution for each quantity that can be set, such as {"/Robot.mass": Distribution.uniform(1,
+    2)}; see Batch.
+:raises ValueError: if the scene does not have a quantity, or a drawn value cannot be used.)")
       .def("add_model", &add_model, py::arg("text"), py::kw_only(), py::arg("name") = "",
            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("orientation") = py::make_tuple(0, 0, 0, 1),
            py::arg("plugin_parameters") = py::dict(),
@@ -251,6 +289,8 @@ Equal seeds and equal commands give bitwise equal states in every process.
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
            "Remove a model and all its objects. Call it where `reset_world` may be called.\n\n"
            "Handles of its objects become invalid.")
+      .def_property("brightness", &Simulation::brightness, &Simulation::set_brightness,
+                    "Factor of all lights that cameras see, until the simulation is reset.")
       .def_property_readonly("seed", &Simulation::seed)
       .def_property_readonly(
           "scene", [](const Simulation& s) { return std::const_pointer_cast<Scene>(s.shared_scene()); },
@@ -280,6 +320,20 @@ Equal seeds and equal commands give bitwise equal states in every process.
             return Attached<Wind>{s.world(), s.wind()};
           },
           py::keep_alive<0, 1>(), "The Wind of the simulation.")
+      .def(
+          "set_color",
+          [](Simulation& s, ObjectId object, const std::array<float, 3>& rgb) {
+            s.set_color(object, {rgb[0], rgb[1], rgb[2]});
+          },
+          py::arg("handle"), py::arg("color"),
+          "Give all visuals of a link or model one colour: red, green, blue from 0 to 1.")
+      .def(
+          "color",
+          [](const Simulation& s, ObjectId object) {
+            const Color color = s.color(object);
+            return std::array<float, 3>{color.r, color.g, color.b};
+          },
+          py::arg("handle"), "Return the colour that was set, or that of the first visual.")
       .def("state_hash", &Simulation::state_hash,
            "Return a 64 bit hash of the physical state; world.hpp lists what it covers.")
       .def_property_readonly("collisions", &collisions, "All collision shapes with their current poses.")

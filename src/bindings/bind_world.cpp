@@ -11,20 +11,12 @@
 #include "bubblesim/world.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
+#include "world_poses.hpp"
 
 namespace bubblesim::bindings {
 namespace {
 
 namespace py = pybind11;
-
-using Pose7 = std::array<double, 7>;  // x, y, z, then qx, qy, qz, qw
-
-Pose7 to_list(const Pose& pose) {
-  return {pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(), pose.Rot().X(),
-          pose.Rot().Y(), pose.Rot().Z(), pose.Rot().W()};
-}
-
-Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quaternion(p[6], p[3], p[4], p[5])}; }
 
 Vector3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -41,11 +33,6 @@ std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
     default:
       return {};
   }
-}
-
-/// The frame for positions relative to an object; for a joint, its moving frame.
-Pose frame_of(const World& world, ObjectId object) {
-  return world.tree().at(object).kind == ObjectKind::kJoint ? world.joint_child_pose(object) : world.pose(object);
 }
 
 }  // namespace
@@ -65,6 +52,9 @@ void bind_world(py::module_& module) {
           },
           py::arg("path"), py::arg("start") = kNoObject, py::arg("index") = 0)
       .def("name", [](const World& w, ObjectId id) { return w.tree().at(id).name; })
+      .def(
+          "alias", [](const World& w, ObjectId id) { return w.tree().at(id).alias; },
+          "Return the object's name in paths: its <bubblesim:alias>, or its name.")
       .def("kind", [](const World& w, ObjectId id) { return std::string(kind_name(w.tree().at(id).kind)); })
       .def("is_static", [](const World& w, ObjectId id) { return w.description(id).is_static; })
       .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
@@ -72,6 +62,17 @@ void bind_world(py::module_& module) {
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
+      .def(
+          "contact_points",
+          [](const World& w) {
+            py::list points;
+            for (const TouchPoint& point : w.contact_points()) {
+              const Vector3& at = point.position;
+              points.append(py::make_tuple(at.X(), at.Y(), at.Z(), point.normal_force));
+            }
+            return points;
+          },
+          "Return x, y, z (m) and the normal force (N) of each contact point of the last physics substep.")
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
       .def(
@@ -162,6 +163,15 @@ void bind_world(py::module_& module) {
           "acceleration", [](const World& w, ObjectId id) { return to_list(w.acceleration(id)); },
           "Return the velocity of the object's origin, world axes: the mean over the last step.")
       .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
+      .def(
+          "set_gravity", [](World& w, const std::array<double, 3>& gravity) { w.set_gravity(to_vector(gravity)); },
+          py::arg("gravity"), "Set the gravity, m/s^2, until the world is reset.")
+      .def("mass", &World::mass, py::arg("object"), "Return the mass of a link or of all links of a model, kg.")
+      .def("set_mass", &World::set_mass, py::arg("object"), py::arg("mass"),
+           "Set the mass, kg, until the world is reset; the inertia is scaled. That of a model is scaled as a whole.")
+      .def("friction", &World::friction, py::arg("object"), "Return the friction coefficient of its first collision.")
+      .def("set_friction", &World::set_friction, py::arg("object"), py::arg("mu"),
+           "Set the friction coefficient of all collisions of a link or model, until the world is reset.")
       .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
       .def("motor_effort", &World::motor_effort, py::arg("joint"), py::arg("axis") = 0,

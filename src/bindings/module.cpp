@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, core) {
   bind_bridge(core);
   bind_plugins(core);
   bind_world(core);
+  bind_object_frames(core);
   bind_devices(core);
   bind_forces(core);
   bind_readings(core);
@@ -15,6 +16,11 @@ PYBIND11_MODULE(_core, core) {
   bind_objects(core);
   bind_scene(core);
   bind_simulation(core);
+  bind_frame_memory(core);
+  bind_randomization(core);
+  bind_batch(core);
   bind_runner(core);
+  bind_scene_view(core);
+  bind_editing(core);
   bind_cbor(core);
 }

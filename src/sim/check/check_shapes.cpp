@@ -52,7 +52,9 @@ void check_surface(Checker& checker, const Surface& surface) {
   checker.require(!surface.mu2 || *surface.mu2 >= 0, "the friction mu2", text(surface.mu2.value_or(0)), "0 or more");
   for (const Named& named :
        {Named{"the slip1", surface.slip1, 1e6}, Named{"the slip2", surface.slip2, 1e6},
-        Named{"the torsional friction", surface.torsion, 1e6}, Named{"the stiffness kp", surface.kp.value_or(0), 1e300},
+        Named{"the torsional friction", surface.torsion, 1e6},
+        Named{"the torsional friction by depth", surface.torsion_by_depth, 1e6},
+        Named{"the rolling resistance", surface.rolling, 1e6}, Named{"the stiffness kp", surface.kp.value_or(0), 1e300},
         Named{"the damping kd", surface.kd.value_or(0), 1e300},
         Named{"the soft_cfm", surface.soft_cfm.value_or(0), 1e6},
         Named{"the max_vel", surface.max_vel.value_or(0), 1e300},

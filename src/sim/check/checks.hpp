@@ -13,6 +13,7 @@ constexpr double kMaxDistance = 1e6;      ///< m from the origin
 constexpr double kMaxSize = 1e5;          ///< m, of shapes and ranges
 constexpr double kMaxSpeed = 1e6;         ///< m/s and rad/s
 constexpr double kMaxEffort = 1e9;        ///< N and N m, applied to a link or commanded to a joint
+constexpr double kMaxGravity = 1e4;       ///< m/s^2
 constexpr double kMinTimeStep = 1e-4;     ///< s, of a simulation step
 constexpr double kMaxTimeStep = 10;       ///< s
 constexpr double kFall = 1000;            ///< m below everything else, where fallen models are removed

@@ -112,7 +112,7 @@ void check_scene(Checker& checker, const SceneDescription& scene) {
   checker.require(checker.found_any() || (substeps > 0.5 && std::abs(substeps - std::round(substeps)) < 1e-6),
                   "the time step", text(scene.time_step) + " s",
                   "a whole number of physics substeps (" + text(scene.substep) + " s)");
-  checker.require(within(scene.gravity, 1e4), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
+  checker.require(within(scene.gravity, kMaxGravity), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
   check_environment(checker, scene.environment);
   for (const ModelDescription& model : scene.models) check_model(checker, model);
 }

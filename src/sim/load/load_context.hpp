@@ -30,6 +30,8 @@ class LoadContext {
   std::vector<Problem>& problems() { return problems_; }
   std::vector<Problem>& warnings() { return warnings_; }
   MeshReader& meshes() { return meshes_; }
+  /// Of the models of the world that have no <bubblesim:axis_convention> themselves.
+  AxisConvention& axes() { return axes_; }
 
   void report(const Source& source, const std::string& object, std::string message);
   void warn(const Source& source, const std::string& object, std::string message);
@@ -54,6 +56,7 @@ class LoadContext {
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;
   MeshReader meshes_;
+  AxisConvention axes_ = AxisConvention::kSdformat;
 };
 
 }  // namespace bubblesim

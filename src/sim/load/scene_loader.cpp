@@ -23,7 +23,9 @@
 #include "load/sdf/sdf_document.hpp"
 #include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_models.hpp"
+#include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
+#include "load/sdf/sdf_randomize.hpp"
 #include "load/sdf/sdf_repairs.hpp"
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf/sdf_state.hpp"
@@ -49,6 +51,20 @@ std::string reason_of(const sdf::Exception& error) {
   std::smatch match;
   if (std::regex_search(text, match, assertion)) return match.str(1);
   return text.substr(0, text.find('\n'));
+}
+
+ModelDescription ground_plane() {
+  CollisionDescription plane;
+  plane.name = "collision";
+  plane.geometry = Plane{};
+  LinkDescription link;
+  link.name = "link";
+  link.collisions.push_back(plane);
+  ModelDescription model;
+  model.name = kGroundPlane;
+  model.is_static = true;
+  model.links.push_back(link);
+  return model;
 }
 
 class SceneLoader {
@@ -203,20 +219,6 @@ class SceneLoader {
     check_own_elements(root.Element(), problems_);
   }
 
-  static ModelDescription ground_plane() {
-    CollisionDescription plane;
-    plane.name = "collision";
-    plane.geometry = Plane{};
-    LinkDescription link;
-    link.name = "link";
-    link.collisions.push_back(plane);
-    ModelDescription model;
-    model.name = kGroundPlane;
-    model.is_static = true;
-    model.links.push_back(link);
-    return model;
-  }
-
   void read_policy(const std::string& policy, const sdf::World& world, SceneDescription& scene) {
     const std::vector<std::pair<std::string, OnDivergence>> policies = {
         {"pause", OnDivergence::kPause}, {"reset", OnDivergence::kReset}, {"remove", OnDivergence::kRemove}};
@@ -242,6 +244,7 @@ class SceneLoader {
     scene.source = source_of(world.Element());
     if (!world.Name().empty()) scene.world_name = world.Name();
     scene.plugins = read_plugins(world.Element());
+    scene.randomized = read_randomized(world.Element(), reading_);
     scene.gravity = world.Gravity();
     if (const sdf::Physics* physics = world.PhysicsDefault()) {
       scene.substep = physics->MaxStepSize();
@@ -252,6 +255,7 @@ class SceneLoader {
     } else {
       fit_time_step(scene);
     }
+    reading_.axes() = read_axis_convention(world.Element(), "", reading_);
     if (const auto policy = own_text(world.Element(), kOnDivergence)) read_policy(*policy, world, scene);
     // SDFormat rounds its default to 1e-6.
     if (const auto field = world.Element()->FindElement("magnetic_field"); field && field->GetExplicitlySetInFile()) {
@@ -322,6 +326,13 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path, const X
   std::vector<Problem> warnings;
   SceneDescription scene = read_scene(name_or_path, arguments, &warnings);
   return Scene::of_checked(std::move(scene), std::move(warnings));
+}
+
+std::shared_ptr<const Scene> empty_scene() {
+  SceneDescription scene;
+  scene.name = scene.world_name = "empty";
+  scene.models.push_back(ground_plane());
+  return std::make_shared<const Scene>(std::move(scene));
 }
 
 ModelDescription load_model(const std::string& text, const fs::path& folder, std::vector<Problem>* warnings) {

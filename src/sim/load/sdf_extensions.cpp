@@ -19,21 +19,25 @@ struct OwnElement {
 
 const std::vector<OwnElement>& sdf_extensions() {
   static const std::vector<OwnElement> elements = {
-      {"bubblesim:time_step", {"world"}},                // seconds of one simulation step
-      {"bubblesim:substeps", {"physics"}},               // number for each <max_step_size>, or auto
-      {"bubblesim:bandwidth", {"imu", "force_torque"}},  // Hz
-      {"bubblesim:child_script", {"model", "include"}},  // file beside the scene
-      {"bubblesim:motor", {"axis", "axis2"}},            // velocity, position or effort
-      {"bubblesim:mimic", {"axis", "axis2"}},            // as <mimic> of SDFormat 1.11
-      {"bubblesim:on_divergence", {"world"}},            // pause, reset or remove
-      {"bubblesim:volume", {"sonar"}},                   // ray, cone, pyramid, disc or cylinder
-      {"bubblesim:antialias", {"camera"}},               // true or false
-      {"bubblesim:topic", {"sensor"}},                   // name of a ROS topic
-      {"bubblesim:frame", {"sensor"}},                   // frame_id of its messages
-      {"bubblesim:signal", {"lidar", "ray"}},            // name of a string signal with the points
-      {"bubblesim:convex", {"collision"}},               // hull, parts or none
-      {"bubblesim:checker_size", {"material"}},          // metres
-      {"bubblesim:checker_color", {"material"}},         // red, green and blue
+      {"bubblesim:time_step", {"world"}},                                    // seconds of one simulation step
+      {"bubblesim:substeps", {"physics"}},                                   // number for each <max_step_size>, or auto
+      {"bubblesim:bandwidth", {"imu", "force_torque"}},                      // Hz
+      {"bubblesim:alias", {"model", "include", "link", "joint", "sensor"}},  // name in paths
+      {"bubblesim:axis_convention", {"world", "model", "include"}},          // sdformat or coppeliasim
+      {"bubblesim:child_script", {"model", "include"}},                      // file beside the scene
+      {"bubblesim:motor", {"axis", "axis2"}},                                // velocity, position or effort
+      {"bubblesim:mimic", {"axis", "axis2"}},                                // as <mimic> of SDFormat 1.11
+      {"bubblesim:on_divergence", {"world"}},                                // pause, reset or remove
+      {kRandomize, {"world"}},                                               // see sdf_randomize.hpp; several
+      {"bubblesim:volume", {"sonar"}},                                       // ray, cone, pyramid, disc or cylinder
+      {"bubblesim:antialias", {"camera"}},                                   // true or false
+      {"bubblesim:topic", {"sensor"}},                                       // name of a ROS topic
+      {"bubblesim:frame", {"sensor"}},                                       // frame_id of its messages
+      {"bubblesim:signal", {"lidar", "ray"}},                                // name of a string signal with the points
+      {"bubblesim:convex", {"collision"}},                                   // hull, parts or none
+      {"bubblesim:rolling", {"friction"}},                                   // metres
+      {"bubblesim:checker_size", {"material"}},                              // metres
+      {"bubblesim:checker_color", {"material"}},                             // red, green and blue
   };
   return elements;
 }
@@ -68,25 +72,12 @@ void check_element(const sdf::ElementPtr& element, std::vector<Problem>& problem
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
     if (std::find(own.parents.begin(), own.parents.end(), parent) == own.parents.end()) {
       report("<" + name + "> is not allowed in <" + parent + ">, it belongs in <" + own.parents.front() + ">");
-    } else if (own_child(element->GetParent(), name) != element) {
+    } else if (name != kRandomize && own_child(element->GetParent(), name) != element) {
       report("<" + name + "> occurs twice");
     }
     return;
   }
   report("unknown element <" + name + ">" + did_you_mean(name, known));
-}
-
-/// The numbers in a text, separated by spaces; empty when the text has other content.
-std::optional<std::vector<double>> to_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    double number = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size()) return std::nullopt;
-    numbers.push_back(number);
-  }
-  return numbers;
 }
 
 void report_text(const sdf::ElementPtr& element, const std::string& text, const std::string& wanted,
@@ -101,6 +92,18 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+std::optional<std::vector<double>> to_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    double number = 0;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size()) return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers;
 }
 
 bool is_own_element(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }

@@ -15,6 +15,12 @@ namespace bubblesim {
 /// The text without white space at its ends.
 std::string trimmed(const std::string& text);
 
+/// The numbers in a text, separated by spaces; empty when the text has other content.
+std::optional<std::vector<double>> to_numbers(const std::string& text);
+
+/// The only element of the namespace that may occur several times in its parent.
+inline constexpr const char* kRandomize = "bubblesim:randomize";
+
 bool is_own_element(const std::string& name);
 
 /// Reports elements of the namespace, anywhere below `root`, that are unknown, in the wrong place or occur twice.

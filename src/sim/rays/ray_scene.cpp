@@ -25,6 +25,15 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
   return context;
 }
 
+/// Whether two poses are equal to the bit. The == of poses allows a difference, with which rays would depend on where a
+/// link was before.
+bool is_same(const Pose& a, const Pose& b) {
+  const Quaternion& p = a.Rot();
+  const Quaternion& q = b.Rot();
+  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() && p.W() == q.W() &&
+         p.X() == q.X() && p.Y() == q.Y() && p.Z() == q.Z();
+}
+
 /// Rejects hits from inside and on the ignored model.
 void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
@@ -116,7 +125,7 @@ void RayScene::refresh(const World& world) {
   for (const auto& link : links_) {
     if (link == nullptr) continue;
     const Pose pose = world.pose(link->link->id);
-    if (pose == link->pose && link->placed) continue;
+    if (link->placed && is_same(pose, link->pose)) continue;
     link->pose = pose;
     link->frame = {ignition::math::Matrix3d(pose.Rot()), pose.Pos()};
     link->placed = true;

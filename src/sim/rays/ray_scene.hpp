@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "bubblesim/prepared_scene.hpp"
@@ -42,6 +43,14 @@ class RayScene {
   /// Whether any shape ever had a laser_retro.
   bool has_retro() const { return has_retro_; }
 
+  /// Replaces the materials of a link.
+  void set_color(ObjectId link, const Color& color) { colors_[link] = color; }
+  /// The colour that was set for a link; null if none was.
+  const Color* color(ObjectId link) const {
+    const auto found = colors_.find(link);
+    return found != colors_.end() ? &found->second : nullptr;
+  }
+
   /// The shape that ray `i` of a traced packet hit; the ray must have a hit.
   const rays::RayShape& shape(const rays::RayPacket& packet, std::size_t i) const;
   /// The surface normal at the hit; unit length, world axes.
@@ -69,6 +78,7 @@ class RayScene {
   bool statics_changed_ = true;
   bool movers_changed_ = false;
   bool has_retro_ = false;
+  std::unordered_map<ObjectId, Color> colors_;  // by link; of removed links, too, whose handles do not come back soon
 };
 
 }  // namespace bubblesim

@@ -2,16 +2,11 @@
 // The commands that threads give to the thread that runs a simulation.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <utility>
 #include <vector>
-
-#include "bubblesim/error.hpp"
 
 namespace bubblesim {
 
@@ -24,82 +19,63 @@ struct Command {
   std::function<void(const std::exception_ptr&)> refuse;
 };
 
-/// Thread-safe.
+/// Thread-safe, except Wait.
 class Inbox {
  public:
   using Clock = std::chrono::steady_clock;
+  enum class WaitFor { kCommands, kInput };
+
+  /// Throws std::system_error.
+  Inbox();
+  ~Inbox();
+  Inbox(const Inbox&) = delete;
+  Inbox& operator=(const Inbox&) = delete;
 
   /// Refuses the command if the inbox is closed.
-  void put(Command command) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!closed_) {
-        commands_.push_back(std::move(command));
-        changed_.notify_all();
-        return;
-      }
-    }
-    command.refuse(has_ended());
-  }
-
-  void open() {
-    const std::lock_guard lock(mutex_);
-    closed_ = false;
-  }
+  void put(Command command);
+  void open();
   /// Refuses all commands from here on, also those that are there.
-  void close() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-    }
-    for (const Command& command : take()) command.refuse(has_ended());
-  }
+  void close();
 
-  static std::exception_ptr has_ended() { return std::make_exception_ptr(NotCarriedOut("the simulation has ended")); }
+  static std::exception_ptr has_ended();
 
   /// All commands so far, in order.
-  std::vector<Command> take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(commands_, {});
-  }
+  std::vector<Command> take();
+  bool empty() const;
+  bool has(Command::Kind kind) const;
 
-  bool empty() const {
-    const std::lock_guard lock(mutex_);
-    return commands_.empty();
-  }
-  bool has(Command::Kind kind) const {
-    const std::lock_guard lock(mutex_);
-    return std::any_of(commands_.begin(), commands_.end(), [kind](const Command& each) { return each.kind == kind; });
-  }
+  /// Ends a wait for input.
+  void wake();
 
-  /// Ends wait_for_input().
-  void wake() {
-    {
-      const std::lock_guard lock(mutex_);
-      woken_ = true;
-    }
-    changed_.notify_all();
-  }
+  /// Readable when a Wait is over.
+  int descriptor() const { return signal_; }
 
-  /// Waits until `end`, or until there are commands. Returns whether `end` was reached without commands.
-  bool wait_for_command(Clock::time_point end) {
-    std::unique_lock lock(mutex_);
-    return !changed_.wait_until(lock, end, [this] { return !commands_.empty(); });
-  }
+  /// During its lifetime, descriptor() signals commands, and wake() if the wait is for input; one that came since the
+  /// last wait for input counts. There is one at a time.
+  class Wait {
+   public:
+    Wait(Inbox& inbox, WaitFor what);
+    ~Wait();
+    Wait(const Wait&) = delete;
+    Wait& operator=(const Wait&) = delete;
 
-  /// Waits until `end`, until there are commands, or until wake() has been called since the last wait.
-  void wait_for_input(Clock::time_point end) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_until(lock, end, [this] { return woken_ || !commands_.empty(); });
-    woken_ = false;
-  }
+    bool is_over() const;
+
+   private:
+    Inbox& inbox_;
+    const bool for_input_;
+  };
 
  private:
+  void signal();
+
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  const int signal_;  // an eventfd
   std::vector<Command> commands_;
   bool woken_ = false;
   bool closed_ = false;
+  bool waits_for_commands_ = false;
+  bool waits_for_wake_ = false;
 };
 
 }  // namespace bubblesim

@@ -19,6 +19,11 @@ class Pacer {
   /// Restarts the count at the next call: after a pause.
   void restart() { started_ = false; }
   double speed() const { return speed_; }
+  /// From now on.
+  void set_speed(double speed) {
+    speed_ = speed;
+    restart();
+  }
 
  private:
   double speed_;

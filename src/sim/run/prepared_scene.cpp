@@ -6,6 +6,7 @@
 #include "check/scene_check.hpp"
 #include "physics/world_state.hpp"
 #include "run/prepared.hpp"
+#include "scene/scene_hash.hpp"
 
 namespace bubblesim {
 namespace {
@@ -48,6 +49,18 @@ const rays::PreparedRays& Scene::Prepared::rays(const Scene& scene) const {
     rays_.statics = rays::gather_statics(rays_.models);
   });
   return rays_;
+}
+
+std::uint64_t Scene::hash() const { return prepared_->hash(*this); }
+
+std::uint64_t Scene::Prepared::hash(const Scene& scene) const {
+  std::call_once(hash_made_, [&] { hash_ = hash_of(scene.description()); });
+  return hash_;
+}
+
+const std::shared_ptr<const std::string>& Scene::Prepared::start(const std::function<std::string()>& save) const {
+  std::call_once(start_made_, [&] { start_ = std::make_shared<const std::string>(save()); });
+  return start_;
 }
 
 }  // namespace bubblesim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/run_loop.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ FramePose to_frame(const Pose& pose) {
 RunLoop::RunLoop(Simulation& simulation, const RunnerOptions& options)
     : simulation_(simulation),
       options_(options),
+      speed_(options.speed),
       pacer_(options.speed),
       meter_(options.speed),
       state_(options.initial) {
@@ -38,6 +40,7 @@ void RunLoop::run() {
   ending_ = false;
   while (!ends()) {
     carry_out_commands();
+    files_.serve_without_wait();
     meter_.note(simulation_, state_, may_step());
     if (ending_) break;
     if (state_ != RunState::kRunning) pacer_.restart();
@@ -102,18 +105,32 @@ void RunLoop::wait_for_input() {
   if (order_.has_waited(kGateTimeout)) {
     if (const StepGate* closed = closed_gate()) order_.fail(closed->why_closed());
   }
+  const Clock::time_point end = Clock::now() + kIdlePeriod;
+  while (wait_until(end, Inbox::WaitFor::kInput) == InputFiles::Event::kFile) {
+    files_.serve();
+    publish_frame();
+    if (step_is_due() || Clock::now() >= end) return;
+  }
+}
+
+InputFiles::Event RunLoop::wait_until(Clock::time_point end, Inbox::WaitFor what) {
   const AccessLock::Pause others_may_use_it(simulation_.world().access());
-  inbox_.wait_for_input(Clock::now() + kIdlePeriod);
+  return files_.wait(inbox_, what, end);
 }
 
 /// Waits until the next step is due in real time. Returns false when something else is to be done first.
 bool RunLoop::wait_for_time() {
-  const Clock::time_point now = Clock::now();
-  const Clock::time_point due = pacer_.due(simulation_.time(), now);
-  if (due <= now) return true;
-  const bool soon = due <= now + kLongestWait;
-  const AccessLock::Pause others_may_use_it(simulation_.world().access());
-  return inbox_.wait_for_command(soon ? due : now + kLongestWait) && soon;
+  Clock::time_point now = Clock::now();
+  const Clock::time_point longest = now + kLongestWait;
+  for (;;) {
+    const Clock::time_point due = pacer_.due(simulation_.time(), now);
+    if (due <= now) return true;
+    if (longest <= now) return false;
+    if (wait_until(std::min(due, longest), Inbox::WaitFor::kCommands) == InputFiles::Event::kInbox) return false;
+    files_.serve();
+    if (!step_is_due()) return false;
+    now = Clock::now();
+  }
 }
 
 void RunLoop::run_step() {
@@ -150,7 +167,22 @@ void RunLoop::publish_frame() {
   for (const auto& [joint, axis] : next->layout->axes) {
     next->joint_positions.push_back(static_cast<float>(world.joint_position(joint, axis)));
   }
+  if (memory_) memory_->write(*next);
   std::atomic_store(&frame_, std::shared_ptr<const Frame>(std::move(next)));
+}
+
+void RunLoop::set_speed(double speed) {
+  speed_ = speed;
+  pacer_.set_speed(speed);
+  meter_.set_wanted_speed(speed);
+}
+
+FrameMemory& RunLoop::share_frames() {
+  if (!memory_) {
+    memory_ = std::make_unique<FrameMemory>();
+    memory_->write(*frame());
+  }
+  return *memory_;
 }
 
 // Commands

@@ -9,8 +9,10 @@
 #include <string>
 
 #include "bubblesim/frame.hpp"
+#include "bubblesim/frame_memory.hpp"
 #include "bubblesim/runner.hpp"
 #include "run/inbox.hpp"
+#include "run/input_files.hpp"
 #include "run/pacer.hpp"
 #include "run/run_meter.hpp"
 #include "run/step_order.hpp"
@@ -28,6 +30,9 @@ class RunLoop {
   GateId add_gate(StepGate gate);
   void remove_gate(GateId gate) { gates_.erase(gate); }
   void remove_gates() { gates_.clear(); }
+  FrameMemory& share_frames();
+  void set_speed(double speed);
+  InputFiles& files() { return files_; }
 
   // What commands do:
   RunState start();
@@ -42,6 +47,7 @@ class RunLoop {
   Inbox& inbox() { return inbox_; }
   RunMeter& meter() { return meter_; }
   RunState state() const { return state_; }
+  double speed() const { return speed_; }
   std::shared_ptr<const Frame> frame() const { return std::atomic_load(&frame_); }
 
  private:
@@ -51,6 +57,7 @@ class RunLoop {
   bool step_is_due() const;
   const StepGate* closed_gate() const;
   void wait_for_input();
+  InputFiles::Event wait_until(Inbox::Clock::time_point end, Inbox::WaitFor what);
   bool wait_for_time();
   void run_step();
   void publish_frame();
@@ -58,6 +65,8 @@ class RunLoop {
   Simulation& simulation_;
   const RunnerOptions& options_;
   Inbox inbox_;
+  std::atomic<double> speed_;  // that of pacer_, for other threads
+  InputFiles files_;
   Pacer pacer_;
   RunMeter meter_;
   std::map<GateId, StepGate> gates_;
@@ -66,8 +75,9 @@ class RunLoop {
   std::atomic<RunState> state_;
   bool ending_ = false;
   bool synchronous_ = false;
-  std::uint64_t triggers_ = 0;          // not used yet
-  std::shared_ptr<const Frame> frame_;  // swapped as a whole, with std::atomic_store
+  std::uint64_t triggers_ = 0;           // not used yet
+  std::unique_ptr<FrameMemory> memory_;  // null until somebody wants it
+  std::shared_ptr<const Frame> frame_;   // swapped as a whole, with std::atomic_store
 };
 
 }  // namespace bubblesim

@@ -26,6 +26,11 @@ class RunMeter {
   /// Records that the simulation failed for good.
   void fail(const std::string& why);
 
+  void set_wanted_speed(double speed) {
+    const std::lock_guard lock(mutex_);
+    report_.wanted_speed = speed;
+  }
+
   /// Returns the report since the last call, without what is known of scripts. Thread-safe.
   RunReport take();
   /// Returns the totals in one line: simulated seconds, real-time factor, steps. Thread-safe.

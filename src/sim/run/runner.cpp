@@ -64,6 +64,18 @@ std::future<double> Runner::step(std::uint64_t count) {
   return answer->get_future();
 }
 
+void Runner::request_steps(std::uint64_t count) {
+  const auto unread = std::make_shared<std::promise<double>>();
+  put([this, count, unread](const Hook&) { impl_->loop.step(count, unread); }, [](const std::exception_ptr&) {});
+}
+
+std::future<void> Runner::set_speed(double speed) {
+  if (!(speed > 0)) throw InvalidInput("the speed of a runner must be positive, or infinity for as fast as possible");
+  return call([this, speed] { impl_->loop.set_speed(speed); });
+}
+
+double Runner::speed() const { return impl_->loop.speed(); }
+
 std::future<void> Runner::set_synchronous(bool synchronous) {
   return call([this, synchronous] { impl_->loop.set_synchronous(synchronous); });
 }
@@ -94,6 +106,8 @@ void Runner::wake() { impl_->loop.inbox().wake(); }
 
 std::shared_ptr<const Frame> Runner::frame() const { return impl_->loop.frame(); }
 
+FrameMemory& Runner::share_frames() { return impl_->loop.share_frames(); }
+
 RunReport Runner::take_report() { return impl_->loop.meter().take(); }
 
 std::string Runner::summary() { return impl_->loop.meter().summary(); }
@@ -105,6 +119,10 @@ GateId Runner::add_gate(StepGate gate) { return impl_->loop.add_gate(std::move(g
 void Runner::remove_gate(GateId gate) { impl_->loop.remove_gate(gate); }
 
 void Runner::remove_gates() { impl_->loop.remove_gates(); }
+
+void Runner::add_file(std::shared_ptr<WatchedFile> file) { impl_->loop.files().add(std::move(file)); }
+
+void Runner::remove_file(const WatchedFile& file) { impl_->loop.files().remove(file); }
 
 void Runner::run() {
   /// Knows the thread, and lets no command wait for ever.

@@ -18,6 +18,7 @@ struct Simulation::SensorSlot {
   bool wanted = false;  // it was read since its last measurement
   bool measured = false;
   bool shows = false;  // the image was replaced by override_image()
+  double noise_scale = 1;
 
   void reset(double now) {
     sensor->reset();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/randomization.hpp"
 #include "bubblesim/velocity_decay.hpp"
 #include "check/checks.hpp"
 #include "rays/ray_scene.hpp"
@@ -34,6 +35,9 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
   world_.add_device(std::make_shared<VelocityDecay>());
   for (const ObjectId model : world_.tree().models()) make_sensors(model);
   index_sensors();
+  const std::vector<RandomQuantity>& randomized = this->scene().randomized;
+  if (!randomized.empty()) randomization_ = std::make_unique<const Randomization>(*this, randomized);
+  randomize();
 }
 
 Simulation::Simulation(SceneDescription scene, std::uint64_t seed)
@@ -120,6 +124,7 @@ void Simulation::reset_world() {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   world_.reset();
+  randomize();
   restart_sensors();
   for (System* system : systems_) system->reset();
 }
@@ -131,8 +136,36 @@ void Simulation::reset() {
   steps_ = steps_before_ = 0;
   time_before_ = 0;
   time_step_ = scene().time_step;
+  randomize();
   reset_sensors();
   for (System* system : systems_) system->reset();
+}
+
+void Simulation::reset_to_scene(std::uint64_t seed) {
+  const AccessLock::Hold hold(world_.access());
+  check_may_change();
+  if (!world_.has_scene_models()) {
+    world_.rebuild(*scene_);
+    rays_ = std::make_unique<RayScene>(scene_);
+    sensors_.clear();
+    for (const ObjectId model : world_.tree().models()) make_sensors(model);
+    index_sensors();
+  }
+  set_seed(seed);
+  reset();
+}
+
+/// Puts back brightness and noise, and draws what the scene randomizes, as long as it has its own models.
+void Simulation::randomize() {
+  brightness_ = 1;
+  for (SensorSlot& slot : sensors_) slot.noise_scale = 1;
+  if (randomization_ != nullptr && has_scene_models()) randomization_->apply(*this);
+}
+
+void Simulation::set_seed(std::uint64_t seed) {
+  seed_ = seed;
+  world_.set_seed(seed);
+  wind_->set_seed(seed);
 }
 
 ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {

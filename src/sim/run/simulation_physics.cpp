@@ -48,6 +48,7 @@ void Simulation::handle(const Diverged& divergence) {
   if (scene().on_divergence == OnDivergence::kReset) {
     warn(what + "; world reset");
     world_.reset();
+    randomize();
     restart_sensors();
     for (System* system : systems_) system->reset();
   } else if (scene().on_divergence == OnDivergence::kRemove && !lost.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sensors of a simulation: when they measure, and their readings.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <variant>
@@ -9,6 +10,7 @@
 #include "bubblesim/error.hpp"
 #include "rays/ray_scene.hpp"
 #include "run/sensor_slot.hpp"
+#include "scene/describe.hpp"
 #include "sensors/worker_pool.hpp"
 
 namespace bubblesim {
@@ -82,15 +84,18 @@ void Simulation::update_sensors() {
     return;
   }
   rays_->refresh(world_);
-  WorkerPool::shared().run(with_rays.size(), [&](std::size_t i) {
-    with_rays[i]->sensor->update({world_, *rays_, state_time(), seed_});
-  });
+  WorkerPool::shared().run(with_rays.size(),
+                           [&](std::size_t i) { with_rays[i]->sensor->update(context_of(*with_rays[i])); });
   measurements_ += with_rays.size();
+}
+
+MeasurementContext Simulation::context_of(const SensorSlot& slot) {
+  return {world_, *rays_, state_time(), seed_, slot.noise_scale, brightness_};
 }
 
 void Simulation::update(SensorSlot& slot) {
   slot.time = state_time();
-  slot.sensor->update({world_, *rays_, slot.time, seed_});
+  slot.sensor->update(context_of(slot));
   ++measurements_;
 }
 
@@ -140,6 +145,17 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
   found.sensor->replace(found.time, std::move(picture));
   found.shows = true;
 }
+
+void Simulation::set_noise_scale(ObjectId sensor, double scale) {
+  SensorSlot& found = slot(sensor);
+  if (!(scale >= 0 && std::isfinite(scale))) {
+    throw InvalidInput(world_.tree().short_path(sensor) + ": the noise scale " + text(scale) +
+                       " is not usable: it must be 0 or more");
+  }
+  found.noise_scale = scale;
+}
+
+double Simulation::noise_scale(ObjectId sensor) { return slot(sensor).noise_scale; }
 
 double Simulation::reading_time(ObjectId sensor) { return slot(sensor).time; }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace bubblesim {
 
@@ -21,6 +22,15 @@ class Fnv1a {
       std::memcpy(&bits, &values[i], sizeof bits);
       add(bits);
     }
+  }
+  /// Eight bytes at a time; the last ones are filled up with zeros.
+  void add(std::string_view bytes) {
+    for (std::size_t at = 0; at < bytes.size(); at += 8) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, bytes.data() + at, bytes.size() - at < 8 ? bytes.size() - at : 8);
+      add(bits);
+    }
+    add(static_cast<std::uint64_t>(bytes.size()));
   }
   std::uint64_t value() const { return value_; }
 

@@ -86,7 +86,7 @@ std::string as_path(std::string scoped_name) {
   return scoped_name;
 }
 
-ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index) {
+ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index, std::string alias) {
   if (parent != kNoObject) at(parent);  // throws
   const bool is_full = places_.size() >> kIndexBits != 0;
   if (is_full && free_.empty()) throw InvalidInput("a scene has at most a million objects");
@@ -100,8 +100,9 @@ ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std:
   Place& place = places_[taken];
   const auto id = static_cast<ObjectId>(taken | (place.generation << kIndexBits));
   (parent == kNoObject ? models_ : places_[index_of(parent)].object.children).push_back(id);
-  by_name_[name].push_back(id);
-  place.object = {id, kind, std::move(name), parent, {}, index};
+  if (alias.empty()) alias = name;
+  by_alias_[alias].push_back(id);
+  place.object = {id, kind, std::move(name), std::move(alias), parent, {}, index};
   place.added = added_++;
   ++size_;
   return id;
@@ -117,12 +118,12 @@ void SceneTree::remove(ObjectId id) {
 /// Frees the places of an object and of all below it; its parent still lists it.
 void SceneTree::take_out(ObjectId id, const std::string& parent_path) {
   Object& object = places_[index_of(id)].object;
-  const std::string was = parent_path + "/" + object.name;
+  const std::string was = parent_path + "/" + object.alias;
   for (const ObjectId child : object.children) take_out(child, was);
-  const auto named = by_name_.find(object.name);
+  const auto named = by_alias_.find(object.alias);
   named->second.erase(std::find(named->second.begin(), named->second.end(), id));
-  if (named->second.empty()) by_name_.erase(named);
-  object = {kNoObject, ObjectKind::kModel, was, kNoObject, {}, 0};
+  if (named->second.empty()) by_alias_.erase(named);
+  object = {kNoObject, ObjectKind::kModel, was, was, kNoObject, {}, 0};
   Place& place = places_[index_of(id)];
   place.generation = (place.generation + 1) % kGenerations;
   free_.push_back(index_of(id));
@@ -190,9 +191,9 @@ std::string SceneTree::indexed_name(const Object& object) const {
   std::size_t position = 0;
   for (const ObjectId sibling : level_below(object.parent)) {
     if (sibling == object.id) position = same_name;
-    if (at(sibling).name == object.name) ++same_name;
+    if (at(sibling).alias == object.alias) ++same_name;
   }
-  return same_name > 1 ? object.name + "[" + std::to_string(position) + "]" : object.name;
+  return same_name > 1 ? object.alias + "[" + std::to_string(position) + "]" : object.alias;
 }
 
 std::string SceneTree::path(ObjectId id) const {
@@ -204,19 +205,20 @@ std::string SceneTree::short_path(ObjectId id) const {
   std::string ending;
   for (ObjectId level = id; level != kNoObject; level = at(level).parent) {
     ending = "/" + indexed_name(at(level)) + ending;
-    const std::vector<ObjectId> found = matches(ending, kNoObject);
+    const std::vector<ObjectId> found = matches(ending, kNoObject, &Object::alias);
     if (found.size() == 1 && found.front() == id) return ending;
   }
   return path(id);
 }
 
-std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) const {
+std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from, std::string Object::*name) const {
   std::vector<std::string_view> parts = split(path);
   ObjectId start = kNoObject;  // the scene
   if (!path.empty() && path.front() != '/' && !parts.empty()) {
     const std::string_view anchor = parts.front();
-    if (from == kNoObject) return {};
-    if (anchor == ".") {
+    const bool of_scene = from == kNoObject;
+    if (of_scene && anchor != "." && anchor != ":") return {};
+    if (of_scene || anchor == ".") {
       start = from;
     } else if (anchor == "..") {
       start = at(from).parent;
@@ -254,7 +256,7 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
           const Object& object = at(id);
           if (object.parent != last_parent) sibling = 0;
           last_parent = object.parent;
-          if (fits(object.name, segment.name) && (!segment.among_siblings || *segment.among_siblings == sibling++)) {
+          if (fits(object.*name, segment.name) && (!segment.among_siblings || *segment.among_siblings == sibling++)) {
             found.push_back(id);
           }
           next.insert(next.end(), object.children.begin(), object.children.end());
@@ -278,12 +280,12 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from) c
 ObjectId SceneTree::unique_match(std::string_view path) const {
   if (path.empty() || path.front() != '/' || path.find_first_of("*[{") != std::string_view::npos) return kNoObject;
   const std::vector<std::string_view> parts = split(path);
-  const auto named = parts.empty() ? by_name_.end() : by_name_.find(std::string(parts.back()));
-  if (named == by_name_.end() || named->second.size() != 1) return kNoObject;
+  const auto named = parts.empty() ? by_alias_.end() : by_alias_.find(std::string(parts.back()));
+  if (named == by_alias_.end() || named->second.size() != 1) return kNoObject;
   // Each level of the path is the next ancestor of that name.
   ObjectId above = at(named->second.front()).parent;
   for (auto part = parts.rbegin() + 1; part != parts.rend(); ++part) {
-    while (above != kNoObject && at(above).name != *part) above = at(above).parent;
+    while (above != kNoObject && at(above).alias != *part) above = at(above).parent;
     if (above == kNoObject) return kNoObject;
     above = at(above).parent;
   }
@@ -293,7 +295,8 @@ ObjectId SceneTree::unique_match(std::string_view path) const {
 ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index) const {
   const ObjectId only = unique_match(path);
   if (only != kNoObject && index == 0) return only;
-  const std::vector<ObjectId> found = matches(path, from);
+  std::vector<ObjectId> found = matches(path, from, &Object::alias);
+  if (found.empty()) found = matches(path, from, &Object::name);
   if (index < found.size()) return found[index];
 
   const std::string shown(path);
@@ -304,7 +307,7 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
   std::vector<std::string> known;
   for (const ObjectId id : objects()) {
     known.push_back(this->path(id));
-    known.push_back("/" + at(id).name);
+    known.push_back("/" + at(id).alias);
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());

@@ -78,7 +78,7 @@ class Camera final : public Sensor {
     image.objects.resize(pixels);
     if (description_.color) image.rgb.resize(3 * pixels);
     moment.rays.refresh(moment.world);
-    if (description_.color) shading_.place_lights(moment.world);
+    if (description_.color) shading_.place_lights(moment.world, moment.brightness);
     const Pose sensor = moment.world.pose(id_);
     const View view{moment.rays, sensor.Pos(), ignition::math::Matrix3d(sensor.Rot())};
     Noise noise(description_.noise, moment, id_);

@@ -24,6 +24,12 @@ std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel
   return hash.value();
 }
 
+NoiseDescription scaled_noise(NoiseDescription description, double scale) {
+  description.stddev *= scale;
+  description.bias_stddev *= scale;
+  return description;
+}
+
 }  // namespace
 
 double NormalSource::uniform() {
@@ -55,13 +61,13 @@ double NormalSource::next() {
 
 Noise::Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
              std::uint64_t channel)
-    : description_(description),
-      active_(description.mean != 0 || description.stddev > 0 || description.bias_mean != 0 ||
-              description.bias_stddev > 0 || description.precision > 0),
+    : description_(scaled_noise(description, moment.noise_scale)),
+      active_(description_.mean != 0 || description_.stddev > 0 || description_.bias_mean != 0 ||
+              description_.bias_stddev > 0 || description_.precision > 0),
       normal_(seed_of(moment.seed, sensor, 2 * channel, bits_of(moment.time))) {
   // The bias does not depend on time: it is equal in all measurements.
   NormalSource once(seed_of(moment.seed, sensor, 2 * channel + 1, 0));
-  bias_ = description.bias_mean + description.bias_stddev * once.next();
+  bias_ = description_.bias_mean + description_.bias_stddev * once.next();
 }
 
 double Noise::operator()(double value) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sensors/kinds.hpp"
+#include "sensors/reading_state.hpp"
 
 namespace bubblesim {
 
@@ -30,6 +31,14 @@ void Sensor::replace(double time, Measurement measurement) {
   reading_ = std::make_shared<Reading>();
   reading_->time = time;
   reading_->measurement = std::move(measurement);
+}
+
+void Sensor::transfer(StateArchive& archive) {
+  if (archive.restores() && reading_.use_count() > 1) {  // a caller holds the last one
+    reading_ = std::make_shared<Reading>();
+    reading_->measurement = empty_;
+  }
+  archive(reading_->time, reading_->measurement);
 }
 
 std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,

@@ -6,9 +6,18 @@
 
 namespace bubblesim {
 
-void Shading::place_lights(const World& world) {
+namespace {
+
+Color scaled_light(const Color& color, float scale) { return {scale * color.r, scale * color.g, scale * color.b}; }
+
+}  // namespace
+
+void Shading::place_lights(const World& world, double brightness) {
+  const auto scale = static_cast<float>(brightness);
   lights_ = environment_.lights;
   for (Light& light : world.link_lights()) lights_.push_back(std::move(light));
+  for (Light& light : lights_) light.diffuse = scaled_light(light.diffuse, scale);
+  ambient_ = scaled_light(environment_.ambient, scale);
 }
 
 void Shading::add(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups, float weight,
@@ -24,7 +33,7 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, const ra
   if (groups.begin() == groups.end()) return;
   Surfaces surfaces;
   find_surfaces(scene, packet, groups, surfaces);
-  lanes::add_ambient(surfaces.diffuse, environment_.ambient, surfaces.emissive, groups.hits(), weight, sum);
+  lanes::add_ambient(surfaces.diffuse, ambient_, surfaces.emissive, groups.hits(), weight, sum);
   for (const Light& light : lights_) {
     lanes::Arrivals arrivals;
     const bool any = light.kind == LightKind::kDirectional

@@ -15,10 +15,10 @@ namespace bubblesim {
 
 class Shading {
  public:
-  explicit Shading(Environment environment) : environment_(std::move(environment)), lights_(environment_.lights) {}
+  explicit Shading(Environment environment) : environment_(std::move(environment)) {}
 
-  /// Collects the scene's lights and those of links, at their current poses.
-  void place_lights(const World& world);
+  /// Collects the scene's lights and those of links, at their current poses, all `brightness` times as bright.
+  void place_lights(const World& world, double brightness);
 
   /// Adds `weight` times the colours of the rays of a traced packet to `sum`.
   void add(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups, float weight,
@@ -27,6 +27,7 @@ class Shading {
  private:
   Environment environment_;
   std::vector<Light> lights_;
+  Color ambient_;
 };
 
 }  // namespace bubblesim

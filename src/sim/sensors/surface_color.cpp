@@ -24,6 +24,11 @@ struct Painter {
 
   void paint_all() const {
     set_normals();
+    if (const Color* color = scene.color(shape.link)) {
+      lanes::paint(Color{}, group.members, surfaces.emissive);
+      lanes::paint(*color, group.members, surfaces.diffuse);
+      return;
+    }
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     if (mesh == nullptr || !shape.keeps_mesh_materials || mesh->triangles->materials.empty()) {
       paint(shape.material, group.members);

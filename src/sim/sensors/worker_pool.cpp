@@ -27,15 +27,14 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
-/// Those that this process may use: taskset and containers can leave it a part of the machine's.
+}  // namespace
+
 std::size_t usable_cores() {
   cpu_set_t usable;
   CPU_ZERO(&usable);
   if (sched_getaffinity(0, sizeof usable, &usable) == 0) return static_cast<std::size_t>(CPU_COUNT(&usable));
   return std::max(1U, std::thread::hardware_concurrency());
 }
-
-}  // namespace
 
 struct WorkerPool::Job {
   const Task& task;

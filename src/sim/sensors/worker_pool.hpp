@@ -26,6 +26,9 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
+  /// With the thread that gives a task.
+  std::size_t threads() const { return workers_.size() + 1; }
+
   /// Calls task(0) to task(count - 1), each once, in this thread and the pool's. Returns after all calls; rethrows the
   /// exception of the first part that failed.
   void run(std::size_t count, const Task& task);
@@ -42,6 +45,9 @@ class WorkerPool {
   bool ending_ = false;
   std::vector<std::thread> workers_;
 };
+
+/// Cores that this process may use: taskset and containers can leave it a part of the machine's.
+std::size_t usable_cores();
 
 /// Rays, or pixels, from which on a measurement is worth more than one thread: about a tenth of a millisecond.
 constexpr std::size_t kRaysWorthThreads = 4096;

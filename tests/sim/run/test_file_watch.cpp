@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "bubblesim/file_watch.hpp"
@@ -95,6 +97,73 @@ TEST_F(FileWatchTest, EndsOnTheRunnersThreadWhileACallIsPending) {
   runner.step(2).get();
   EXPECT_EQ(calls, at_end);
   runner.finish();
+}
+
+TEST_F(FileWatchTest, IsServedWhileTheRunnerWaitsForRealTimeAndWhileItDoesNotWait) {
+  for (const double speed : {0.01, std::numeric_limits<double>::infinity()}) {  // a step takes 5 s, or no time
+    RunnerOptions options;
+    options.speed = speed;
+    options.initial = RunState::kRunning;
+    Runner fast_or_slow(simulation, options);
+    std::atomic<std::uint64_t> served{0};
+    FileWatch watch(fast_or_slow, counter, [&] {
+      served += take();
+      return false;
+    });
+    fast_or_slow.run_in_background();
+    for (std::uint64_t round = 1; round <= 20; ++round) {
+      add(1);
+      wait_until(served, round);
+    }
+    fast_or_slow.finish();
+  }
+}
+
+TEST_F(FileWatchTest, LooksAgainWhenAsked) {
+  std::atomic<std::uint64_t> calls{0};
+  FileWatch watch(runner, counter, [&] {
+    ++calls;
+    return false;
+  });
+  runner.run_in_background();
+  wait_until(calls, 1);
+  for (std::uint64_t round = 2; round <= 5; ++round) {
+    runner.call([&] { watch.look_again(); }).get();
+    wait_until(calls, round);
+  }
+  runner.finish();
+  EXPECT_EQ(calls, 5);
+}
+
+TEST_F(FileWatchTest, AnExceptionEndsItAndNotTheRun) {
+  std::atomic<std::uint64_t> calls{0};
+  FileWatch watch(runner, counter, [&]() -> bool {
+    ++calls;
+    throw std::runtime_error("a test");
+  });
+  add(1);
+  runner.run_in_background();
+  EXPECT_DOUBLE_EQ(runner.step(20).get(), 1.0);
+  runner.finish();
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(FileWatchTest, OneWatchMayEndAnother) {
+  std::atomic<std::uint64_t> calls{0};
+  std::unique_ptr<FileWatch> second;
+  FileWatch first(runner, counter, [&] {
+    second.reset();
+    return false;
+  });
+  second = std::make_unique<FileWatch>(runner, counter, [&] {
+    ++calls;
+    return false;
+  });
+  runner.run_in_background();
+  runner.step(2).get();
+  runner.finish();
+  EXPECT_EQ(second, nullptr);
+  EXPECT_EQ(calls, 0);
 }
 
 TEST_F(FileWatchTest, EndsWithoutARun) {

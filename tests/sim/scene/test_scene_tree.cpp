@@ -101,10 +101,42 @@ TEST_F(SceneTreePaths, TwoColonsAreWhatTheModelStandsIn) {
   EXPECT_NE(complaint("::", eye0), "found") << "the scene is not an object";
 }
 
-TEST_F(SceneTreePaths, RelativePathNeedsAStart) {
-  EXPECT_NE(complaint("./eye"), "found");
+TEST_F(SceneTreePaths, RelativePathsWithoutAStartBeginAtTheScene) {
+  EXPECT_EQ(tree.find("./Robot/eye"), eye0);
+  EXPECT_EQ(tree.find(":/Other"), other);
   EXPECT_NE(complaint("../eye"), "found");
-  EXPECT_NE(complaint(":/eye"), "found");
+  EXPECT_NE(complaint("::/eye"), "found");
+}
+
+/// /Car {lamp_0 and lamp_1 with the alias lamp, lamp with the alias horn}
+class Aliases : public SceneTreePaths {
+ protected:
+  ObjectId car = add(ObjectKind::kModel, "Car", kNoObject);
+  ObjectId lamp0 = tree.add(ObjectKind::kSensor, "lamp_0", car, 0, "lamp");
+  ObjectId lamp1 = tree.add(ObjectKind::kSensor, "lamp_1", car, 1, "lamp");
+  ObjectId horn = tree.add(ObjectKind::kSensor, "lamp", car, 2, "horn");
+};
+
+TEST_F(Aliases, AreTheNamesInPathsAndMayBeEqual) {
+  EXPECT_EQ(tree.path(lamp1), "/Car/lamp[1]");
+  EXPECT_EQ(tree.short_path(horn), "/horn");
+  EXPECT_EQ(tree.find("/Car/lamp[1]"), lamp1);
+  EXPECT_EQ(tree.find("/Car/lamp", kNoObject, 1), lamp1);
+  EXPECT_EQ(tree.find("./lamp", car), lamp0);
+  EXPECT_EQ(complaint("/Car/lamp", kNoObject, 2), "only 2 objects match '/Car/lamp': there is no match with index 2");
+  EXPECT_EQ(tree.at(lamp1).name, "lamp_1");
+}
+
+TEST_F(Aliases, LeaveTheNamesOfTheFileFindable) {
+  EXPECT_EQ(tree.find("/Car/lamp_1"), lamp1);
+  EXPECT_EQ(tree.find("/lamp_0"), lamp0);
+}
+
+TEST_F(Aliases, AreFreeWhenTheirObjectIsRemoved) {
+  tree.remove(lamp0);
+  EXPECT_EQ(tree.path(lamp1), "/Car/lamp");
+  tree.remove(car);
+  EXPECT_NE(complaint("/horn"), "found");
 }
 
 TEST_F(SceneTreePaths, BracketsPickAmongSiblings) {

@@ -9,6 +9,7 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "check/checks.hpp"
+#include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_sensors.hpp"
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf_extensions.hpp"
@@ -131,6 +132,7 @@ JointDescription read_joint(const sdf::Joint& joint, const std::string& model_pa
   const std::string path = model_path + "/" + joint.Name();
   JointDescription description;
   description.name = joint.Name();
+  description.alias = read_alias(joint.Element(), path, reading);
   description.type = sdf_type(joint.Type());
   description.source = source_of(joint.Element());
   reading.take(joint.ResolveParentLink(description.parent), path);

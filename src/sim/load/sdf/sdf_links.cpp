@@ -18,6 +18,7 @@
 #include "load/sdf/nearest_inertia.hpp"
 #include "load/sdf/sdf_geometry.hpp"
 #include "load/sdf/sdf_left_out.hpp"
+#include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_sensors.hpp"
 #include "load/sdf/sdf_source.hpp"
@@ -192,6 +193,7 @@ LinkDescription read_link(const sdf::Link& link, const std::string& model_path, 
   const std::string path = model_path + "/" + link.Name();
   LinkDescription description;
   description.name = link.Name();
+  description.alias = read_alias(link.Element(), path, reading);
   description.pose = reading.resolved(link, path);
   description.source = source_of(link.Element());
   report_left_out(link.Element(), path, reading);

@@ -8,6 +8,7 @@
 #include "load/sdf/sdf_joints.hpp"
 #include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_links.hpp"
+#include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf_extensions.hpp"
@@ -63,6 +64,7 @@ class ModelReader {
     report_left_out(model.Element(), path, reading_);
     NestedModelDescription nested;
     nested.name = inner + model.Name();
+    nested.alias = read_alias(model.Element(), path, reading_);
     nested.pose = pose * reading_.resolved(model, path);
     nested.source = source_of(model.Element());
     nested.child_script = read_child_script(model.Element(), path, reading_);
@@ -131,6 +133,8 @@ ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadConte
   report_left_out(model.Element(), path, reading);
   ModelDescription description;
   description.name = name;
+  description.alias = read_alias(model.Element(), path, reading);
+  description.axes = read_axis_convention(model.Element(), path, reading);
   description.pose = pose;
   description.is_static = model.Static();
   description.self_collide = model.SelfCollide();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_source.hpp"
 #include "load/sdf_extensions.hpp"
@@ -305,9 +306,10 @@ GzTopic read_gz_topic(const sdf::ElementPtr& sensor) {
   return gz;
 }
 
-SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose) {
+SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose, const std::string& path, LoadContext& reading) {
   SensorDescription description;
   description.name = sensor.Name();
+  description.alias = read_alias(sensor.Element(), path, reading);
   description.type = sensor.TypeStr();
   description.gz = read_gz_topic(sensor.Element());
   description.source = source_of(sensor.Element());
@@ -324,7 +326,7 @@ SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose) {
 std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
                                              const Pose& pose, LoadContext& reading) {
   const std::string path = carrier_path + "/" + sensor.Name();
-  SensorDescription description = read_any(sensor, pose);
+  SensorDescription description = read_any(sensor, pose, path, reading);
   const Report report_here = [&](const Source& source, std::string message) {
     reading.report(source, path, std::move(message));
   };
@@ -342,7 +344,7 @@ std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const
   for (auto element = sensor.Element()->FindElement("camera"); element; element = element->GetNextElement("camera")) {
     sdf::Camera camera;
     reading.take(camera.Load(element), path);
-    SensorDescription& description = all.emplace_back(read_any(sensor, pose * camera.RawPose()));
+    SensorDescription& description = all.emplace_back(read_any(sensor, pose * camera.RawPose(), path, reading));
     description.name += "_" + camera.Name();
     for (std::string* topic : {&description.topic, &description.gz.topic}) {
       if (!topic->empty()) *topic += "/" + camera.Name();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/sdf_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "load/sdf/sdf_source.hpp"
+#include "load/sdf_extensions.hpp"
 
 namespace bubblesim {
 namespace {
@@ -24,14 +26,24 @@ void read(const sdf::ElementPtr& element, const char* name, Value& value) {
   if (element != nullptr && element->HasElement(name)) value = element->Get<T>(name);
 }
 
-/// Like Gazebo: the torque of a contact patch under uniform pressure, with a separate coefficient.
-double read_torsion(const sdf::ElementPtr& element) {
-  if (element == nullptr) return 0;
+/// Like Gazebo: the torque of a Hertzian contact patch, with a separate coefficient. The radius of the patch is given,
+/// or is that of a sphere that is pressed in: sqrt(surface_radius * depth).
+void read_torsion(const sdf::ElementPtr& element, Surface& surface) {
+  if (element == nullptr) return;
   double coefficient = 1;
+  bool use_patch_radius = true;
   double patch_radius = 0;
+  double surface_radius = 0;
   read<double>(element, "coefficient", coefficient);
+  read<bool>(element, "use_patch_radius", use_patch_radius);
   read<double>(element, "patch_radius", patch_radius);
-  return 3 * M_PI / 16 * coefficient * patch_radius;
+  read<double>(element, "surface_radius", surface_radius);
+  const double factor = 3 * M_PI / 16 * coefficient;
+  if (use_patch_radius) {
+    surface.torsion = factor * patch_radius;
+  } else {  // libsdformat reports a negative radius
+    surface.torsion_by_depth = factor * std::sqrt(std::max(surface_radius, 0.0));
+  }
 }
 
 }  // namespace
@@ -45,7 +57,10 @@ Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, 
   read<Vector3>(friction, "fdir1", surface.fdir1);
   read<double>(friction, "slip1", surface.slip1);
   read<double>(friction, "slip2", surface.slip2);
-  surface.torsion = read_torsion(below(collision, {"surface", "friction", "torsional"}));
+  read_torsion(below(collision, {"surface", "friction", "torsional"}), surface);
+  if (const sdf::ElementPtr any = below(collision, {"surface", "friction"})) {
+    surface.rolling = own_number(any, "bubblesim:rolling", reading.problems()).value_or(0);
+  }
   const sdf::ElementPtr bounce = below(collision, {"surface", "bounce"});
   read<double>(bounce, "restitution_coefficient", surface.restitution);
   read<double>(bounce, "threshold", surface.bounce_threshold);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "object_axes.hpp"
+
+#include <variant>
+
+namespace bubblesim::bindings {
+namespace {
+
+// Maps z to x, x to y and y to z.
+const Quaternion kLookingAlongZ(0.5, 0.5, 0.5, 0.5);
+
+Quaternion joint_axes(const World& world, ObjectId joint) {
+  const JointDescription& description = world.joint_description(joint);
+  // The second axis of a joint is an object below the joint.
+  const bool is_second = world.tree().at(world.tree().at(joint).parent).kind == ObjectKind::kJoint;
+  if (description.axes.empty()) return Quaternion::Identity;
+  Quaternion turn;
+  turn.From2Axes(Vector3::UnitZ, (is_second ? description.axes.back() : description.axes.front()).direction);
+  return turn;
+}
+
+bool looks_along_an_axis(const SensorDescription& sensor) {
+  return std::holds_alternative<SonarDescription>(sensor.kind) ||
+         std::holds_alternative<CameraDescription>(sensor.kind);
+}
+
+}  // namespace
+
+Quaternion object_axes(const World& world, ObjectId object) {
+  const ObjectKind kind = world.tree().at(object).kind;
+  if (kind != ObjectKind::kJoint && kind != ObjectKind::kSensor) return Quaternion::Identity;
+  if (world.description(object).axes != AxisConvention::kCoppeliaSim) return Quaternion::Identity;
+  if (kind == ObjectKind::kJoint) return joint_axes(world, object);
+  return looks_along_an_axis(world.sensor_description(object)) ? kLookingAlongZ : Quaternion::Identity;
+}
+
+}  // namespace bubblesim::bindings

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene_hash.hpp"
+
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "bubblesim/triangle_mesh.hpp"
+#include "scene/fnv1a.hpp"
+
+namespace bubblesim {
+namespace {
+
+/// Adds descriptions, member by member.
+class DescriptionHash {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (add(values), ...);
+  }
+  std::uint64_t value() const { return hash_.value(); }
+
+ private:
+  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number> || std::is_enum_v<Number>>>
+  void add(Number number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof number);
+    hash_.add(bits);
+  }
+  void add(const std::string& text) { hash_.add(std::string_view(text)); }
+  void add(const Vector3& v) { (*this)(v.X(), v.Y(), v.Z()); }
+  void add(const Pose& p) { (*this)(p.Pos(), p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()); }
+  template <class Value>
+  void add(const std::vector<Value>& values) {
+    add(values.size());
+    if constexpr (std::is_trivially_copyable_v<Value> && std::has_unique_object_representations_v<Value>) {
+      add_bytes(values.data(), values.size() * sizeof(Value));
+    } else {
+      for (const Value& value : values) add(value);
+    }
+  }
+  template <class Value, std::size_t kCount>
+  void add(const std::array<Value, kCount>& values) {
+    for (const Value& value : values) add(value);
+  }
+  template <class Value>
+  void add(const std::optional<Value>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+  template <class... Kinds>
+  void add(const std::variant<Kinds...>& value) {
+    add(value.index());
+    std::visit([this](const auto& kind) { add(kind); }, value);
+  }
+  void add_bytes(const void* data, std::size_t size) {
+    hash_.add(std::string_view(static_cast<const char*>(data), size));
+  }
+
+  void add(const Box& box) { add(box.size); }
+  void add(const Sphere& sphere) { add(sphere.radius); }
+  void add(const Cylinder& cylinder) { (*this)(cylinder.radius, cylinder.length); }
+  void add(const Capsule& capsule) { (*this)(capsule.radius, capsule.length); }
+  void add(const Ellipsoid& ellipsoid) { add(ellipsoid.radii); }
+  void add(const Plane& plane) { add(plane.normal); }
+  void add(const Mesh& mesh) {
+    const TriangleMesh& t = *mesh.triangles;
+    (*this)(t.vertices, t.triangles, t.normals, t.texture_coordinates, t.materials, t.material_of);
+  }
+  void add(const Surface& s) {
+    (*this)(s.mu, s.collide_bitmask, s.mu2, s.fdir1, s.slip1, s.slip2, s.torsion, s.torsion_by_depth, s.rolling, s.kp,
+            s.kd, s.soft_erp, s.soft_cfm, s.restitution, s.bounce_threshold, s.max_vel, s.min_depth, s.max_contacts,
+            s.collide_without_contact);
+  }
+  void add(const CollisionDescription& c) { (*this)(c.name, c.pose, c.geometry, c.surface, c.mesh_collision); }
+  void add(const Color& c) { (*this)(c.r, c.g, c.b); }
+  void add(const Material& m) {
+    (*this)(m.diffuse, m.emissive, m.checker_size, m.checker_color, m.texture != nullptr);
+    if (m.texture != nullptr) (*this)(m.texture->width, m.texture->height, m.texture->rgb);
+  }
+  void add(const VisualDescription& v) {
+    (*this)(v.name, v.pose, v.geometry, v.material, v.keeps_mesh_materials, v.cast_shadows, v.laser_retro);
+  }
+  void add(const Light& l) {
+    (*this)(l.direction, l.diffuse, l.cast_shadows, l.kind, l.position, l.range, l.constant_attenuation,
+            l.linear_attenuation, l.quadratic_attenuation, l.inner_angle, l.outer_angle, l.falloff);
+  }
+  void add(const NoiseDescription& n) { (*this)(n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision); }
+  void add(const ScanAngles& a) { (*this)(a.samples, a.min, a.max); }
+  void add(const SonarDescription& s) { (*this)(s.min_range, s.max_range, s.half_angle, s.volume); }
+  void add(const LidarDescription& s) {
+    (*this)(s.horizontal, s.vertical, s.min_range, s.max_range, s.resolution, s.noise, s.signal);
+  }
+  void add(const CameraDescription& s) {
+    (*this)(s.width, s.height, s.horizontal_fov, s.near, s.far, s.color, s.antialias, s.noise);
+  }
+  void add(const ImuDescription& s) { (*this)(s.angular_velocity_noise, s.linear_acceleration_noise, s.bandwidth); }
+  void add(const NavSatDescription& s) {
+    (*this)(s.horizontal_position_noise, s.vertical_position_noise, s.horizontal_velocity_noise,
+            s.vertical_velocity_noise);
+  }
+  void add(const AltimeterDescription& s) { (*this)(s.position_noise, s.velocity_noise); }
+  void add(const MagnetometerDescription& s) { add(s.field_noise); }
+  void add(const ContactDescription& s) { add(s.collisions); }
+  void add(const ForceTorqueDescription& s) {
+    (*this)(s.frame, s.of_child, s.force_noise, s.torque_noise, s.bandwidth);
+  }
+  void add(const PluginParameter& p) { (*this)(p.name, p.text, p.children); }
+  void add(const PluginDescription& p) { (*this)(p.name, p.filename, p.parameters); }
+  void add(const SensorDescription& s) { (*this)(s.name, s.type, s.pose, s.update_rate, s.kind, s.plugins); }
+  void add(const LinkDescription& l) {
+    (*this)(l.name, l.gravity_enabled, l.wind_enabled, l.linear_decay, l.angular_decay, l.pose, l.start, l.mass,
+            l.centre_of_mass, l.inertia_diagonal, l.inertia_products, l.collisions, l.visuals, l.sensors, l.lights);
+  }
+  void add(const MimicDescription& m) { (*this)(m.joint, m.axis, m.multiplier, m.offset, m.reference); }
+  void add(const AxisDescription& a) {
+    (*this)(a.direction, a.lower, a.upper, a.max_force, a.max_velocity, a.friction, a.damping, a.spring_stiffness,
+            a.spring_reference, a.motor, a.mimic);
+  }
+  void add(const JointDescription& j) {
+    (*this)(j.name, j.type, j.parent, j.child, j.pose, j.axes, j.sensors, j.screw_lead, j.gearbox_ratio,
+            j.gearbox_reference);
+  }
+  void add(const NestedModelDescription& n) { (*this)(n.name, n.pose, n.canonical_link, n.plugins); }
+  void add(const ModelDescription& m) {
+    (*this)(m.name, m.pose, m.is_static, m.self_collide, m.canonical_link, m.links, m.joints, m.nested, m.plugins);
+  }
+  void add(const Environment& e) {
+    (*this)(e.ambient, e.background, e.sky, e.shadows, e.lights, e.origin.latitude, e.origin.longitude,
+            e.origin.elevation, e.origin.heading, e.magnetic_field, e.wind);
+  }
+  void add(const RandomQuantity& r) {
+    (*this)(r.name, r.distribution.kind, r.distribution.operation, r.distribution.first, r.distribution.second);
+  }
+  void add(const SceneDescription& s) {
+    (*this)(s.gravity, s.time_step, s.substep, s.on_divergence, s.environment, s.models, s.plugins, s.randomized);
+  }
+
+  Fnv1a hash_;
+};
+
+}  // namespace
+
+std::uint64_t hash_of(const SceneDescription& scene) {
+  DescriptionHash hash;
+  hash(scene);
+  return hash.value();
+}
+
+}  // namespace bubblesim
