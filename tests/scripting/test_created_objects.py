@@ -81,12 +81,14 @@ assert 'is not a handle' in refused(sim.getObjectPosition, one)
     check(tmp_path, body)
 
 
-def test_the_objects_of_the_scene_keep_names_parents_and_colours(tmp_path: Path) -> None:
+def test_parts_of_a_model_are_named_and_painted_but_stay_in_it(tmp_path: Path) -> None:
     body = """
 link = sim.getObject('/base_link')
-for call in (lambda: sim.setObjectAlias(link, 'x'), lambda: sim.setObjectParent(link, -1),
-             lambda: sim.setShapeColor(link, None, sim.colorcomponent_ambient_diffuse, [1, 0, 0])):
-    assert "/base_link is that of the scene's file" in refused(call)
+sim.setObjectAlias(link, 'body')
+sim.setShapeColor(link, None, sim.colorcomponent_ambient_diffuse, [1, 0, 0])
+assert sim.getObject('./body') == link
+assert sim.getShapeColor(link, None, sim.colorcomponent_ambient_diffuse) == (1, [1, 0, 0])
+assert 'is a part of /Tricycle' in refused(sim.setObjectParent, link, -1)
 assert 'remove the whole model' in refused(sim.removeObject, link)
 assert sim.isDynamicallyEnabled(link)
 """
@@ -137,7 +139,17 @@ assert fps == 8 and sim.getInt32Param(sim.intparam_idle_fps) == 0
 sim.setBoolParam(sim.boolparam_display_enabled, False)
 assert sim.getBoolParam(sim.boolparam_realtime_simulation) is False
 assert '--speed' in refused(sim.setBoolParam, sim.boolparam_realtime_simulation, True)
-assert 'sim.arrayparam_gravity cannot be set' in refused(sim.setArrayParam, sim.arrayparam_gravity, [0, 0, -1])
+gravity = sim.getArrayParam(sim.arrayparam_gravity)
+sim.setArrayParam(sim.arrayparam_gravity, [0, 0, -1])
+near(sim.getArrayParam(sim.arrayparam_gravity), [0, 0, -1])
+sim.setArrayParam(sim.arrayparam_gravity, gravity)
+assert 'gravity' in refused(sim.setArrayParam, sim.arrayparam_gravity, [0, 0, float('nan')])
+robot, wheel = sim.getObject('.'), sim.getObject('/base_link')
+mass, part = sim.getShapeMass(robot), sim.getShapeMass(wheel)
+sim.setShapeMass(robot, 2 * mass)
+assert sim.getShapeMass(wheel) == 2 * part
+sim.setShapeMass(robot, mass)
+assert 'the mass' in refused(sim.setShapeMass, wheel, 0)
 assert 'the intparam parameter 999 is not supported' in refused(sim.getInt32Param, 999)
 motor = sim.getObject('/FrontMotor')
 assert sim.getObjectInt32Param(motor, sim.jointintparam_dynctrlmode) == sim.jointdynctrl_velocity

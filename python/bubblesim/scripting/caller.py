@@ -8,7 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from bubblesim.scripting.drawings import Drawings
 from bubblesim.scripting.dummies import Dummies
+from bubblesim.scripting.graphs import Graphs
+from bubblesim.scripting.log import Log
+from bubblesim.scripting.object_collections import Collections
+from bubblesim.scripting.scene_edits import SceneEdits
 
 Hook = Callable[[], object]
 
@@ -28,6 +33,18 @@ class Scripts(Protocol):
     def remove_model(self, model: int) -> None:
         """Remove a model and its scripts."""
 
+    def descriptions(self) -> list[dict[str, Any]]:
+        """Return handle, object, file, language and state of all scripts."""
+
+    def text_of(self, handle: int) -> str:
+        """Return the text of the file of an object's script."""
+
+    def restart_script(self, handle: int) -> bool:
+        """Load an object's script again from its file; return whether it runs."""
+
+    def problems(self) -> dict[str, Any]:
+        """Return the warnings of the scene's files and the problems of scripts, with their revision."""
+
 
 @dataclass
 class SharedData:
@@ -37,10 +54,13 @@ class SharedData:
     scripts: Scripts | None = None
     """None outside of the node."""
     dummies: Dummies = field(default_factory=Dummies)
+    drawings: Drawings = field(default_factory=Drawings)
+    graphs: Graphs = field(default_factory=Graphs)
+    log: Log = field(default_factory=Log)
+    collections: Collections = field(default_factory=Collections)
+    edits: SceneEdits = field(default_factory=SceneEdits)
     custom_data: dict[tuple[int, str], Any] = field(default_factory=dict)
     """By object, -12 for the scene, and name; stays after a stop."""
-    loaded_models: list[int] = field(default_factory=list)
-    """Handles of the models that callers have added."""
     settings: dict[tuple[type, int | str], Any] = field(default_factory=dict)
     """Parameters that only store their value, by kind and number or name; stay after a stop."""
     signals: dict[tuple[type, str], Any] = field(default_factory=dict)
@@ -52,6 +72,9 @@ class SharedData:
         """Delete what ends with a run."""
         self.signals.clear()
         self.dummies.end_run()
+        self.drawings.end_run()
+        self.collections.end_run()
+        self.edits.end_run()
         self.cleared_scans.clear()
 
 
@@ -69,6 +92,10 @@ class Caller(Protocol):
     """Run in each simulation step; must not raise."""
     programs: list[Any]
     """Programs that the caller started; they end with it."""
+
+    @property
+    def may_use_files(self) -> bool:
+        """Whether the caller may read and write all files."""
 
     def may_start(self, program: Path) -> bool:
         """Return whether the caller may start this program."""

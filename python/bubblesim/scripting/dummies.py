@@ -10,7 +10,7 @@ from bubblesim.geometry.poses import IDENTITY
 FIRST_HANDLE = 0x7FF00000
 """Above the handles of the scene's objects, whose places have at most 2047 generations."""
 _MOST = 100_000
-_HANDLES = 0x100000
+_HANDLES = 0xF0000  # above are those of collections
 
 
 @dataclass

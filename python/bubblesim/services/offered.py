@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from bubblesim.scripting.host.host import ScriptHost
+from bubblesim.services.drawing_markers import DrawingMarkers
 from bubblesim.services.gazebo_services import GazeboServices
 from bubblesim.services.gazebo_topics import GazeboTopics
 from bubblesim.services.model_services import ModelServices
 from bubblesim.services.object_services import ObjectServices
 from bubblesim.services.reset_services import advertise_reset_services
 from bubblesim.services.simulation_topics import SimulationTopics
+from bubblesim.services.state_services import advertise_state_services
 
 
 class NodeServices:
@@ -20,7 +22,9 @@ class NodeServices:
         ObjectServices(host.simulation, host.bridge)  # referenced by its callbacks
         ModelServices(host)
         advertise_reset_services(host.bridge, host)
+        advertise_state_services(host.bridge, host)
         self._topics = SimulationTopics(host.bridge, host.runner)
+        self._drawings = DrawingMarkers(host.bridge, host.simulation, host.shared)
         self._gazebo: GazeboTopics | None = None
         if gazebo_compat:
             GazeboServices(host)
@@ -34,4 +38,5 @@ class NodeServices:
         """Publish at the end of a step, after all other messages of the step."""
         if self._gazebo is not None:
             self._gazebo.publish()
+        self._drawings.publish()
         self._topics.publish_step_done()

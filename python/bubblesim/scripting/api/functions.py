@@ -25,6 +25,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 MODULES: dict[str, type] = {}  # by their names in scripts
+_OMITTED = object()
 
 
 @dataclass(frozen=True)
@@ -190,7 +191,6 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
 
     plain = _plain_types(kinds[:fixed], least)
 
-    @functools.wraps(function)
     def call(self: Any, /, *arguments: Any, **named: Any) -> Any:
         if named or tuple(map(type, arguments)) not in plain:
             arguments = converted(arguments, named)
@@ -202,7 +202,35 @@ def _checked(full_name: str, function: Callable[..., Any]) -> Callable[..., Any]
         except HandleError as error:
             raise _located(full_name, signature, kinds, arguments, error) from None
 
-    return call
+    may_be_alone = least <= 1
+    may_be_two = least <= 2
+    first_type, second_type = ([kind.plain if kind else None for kind in kinds[:fixed]] + [None, None])[:2]
+
+    @functools.wraps(function)
+    def call_short(self: Any, first: Any = _OMITTED, second: Any = _OMITTED, /, *more: Any, **named: Any) -> Any:
+        # One or two arguments without conversions, from the simulation's thread: a third of the time of a general call.
+        try:
+            if type(first) is first_type and not by_ident and not more and not named:
+                if type(second) is second_type and may_be_two:
+                    return function(self, first, second)
+                if second is _OMITTED and may_be_alone:
+                    return function(self, first)
+        except HandleError as error:
+            arguments = (first,) if second is _OMITTED else (first, second)
+            raise _located(full_name, signature, kinds, arguments, error) from None
+        if second is not _OMITTED:
+            return call(self, first, second, *more, **named)
+        return call(self, **named) if first is _OMITTED else call(self, first, **named)
+
+    @functools.wraps(function)
+    def call_without(self: Any, /, *arguments: Any, **named: Any) -> Any:
+        if arguments or named or by_ident:
+            return call(self, *arguments, **named)
+        return function(self)
+
+    if not kinds:
+        return call_without
+    return call_short if first_type is not None else functools.wraps(function)(call)
 
 
 def _plain_types(kinds: list[Kind | None], least: int) -> set[tuple[type, ...]]:

@@ -93,6 +93,10 @@ def _numbers(values: Any) -> list[float]:
     return [_number(value) for value in values]
 
 
+def _numbers_or_nothing(values: Any) -> list[float] | None:
+    return None if values is None else _numbers(values)
+
+
 def _integers(values: Any) -> list[int]:
     return [value if isinstance(value, int) else _whole(value) for value in _numbers(values)]
 
@@ -122,6 +126,7 @@ Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]
 Vector12 = Annotated[list[float], Kind("12 or 16 numbers, the rows of a matrix", _matrix)]
 Numbers = Annotated[list[float], Kind("a list of numbers", _numbers)]
+NumbersOrNothing = Annotated[list[float] | None, Kind("a list of numbers or nothing", _numbers_or_nothing)]
 Integers = Annotated[list[int], Kind("a list of integers", _integers)]
 Bytes = Annotated[bytes, Kind("bytes", _bytes)]
 TextOrBytes = Annotated[str | bytes, Kind("a text or bytes", _text_or_bytes)]

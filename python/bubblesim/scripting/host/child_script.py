@@ -12,6 +12,7 @@ from typing import Any
 from bubblesim import _core
 from bubblesim.messages.names import did_you_mean
 from bubblesim.output import write_line
+from bubblesim.scripting import log, problems
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
 from bubblesim.scripting.host import interruption, process_calls
@@ -21,7 +22,9 @@ from bubblesim.scripting.host.protocols import Host
 from bubblesim.scripting.host.started_programs import Program, end_programs
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_code import ScriptCode, load_code
+from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError
+from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
 
@@ -62,11 +65,12 @@ class ChildScript:
                 self.host.search_paths,
                 self.host.make_modules(self),
                 self._module_name,
-                lambda: f"[{self.object_path} {self.host.simulation.time:.3f} s] ",
+                Source(self.object_path, lambda: float(self.host.simulation.time), self.shared.log.add_written),
                 lua_unsafe=self.host.lua_unsafe,
             )
         except ScriptSourceError as error:
-            self._fail(f"error: child script of {self.object_path} is disabled: {error}")
+            problem = problems.of_source(self.object_path, str(self.file), str(error))
+            self._fail(f"error: child script of {self.object_path} is disabled: {error}", problem)
             return
         loaded = self.run("loading", self._code.run)
         self._stamps = FileStamps([self.file, *self._code.files])
@@ -76,18 +80,32 @@ class ChildScript:
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         self._warn_of_unknown_callbacks()
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
+            why = "it defines neither sysCall_init nor sysCall_thread; a script needs one of these functions"
             self._fail(
-                f"error: child script of {self.object_path} is disabled: {self.file}: it defines neither "
-                "sysCall_init nor sysCall_thread; a script needs one of these functions"
+                f"error: child script of {self.object_path} is disabled: {self.file}: {why}",
+                self._problem("error", why),
             )
 
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):
             if looks_like_callback(name) and name not in HOOKS:
-                write_line(
-                    sys.stderr,
+                self._say(
                     f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
+                    log.SCRIPT_WARNING,
                 )
+                self.host.add_problem(self._problem("warning", never_called(name), place))
+
+    def _problem(self, level: str, text: str, place: str = "") -> Problem:
+        return problems.of_script(level, self.object_path, str(self.file), place, text)
+
+    def _say(self, text: str, level: int) -> None:
+        write_line(sys.stderr, text)
+        self.shared.log.add(level, self.object_path, text.partition(": ")[2])
+
+    @property
+    def may_use_files(self) -> bool:
+        """Whether the script may read and write all files; false for Lua scripts, unless --lua-unsafe is given."""
+        return not self._code.is_confined
 
     def may_start(self, program: Path) -> bool:
         """Return whether the script may start a program; restricted for Lua scripts."""
@@ -99,8 +117,9 @@ class ChildScript:
             self._started = True
             self._call("sysCall_init")
             self._start_thread()
-        for hook in list(self.in_each_step.values()):
-            hook()
+        if self.in_each_step:
+            for hook in list(self.in_each_step.values()):
+                hook()
         if self._thread and self.alive and not interruption.requested:
             self.run("sysCall_thread", self._thread.run_turn)
         self._call("sysCall_actuation")
@@ -114,7 +133,7 @@ class ChildScript:
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None
         if thread and not thread.end(lambda: script_sockets.shut_down(self._sockets)):
-            write_line(sys.stderr, f"warning: the thread of the child script of {self.object_path} does not end")
+            self._say(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
 
     def sense(self) -> None:
         """Run sysCall_sensing."""
@@ -135,7 +154,7 @@ class ChildScript:
         """Release the script's resources; call it after clean_up."""
         self._end()
         sys.modules.pop(self._module_name, None)
-        script_output.prefixes.pop(self._module_name, None)
+        script_output.sources.pop(self._module_name, None)
 
     def was_edited(self) -> bool:
         """Return whether one of its source files has changed."""
@@ -187,9 +206,10 @@ class ChildScript:
         where = f"{what} ({place})" if place else what
         self.failure = self._code.reason(error)
         if not was_interrupted:
+            report = self._code.report(error)
             self._fail(
-                f"error: child script of {self.object_path} failed in {where} and is disabled:\n"
-                + self._code.report(error)
+                f"error: child script of {self.object_path} failed in {where} and is disabled:\n{report}",
+                self._problem("error", self.failure, place),
             )
         elif interruption.requested:
             write_line(
@@ -197,9 +217,10 @@ class ChildScript:
                 f"warning: child script of {self.object_path} was interrupted in {where}: the simulator is ending",
             )
         else:
+            why = "it did not return while a stop or a reset was pending"
             self._fail(
-                f"error: child script of {self.object_path} was interrupted in {where} and is disabled: it did not "
-                "return while a stop or a reset was pending"
+                f"error: child script of {self.object_path} was interrupted in {where} and is disabled: {why}",
+                self._problem("error", why, place),
             )
 
     def functions(self) -> list[str]:
@@ -269,8 +290,9 @@ class ChildScript:
             raise ValueError(f"the callback '{function}' is not a function of the script")
         raise TypeError(f"a callback must be a function or the name of a function, found {type(function).__name__}")
 
-    def _fail(self, text: str) -> None:
-        write_line(sys.stderr, text)
+    def _fail(self, text: str, problem: Problem) -> None:
+        self._say(text, log.SCRIPT_ERROR)
+        self.host.add_problem(problem)
         self.host.failures += 1
         self.failed = True
         self.host.count_disabled()
@@ -286,4 +308,4 @@ class ChildScript:
             try:
                 undo()
             except Exception as error:  # an error must not prevent releasing the others
-                write_line(sys.stderr, f"warning: child script of {self.object_path}: while it ended: {error}")
+                self._say(f"warning: child script of {self.object_path}: while it ended: {error}", log.SCRIPT_WARNING)

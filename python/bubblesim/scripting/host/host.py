@@ -17,10 +17,16 @@ from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
 from bubblesim.scripting.caller import Caller, SharedData
-from bubblesim.scripting.host import interruption, process_calls, watchdog
+from bubblesim.scripting.host import interruption, process_calls
 from bubblesim.scripting.host.child_script import ChildScript
+from bubblesim.scripting.host.known_problems import KnownProblems
+from bubblesim.scripting.host.script_descriptions import described
 from bubblesim.scripting.host.started_programs import end_programs
+from bubblesim.scripting.host.watchdog import Watchdog
 from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.source import read_text
+from bubblesim.scripting.log import Log
+from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets, script_thread
 
 _CHECK_INTERVAL = 0.25  # s
@@ -61,7 +67,9 @@ class ScriptHost:
         self.disabled = 0  # number of loaded scripts that have failed
         self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
-        self.shared = SharedData(has_ros=bridge is not None, scripts=self)
+        self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
+        self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
+        self._problems = KnownProblems(self.simulation.scene.warnings)
         self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
@@ -71,11 +79,16 @@ class ScriptHost:
         script_thread.install()
         script_output.install()
         process_calls.install()
-        watchdog.start(self)
+        self._watchdog = Watchdog(self)
 
     def start(self) -> None:
         """Load the scripts from their files."""
-        self._keep([ChildScript(self, path, handle, file) for path, handle, file in self._placed])
+        self.shared.graphs.begin_run()
+        self._keep([self._load(path, handle, file) for path, handle, file in self._placed])
+
+    def _load(self, path: str, handle: int, file: Path) -> ChildScript:
+        self._problems.forget(path)
+        return ChildScript(self, path, handle, file)
 
     def _keep(self, scripts: list[ChildScript]) -> None:
         self.scripts = scripts
@@ -99,7 +112,7 @@ class ScriptHost:
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         if self.runner.state == _core.RunState.STOPPED:
             return
-        loaded = [*self.scripts, ChildScript(self, path, handle, Path(file))]
+        loaded = [*self.scripts, self._load(path, handle, Path(file))]
         self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
 
     def model_removing(self, model: int) -> None:
@@ -109,8 +122,13 @@ class ScriptHost:
         tree = self.simulation.world
         gone = {model, *(int(o.handle) for o in self.simulation.objects if tree.outermost_model_of(o.handle) == model)}
         self.shared.dummies.remove_below(gone)
+        self.shared.drawings.remove_below(gone)
+        self.shared.graphs.remove(gone)
+        self.shared.edits.remove(gone)
         for key in [key for key in self.shared.custom_data if key[0] in gone]:
             del self.shared.custom_data[key]
+        for script in ending:
+            self._problems.forget(script.object_path)
         self._keep([script for script in self.scripts if script not in ending])
         model_of = self.simulation.world.outermost_model_of
         self._placed = [script for script in self._placed if model_of(script[1]) != model]
@@ -132,6 +150,33 @@ class ScriptHost:
     def call_script(self, handle: int, function: str, arguments: tuple[Any, ...]) -> Any:
         """Call a global function of an object's script; raise RuntimeError if that fails."""
         return self._script_at(handle).call_function(function, arguments)
+
+    def descriptions(self) -> list[dict[str, Any]]:
+        """Return the result of sim.getScripts."""
+        loaded = {script.object_handle: script for script in self.scripts}
+        return [described(path, handle, file, loaded.get(handle)) for path, handle, file in self._placed]
+
+    def text_of(self, handle: int) -> str:
+        """Return the text of the file of an object's script."""
+        for _, placed, file in self._placed:
+            if placed == handle:
+                return read_text(file)
+        raise RuntimeError(f"{self.simulation.world.short_path(handle)} has no child script")
+
+    def restart_script(self, handle: int) -> bool:
+        """Load an object's script again from its file; return whether it runs. Call it between steps."""
+        if self.runner.state == _core.RunState.STOPPED and self.has_script(handle):
+            return False
+        write_line(sys.stderr, f"info: restarting the child script of {self._script_at(handle).object_path}")
+        return self._reload(self.scripts.index(self._script_at(handle))).alive
+
+    def problems(self) -> dict[str, Any]:
+        """Return the result of sim.getProblems."""
+        return self._problems.described()
+
+    def add_problem(self, problem: Problem) -> None:
+        """Keep a problem of a script until it is loaded again."""
+        self._problems.add(problem)
 
     def _script_at(self, handle: int) -> ChildScript:
         for script in self.scripts:
@@ -175,6 +220,8 @@ class ScriptHost:
             self._reload_edited()
         for script in self.scripts:
             script.actuate()
+        if self.shared.edits.holds:
+            self.shared.edits.apply(self.simulation.world, self.simulation.time_step)
 
     def _reload_edited(self) -> None:
         now = time.monotonic()
@@ -184,17 +231,28 @@ class ScriptHost:
         for number, script in enumerate(self.scripts):
             if script.was_edited():
                 write_line(sys.stderr, f"info: the child script of {script.object_path} has changed: restarting it")
-                _finish([script])
-                self.scripts[number] = ChildScript(self, script.object_path, script.object_handle, script.file)
-                self.count_disabled()
+                self._reload(number)
+
+    def _reload(self, number: int) -> ChildScript:
+        """End a script of ``scripts`` and load it again from its file."""
+        old = self.scripts[number]
+        _finish([old])
+        self.scripts[number] = self._load(old.object_path, old.object_handle, old.file)
+        self.count_disabled()
+        return self.scripts[number]
 
     def sense(self) -> None:
-        """Call sysCall_sensing of all scripts."""
+        """Call sysCall_sensing of all scripts, and then record graphs."""
+        if self.shared.edits.holds:
+            self.shared.edits.apply(self.simulation.world)
         for script in self.scripts:
             script.sense()
+        if self.shared.graphs.by_handle:
+            self.shared.graphs.record(float(self.simulation.state_time))
 
     def reset(self) -> None:
         """Call sysCall_reset of all scripts, after the world was reset."""
+        self.shared.edits.restore(self.simulation.world)
         for script in self.scripts:
             script.call_hook("sysCall_reset")
 
@@ -219,7 +277,10 @@ class ScriptHost:
 
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and release their resources."""
-        _finish(self.scripts)
+        try:
+            _finish(self.scripts)
+        finally:
+            self._watchdog.end()
 
 
 def _finish(scripts: list[ChildScript]) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bubblesim.scripting.caller import Caller, SharedData
+from bubblesim.scripting.problems import Problem
 
 
 class RunningScript(Protocol):
@@ -42,6 +43,9 @@ class Host(Protocol):
 
     def count_disabled(self) -> None:
         """Update the number of disabled scripts."""
+
+    def add_problem(self, problem: Problem) -> None:
+        """Keep a problem of a script until it is loaded again."""
 
     def stop_waits(self) -> bool:
         """Return whether a stop or a reset waits for the running script; thread-safe."""

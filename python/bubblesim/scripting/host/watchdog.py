@@ -15,17 +15,25 @@ _CHECK_INTERVAL = 0.5  # s
 _CHECKS = 3  # number of checks with the same call before the warning
 
 
-def start(host: Host) -> None:
-    """Start the watchdog's thread, which ends with the host."""
-    arguments = weakref.ref(host), threading.get_ident()
-    threading.Thread(target=_watch, args=arguments, name="watchdog of scripts", daemon=True).start()
+class Watchdog:
+    """Watches a host, which is created on the simulation's thread, until end() or the host's destruction."""
+
+    def __init__(self, host: Host) -> None:
+        """Start watching."""
+        self._ended = threading.Event()
+        arguments = weakref.ref(host), threading.get_ident(), self._ended
+        self._thread = threading.Thread(target=_watch, args=arguments, name="watchdog of scripts", daemon=True)
+        self._thread.start()
+
+    def end(self) -> None:
+        """Return when nothing of the host is in use: its thread must not be the last one that does."""
+        self._ended.set()
+        self._thread.join()
 
 
-def _watch(find_host: weakref.ref[Host], simulation_thread: int) -> None:
-    wait = threading.Event().wait
+def _watch(find_host: weakref.ref[Host], simulation_thread: int, ended: threading.Event) -> None:
     last_call, checks = -1, 0
-    while True:
-        wait(_CHECK_INTERVAL)
+    while not ended.wait(_CHECK_INTERVAL):
         host = find_host()
         if host is None:
             return

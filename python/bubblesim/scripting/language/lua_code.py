@@ -16,7 +16,7 @@ from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.ros import no_ros
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaScriptError, LuaValues
-from bubblesim.scripting.language.script_output import print_line
+from bubblesim.scripting.language.script_output import Source, print_line
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
 from bubblesim.scripting.threads.lua_thread import LuaThread
 
@@ -37,21 +37,21 @@ class LuaCode:
         text: str,
         search_paths: list[Path],
         modules: dict[str, Any],
-        prefix: Callable[[], str],
+        source: Source,
         *,
         unsafe: bool,
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
         :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
-        :param prefix: prefix of printed lines.
+        :param source: where printed lines come from.
         :param unsafe: keep the libraries ``os``, ``io``, ``debug``, ``package``.
         :raises ScriptSourceError: if it cannot be read or compiled.
         """
         self._folders = [file.parent, *search_paths]
         self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by chunk name
-        self._prefix = prefix
+        self._source = source
         self._place_requested = False
         self._place = ""
         self._place_reported = threading.Event()
@@ -152,7 +152,7 @@ class LuaCode:
         return self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
 
     def _write(self, line: str | bytes) -> None:
-        print_line(self._prefix(), _decoded(line))
+        print_line(self._source, _decoded(line))
 
     def _turn_is_over(self) -> bool:
         return self._thread is not None and self._thread.turn_is_over()

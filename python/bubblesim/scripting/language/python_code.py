@@ -11,6 +11,7 @@ from types import CodeType, ModuleType, SimpleNamespace
 from typing import Any
 
 from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
 from bubblesim.scripting.threads.script_thread import ScriptThread
 
@@ -27,7 +28,7 @@ class PythonCode:
         search_paths: list[Path],
         modules: dict[str, Any],
         name: str,
-        prefix: Callable[[], str],
+        source: Source,
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
@@ -36,14 +37,14 @@ class PythonCode:
 
         :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
         :param name: name of the script's module.
-        :param prefix: prefix of printed lines.
+        :param source: where printed lines come from.
         :raises ScriptSourceError: for a missing file or a syntax error.
         """
         self._files: set[Path] = set()
         self._parts = self._compile(file, text, [file.parent, *search_paths], including=())
         self._modules = modules
         self._name = name
-        script_output.prefixes[name] = prefix
+        script_output.sources[name] = source
         # A real module, because dataclasses and pickle look up the module of a class.
         module = ModuleType(name)
         sys.modules[name] = module

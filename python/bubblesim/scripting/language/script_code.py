@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bubblesim.scripting.language.python_code import PythonCode
+from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
 from bubblesim.scripting.threads.script_thread import AnyThread
 
@@ -56,20 +57,20 @@ def load_code(
     search_paths: list[Path],
     modules: dict[str, Any],
     name: str,
-    prefix: Callable[[], str],
+    source: Source,
     *,
     lua_unsafe: bool,
 ) -> ScriptCode:
     """Compile a script without running it.
 
     :param name: name of the script's Python module.
-    :param prefix: prefix of printed lines.
+    :param source: where printed lines come from.
     :param lua_unsafe: see LuaCode.
     :raises ScriptSourceError: with file and line.
     """
     text = read_text(file)
     if not is_lua(file, text):
-        return PythonCode(file, text, search_paths, modules, name, prefix)
+        return PythonCode(file, text, search_paths, modules, name, source)
     try:
         from bubblesim.scripting.language.lua_code import LuaCode
     except ImportError as error:
@@ -77,4 +78,4 @@ def load_code(
             f"{file}:1: Lua scripts need the Python package lupa ({error}): run scripts/setup, or "
             "activate a virtual environment with lupa (`pip install lupa==2.8`)"
         ) from error
-    return LuaCode(file, text, search_paths, modules, prefix, unsafe=lua_unsafe)
+    return LuaCode(file, text, search_paths, modules, source, unsafe=lua_unsafe)

@@ -8,13 +8,31 @@ import errno
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from types import FrameType
 from typing import Any, TextIO
 
 from bubblesim.output import encodable, write_line
+from bubblesim.scripting import log
 
-prefixes: dict[str, Callable[[], str]] = {}
-"""Prefixes of scripts' lines, by module name."""
+
+@dataclass(frozen=True)
+class Source:
+    """The script that printed lines come from."""
+
+    object_path: str
+    clock: Callable[[], float]
+    """Returns the simulated time, s."""
+    record: Callable[[int, str, str], None]
+    """Called with level, object path and text; see Log.add_written."""
+
+    def prefix(self) -> str:
+        """Return the beginning of a line."""
+        return f"[{self.object_path} {self.clock():.3f} s] "
+
+
+sources: dict[str, Source] = {}
+"""The scripts in Python, by module name."""
 
 lost = False
 """Whether output of a script to stdout could not be written."""
@@ -38,8 +56,8 @@ class ScriptStream:
 
     def write(self, text: str) -> int:
         """Write text, with the prefix of the calling script if there is one."""
-        prefix = _prefix(sys._getframe(1))
-        return self.plain.write(text) if prefix is None else self.write_of(prefix, text)
+        source = _source(sys._getframe(1))
+        return self.plain.write(text) if source is None else self.write_of(source, text)
 
     def flush(self) -> None:
         """Flush; write errors have been reported already."""
@@ -50,8 +68,11 @@ class ScriptStream:
         """Write all lines."""
         self.write("".join(lines))
 
-    def write_of(self, prefix: str, text: str) -> int:
-        """Write text with a prefix for each line."""
+    def write_of(self, source: Source, text: str) -> int:
+        """Write text of a script with a prefix for each line, and record it."""
+        prefix = source.prefix()
+        level = log.PRINTED if self.plain is sys.__stdout__ else log.SCRIPT_WARNING
+        source.record(level, source.object_path, text)
         with self._lock, self._reported_losses():
             unfinished = self._unfinished
             if unfinished and unfinished.partition(" ")[0] != prefix.partition(" ")[0]:
@@ -77,12 +98,12 @@ class ScriptStream:
                 lost = True
 
 
-def print_line(prefix: str, line: str) -> None:
+def print_line(source: Source, line: str) -> None:
     """Print a line of a script that is not written in Python."""
     if isinstance(sys.stdout, ScriptStream):
-        sys.stdout.write_of(prefix, f"{line}\n")
+        sys.stdout.write_of(source, f"{line}\n")
     else:
-        print(f"{prefix}{line}")
+        print(f"{source.prefix()}{line}")
 
 
 def install() -> None:
@@ -93,11 +114,11 @@ def install() -> None:
             setattr(sys, name, ScriptStream(stream))
 
 
-def _prefix(frame: FrameType | None) -> str | None:
-    """Return the prefix of the script whose code is on the stack, also in threads that it started."""
+def _source(frame: FrameType | None) -> Source | None:
+    """Return the script whose code is on the stack, also in threads that it started."""
     while frame is not None:
-        prefix = prefixes.get(frame.f_globals.get("__name__", ""))
-        if prefix is not None:
-            return prefix()
+        source = sources.get(frame.f_globals.get("__name__", ""))
+        if source is not None:
+            return source
         frame = frame.f_back
     return None

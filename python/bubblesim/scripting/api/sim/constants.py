@@ -11,11 +11,15 @@ class SimConstants:
     handle_all = -2
     handle_all_except_explicit = -3
     handle_self = -4
+    handle_tree = -6
+    handle_chain = -7
+    handle_single = -8
     handle_parent = -11
     handle_scene = -12
     handleflag_resetforce = 0x400000
     handleflag_resettorque = 0x800000
     handleflag_resetforcetorque = 0xC00000
+    handleflag_addmultiple = 0x0100000000000000
 
     simulation_stopped = 0
     simulation_paused = 8
@@ -33,6 +37,48 @@ class SimConstants:
     verbosity_infos = 500
     verbosity_debug = 600
     verbosity_trace = 700
+    verbosity_default = verbosity_loadinfos
+    verbosity_undecorated = 0x0F000
+    verbosity_onlyterminal = 0x10000
+    verbosity_once = 0x20000
+
+    drawing_points = 0
+    drawing_lines = 1
+    drawing_triangles = 2
+    drawing_trianglepoints = 3
+    drawing_quadpoints = 4
+    drawing_discpoints = 5
+    drawing_cubepoints = 6
+    drawing_spherepoints = drawing_spherepts = 7
+    drawing_linestrip = 8
+    drawing_trianglepts = 9
+    drawing_quadpts = 10
+    drawing_discpts = 11
+    drawing_cubepts = 12
+    drawing_itemcolors = 0x20
+    drawing_vertexcolors = 0x40
+    drawing_itemsizes = 0x80
+    drawing_backfaceculling = 0x100
+    drawing_wireframe = 0x200
+    drawing_painttag = 0x400
+    drawing_followparentvisibility = 0x800
+    drawing_cyclic = 0x1000
+    drawing_50percenttransparency = 0x2000
+    drawing_25percenttransparency = 0x4000
+    drawing_12percenttransparency = 0x8000
+    drawing_emissioncolor = 0x10000
+    drawing_facingcamera = 0x20000
+    drawing_overlay = 0x40000
+    drawing_itemtransparency = 0x80000
+    drawing_persistent = 0x100000
+    drawing_auxchannelcolor1 = 0x200000
+    drawing_auxchannelcolor2 = 0x400000
+    drawing_local = 0x800000
+
+    stream_transf_raw = 0
+    stream_transf_derivative = 1
+    stream_transf_integral = 2
+    stream_transf_cumulative = 3
 
     joint_revolute = joint_revolute_subtype = 10
     joint_prismatic = joint_prismatic_subtype = 11
@@ -76,6 +122,21 @@ class SimConstants:
     modelproperty_not_model = 0xF000
 
     shapeintparam_static = 3003
+    proxintparam_entity_to_detect = 4002
+    shapeintparam_respondable = 3004
+    primitiveshape_plane = 1
+    primitiveshape_disc = 2
+    primitiveshape_cuboid = 3
+    primitiveshape_spheroid = 4
+    primitiveshape_cylinder = 5
+    primitiveshape_cone = 6
+    primitiveshape_capsule = 7
+    pure_primitive_plane = 1
+    pure_primitive_disc = 2
+    pure_primitive_cuboid = 3
+    pure_primitive_spheroid = 4
+    pure_primitive_cylinder = 5
+    pure_primitive_cone = 6
     visionintparam_resolution_x = 1002
     visionintparam_resolution_y = 1003
     visionfloatparam_perspective_angle = 1004
@@ -120,6 +181,8 @@ class SimConstants:
     stringparam_scene_path_and_name = 13
     stringparam_scene_path = 15
     stringparam_scene_name = 16
+    stringparam_verbosity = 121
+    stringparam_statusbarverbosity = 122
 
     arrayparam_gravity = 0
     arrayparam_fog_color = 2

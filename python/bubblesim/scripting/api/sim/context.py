@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bubblesim._core import RunState
 from bubblesim.scripting.api.kinds import HandleError
 from bubblesim.scripting.api.sim.constants import SimConstants
 from bubblesim.scripting.api.sim.object_tree import ObjectTree
@@ -22,7 +23,8 @@ class ApiContext(SimConstants):
         self._simulation = runner.simulation
         self._world = self._simulation.world
         self._caller = caller
-        self._tree = ObjectTree(self._world, caller.shared.dummies)
+        self._edits = caller.shared.edits
+        self._tree = ObjectTree(self._world, caller.shared.dummies, self._edits)
 
     def _with_all_below(self, handle: int) -> list[int]:
         """Return an object and all its descendants, parents first."""
@@ -31,10 +33,17 @@ class ApiContext(SimConstants):
             found += self._with_all_below(child)
         return found
 
+    def _is_stopped(self) -> bool:
+        return bool(self._runner.state == RunState.STOPPED)
+
+    def _shown(self, handle: int) -> int:
+        """Return the handle under which callers know an object."""
+        return self._edits.known_handle(handle) if self._edits.replaced else handle
+
     def _resolve(self, handle: int) -> int:
         """Convert sim.handle_self and sim.handle_parent to the handle of an object."""
         if 0 <= handle <= _MAX_HANDLE:
-            return handle
+            return self._edits.replaced.get(handle, handle) if self._edits.replaced else handle
         if handle == self.handle_self:
             return self._caller.object_handle
         if handle == self.handle_parent:

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that create, attach, name and remove objects."""
+"""`sim` functions that create and remove objects."""
 
 from __future__ import annotations
 
-from bubblesim._core import RunState
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
-from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.dummies import FIRST_HANDLE, Dummy
+from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
+from bubblesim.scripting.dummies import FIRST_HANDLE
+from bubblesim.scripting.primitive_shapes import PrimitiveShape
 
 _NO_COLOUR: list[float] = []
+_RESPONDABLE, _STATIC = 8, 16  # options of createPureShape
 
 
-class CreatedObjectFunctions(ApiContext):
+class CreatedObjectFunctions(ObjectChangeFunctions):
     """Dummies are frames without a body; they move with the object that they are attached to. A dummy that is created
-    while the simulation runs ends with the run, others stay. Names, parents and colours of the scene's own objects are
-    those of its file."""
+    while the simulation runs ends with the run, others stay. A created shape is a model of one link, and stays until it
+    is removed or the scene is closed."""
 
     def createDummy(self, size: float, colour: Numbers = _NO_COLOUR) -> int:
         """Create a dummy at the origin and return its handle; ``size`` in metres and the colour are for drawings."""
-        temporary = self._runner.state != RunState.STOPPED
-        dummy = self._caller.shared.dummies.create("Dummy", size, temporary=temporary)
+        dummy = self._caller.shared.dummies.create("Dummy", size, temporary=not self._is_stopped())
         if colour:
             dummy.colours[self.colorcomponent_ambient_diffuse] = list(colour[:3])
         return dummy.handle
@@ -28,31 +28,43 @@ class CreatedObjectFunctions(ApiContext):
         """Return the size of a dummy in metres."""
         return self._tree.dummy(dummy).size
 
-    def setObjectAlias(self, handle: Handle, alias: str) -> None:
-        """Name a dummy; objects of the scene keep the names of its file."""
-        if not alias or any(sign in alias for sign in "/[]{}*"):
-            raise ValueError(f"'{alias}' is not a name: it must not be empty or contain / [ ] {{ }} *")
-        self._require_dummy(handle, "the name").name = alias
+    def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
+        """Create a shape at the origin and return its handle; not in sysCall_actuation and sysCall_sensing.
 
-    def setObjectName(self, handle: Handle, name: str) -> None:
-        """Name a dummy (old style)."""
-        self.setObjectAlias(handle, name)
+        Types: sim.primitiveshape_cuboid, spheroid, cylinder, capsule, plane and disc; ``sizes`` are full lengths along
+        x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable until
+        sim.setObjectInt32Param sets sim.shapeintparam_static to 0 and sim.shapeintparam_respondable to 1. Its mass is
+        that of water.
+        """
+        return self._add_shape(PrimitiveShape(primitive_type, list(sizes)))
 
-    def setObjectParent(self, handle: Handle, parent: int, keep_in_place: bool = True) -> None:
-        """Attach a dummy to an object or, with -1, to the world. ``keep_in_place``: its pose in the world stays, else
-        its pose relative to the parent."""
-        self._require_dummy(handle, "the parent")
-        parent = parent if parent == self.handle_world else self._resolve(parent)
-        self._tree.set_parent(handle, parent, in_place=keep_in_place)
+    def createPureShape(
+        self, primitive_type: int, options: int, sizes: Vector3, mass: float, precision: object = None
+    ) -> int:
+        """Create a shape at the origin and return its handle (old name); the types are those of createPrimitiveShape
+        with sim.pure_primitive_ as prefix. ``options``: 8 respondable, 16 static; ``mass`` in kg."""
+        kinds = {
+            self.pure_primitive_plane: self.primitiveshape_plane,
+            self.pure_primitive_disc: self.primitiveshape_disc,
+            self.pure_primitive_cuboid: self.primitiveshape_cuboid,
+            self.pure_primitive_spheroid: self.primitiveshape_spheroid,
+            self.pure_primitive_cylinder: self.primitiveshape_cylinder,
+        }
+        if not mass > 0:
+            raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
+        kind = kinds.get(primitive_type, primitive_type)
+        flags = {"static": bool(options & _STATIC), "respondable": bool(options & _RESPONDABLE)}
+        return self._add_shape(PrimitiveShape(kind, list(sizes), mass, **flags))
 
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.
 
         In sysCall_actuation and sysCall_sensing only dummies can be removed.
         """
-        for handle in handles:
+        resolved = [self._resolve(handle) for handle in handles]
+        for handle in resolved:
             self._check_removable(handle)
-        for handle in handles:
+        for handle in resolved:
             if handle >= FIRST_HANDLE:
                 self._caller.shared.dummies.remove(handle)
             elif self._tree.contains(handle):
@@ -67,48 +79,18 @@ class CreatedObjectFunctions(ApiContext):
         """Remove a model with all its objects, or a dummy; return 1."""
         return self.removeObjects([handle])
 
-    def setObjectColor(self, handle: Handle, index: int, component: int, colour: Vector3) -> bool:
-        """Set a colour of a dummy: red, green, blue from 0 to 1."""
-        self._require_dummy(handle, "the colour").colours[component] = colour
-        return True
-
-    def getObjectColor(self, handle: Handle, index: int, component: int) -> list[float] | None:
-        """Return a colour of a dummy; None (nil) if it has none."""
-        return self._require_dummy(handle, "the colour").colours.get(component)
-
-    def setShapeColor(self, handle: Handle, name: object, component: int, colour: Vector3) -> None:
-        """Raise ValueError: the materials of a scene are those of its file."""
-        self._require_dummy(handle, "the colour").colours[component] = colour
-
-    def isDynamicallyEnabled(self, handle: Handle) -> bool:
-        """Return whether physics moves an object: the simulation is not stopped, and the model is not static."""
-        handle = self._resolve(handle)
-        if self._tree.kind(handle) == "dummy" or self._runner.state == RunState.STOPPED:
-            return False
-        return not self._world.is_static(handle)
-
-    def resetDynamicObject(self, handle: Handle) -> None:
-        """Set the velocity of a model or link to 0."""
-        handle = self._resolve(handle)
-        self._world.set_state(handle, self._world.pose(handle), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
-
-    def _require_dummy(self, handle: int, what: str) -> Dummy:
-        handle = self._resolve(handle)
-        if self._tree.kind(handle) != "dummy":
-            path = self._tree.short_path(handle)
-            raise ValueError(f"{what} of {path} is that of the scene's file and cannot be changed while it is loaded")
-        return self._tree.dummy(handle)
+    def _add_shape(self, shape: PrimitiveShape) -> int:
+        model = self._add_model(shape.sdf(), shape.name)
+        self._edits.shapes[model] = shape
+        self._tree.set_pose(model, self._tree.pose(model))  # where it is after a stop
+        if shape.static:
+            self._edits.static.add(model)
+        self._update_hold(model)
+        return model
 
     def _check_removable(self, handle: int) -> None:
-        handle = self._resolve(handle)
         if self._tree.kind(handle) == "dummy":
             return
-        if self._tree.kind(handle) != "model" or self._tree.parent(handle) >= 0:
+        if self._tree.kind(handle) != "model" or int(self._world.parent(handle)) >= 0:
             path = self._tree.short_path(handle)
             raise ValueError(f"{path} cannot be removed on its own: remove the whole model, or a dummy")
-
-    def _remove_model(self, handle: int) -> None:
-        if scripts := self._caller.shared.scripts:
-            scripts.remove_model(handle)
-        else:
-            self._simulation.remove_model(handle)

@@ -28,7 +28,7 @@ class ObjectFunctions(ApiContext):
             raise ValueError(f"getObject has no option '{min(unknown)}'; valid options: index, noError and proxy")
         start = self._resolve(options["proxy"]) if "proxy" in options else self._caller.object_handle
         try:
-            return self._tree.find(path, start, INTEGER.convert(options.get("index", 0)))
+            return self._shown(self._tree.find(path, start, INTEGER.convert(options.get("index", 0))))
         except LookupError:
             if options.get("noError"):
                 return -1
@@ -37,7 +37,7 @@ class ObjectFunctions(ApiContext):
     def getObjectHandle(self, name: str) -> int:
         """Return the handle of the object with the name ``name``, anywhere in the scene (old style)."""
         path = name if name.startswith(("/", ".", ":")) else f"/{name}"
-        return self._tree.find(path, self._caller.object_handle)
+        return self._shown(self._tree.find(path, self._caller.object_handle))
 
     def getObjectAssociatedWithScript(self, script: Handle) -> int:
         """Return the handle of the object that the script is attached to."""
@@ -67,7 +67,7 @@ class ObjectFunctions(ApiContext):
 
     def isHandle(self, handle: int) -> bool:
         """Return whether there is an object with this handle."""
-        return handle >= 0 and self._tree.contains(handle)
+        return handle >= 0 and self._tree.contains(self._resolve(handle))
 
     def getObjects(self, index: int, object_type: int = HANDLE_ALL) -> int:
         """Return the handle of the ``index``-th object of a type in the scene, -1 if there are fewer."""
@@ -80,12 +80,12 @@ class ObjectFunctions(ApiContext):
 
     def getObjectParent(self, handle: Handle) -> int:
         """Return the handle of the parent object, -1 at the top of the scene."""
-        return self._tree.parent(self._resolve(handle))
+        return self._shown(self._tree.parent(self._resolve(handle)))
 
     def getObjectChild(self, handle: Handle, index: int) -> int:
         """Return the handle of the ``index``-th child, -1 if there are fewer."""
         children = self._tree.children(handle if handle == WORLD else self._resolve(handle))
-        return children[index] if 0 <= index < len(children) else -1
+        return self._shown(children[index]) if 0 <= index < len(children) else -1
 
     def getObjectsInTree(self, base: Handle, object_type: int = HANDLE_ALL, options: int = 0) -> list[int]:
         """Return the handles of an object and all its descendants, or of the whole scene for sim.handle_scene.
@@ -101,7 +101,8 @@ class ObjectFunctions(ApiContext):
             below = self._tree.children(base) if options & 2 else self._with_all_below(base)[1:]
             found = below if options & 1 else [base, *below]
         wants_all = object_type == self.handle_all
-        return [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
+        kept = [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
+        return [self._shown(handle) for handle in kept]
 
     def getObjectType(self, handle: Handle) -> int:
         """Return sim.object_shape_type for models and links, and the type of joints and sensors.
@@ -178,6 +179,8 @@ class ObjectFunctions(ApiContext):
 
     def _pose(self, handle: int, relative_to: int) -> Vector:
         handle = self._resolve(handle)
+        if relative_to == WORLD:
+            return self._tree.pose(handle)
         frame = self._frame(handle, relative_to)
         return self._tree.pose(handle) if frame is None else self._tree.pose_in(handle, frame)
 

@@ -11,6 +11,9 @@ from typing import Any
 from bubblesim._core import camera_optics
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.joints import JointFunctions
+from bubblesim.scripting.api.sim.logs import LogFunctions
+from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
+from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
 
 _VERSION = 40700  # of the CoppeliaSim whose functions these are
@@ -18,7 +21,7 @@ _LINUX = 2
 _ODE = 1
 
 
-class ParameterFunctions(JointFunctions, RandomFunctions):
+class ParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFunctions, RandomFunctions, LogFunctions):
     """Parameters by their number, sim.intparam_program_version for example. Those of windows and drawings, such as
     sim.boolparam_browser_visible and sim.intparam_idle_fps, keep what is set but have no effect. Parameters that are
     not supported raise a ValueError."""
@@ -65,18 +68,23 @@ class ParameterFunctions(JointFunctions, RandomFunctions):
         self._set_parameter("boolparam", bool, parameter, value, self._drawing_flags())
 
     def getStringParam(self, parameter: int) -> str:
-        """Return sim.stringparam_application_path, scene_path, scene_name or scene_path_and_name."""
+        """Return sim.stringparam_application_path, scene_path, scene_name, scene_path_and_name or verbosity."""
         file = Path(self._simulation.scene_file)
         known = {
             self.stringparam_application_path: str(Path(__file__).parents[3]),
-            self.stringparam_scene_path_and_name: str(file),
-            self.stringparam_scene_path: str(file.parent),
+            self.stringparam_scene_path_and_name: str(file) if file.name else "",
+            self.stringparam_scene_path: str(file.parent) if file.name else "",
             self.stringparam_scene_name: file.stem,
+            self.stringparam_verbosity: self._verbosity(),
+            self.stringparam_statusbarverbosity: "trace",
         }
         return str(self._get_parameter("stringparam", str, parameter, known, {}))
 
     def setStringParam(self, parameter: int, value: str) -> None:
-        """Raise ValueError: no text parameter of the simulator can be set."""
+        """Set sim.stringparam_verbosity: 'none', 'errors', 'warnings', 'scriptinfos', 'infos', 'debug' or 'trace'."""
+        if parameter == self.stringparam_verbosity:
+            self._set_verbosity(value)
+            return
         self._set_parameter("stringparam", str, parameter, value, {})
 
     def getNamedStringParam(self, name: str) -> str | None:
@@ -95,14 +103,16 @@ class ParameterFunctions(JointFunctions, RandomFunctions):
         return numbers
 
     def setArrayParam(self, parameter: int, value: Numbers) -> None:
-        """Set a colour of drawings; the gravity is that of the scene's file."""
-        if parameter == self.arrayparam_gravity and value == self.getArrayParam(parameter):
+        """Set sim.arrayparam_gravity, m/s^2, until the simulation is reset, or a colour of drawings."""
+        if parameter == self.arrayparam_gravity:
+            self._world.set_gravity([float(number) for number in value])
             return
         self._set_parameter("arrayparam", list, parameter, value, self._drawing_colours())
 
     def getObjectInt32Param(self, handle: Handle, parameter: int) -> int:
         """Return an integer parameter of an object: sim.jointintparam_dynctrlmode and jointintparam_motor_enabled of a
-        joint, visionintparam_resolution_x and y of a camera, shapeintparam_static of a model or link.
+        joint, visionintparam_resolution_x and y of a camera, shapeintparam_static and shapeintparam_respondable of a
+        model or link, proxintparam_entity_to_detect of a proximity sensor.
 
         The control modes of joints are sim.jointdynctrl_free, force, velocity and position.
         """
@@ -113,17 +123,34 @@ class ParameterFunctions(JointFunctions, RandomFunctions):
         if parameter == self.jointintparam_motor_enabled:
             return int(self._control_modes()[self.jointdynctrl_free] != self._world.motor_mode(handle))
         if parameter == self.shapeintparam_static:
-            return int(self._world.is_static(handle))
+            return int(self._is_static(handle))
+        if parameter == self.shapeintparam_respondable:
+            return int(self._is_respondable(handle))
         if parameter in (self.visionintparam_resolution_x, self.visionintparam_resolution_y):
             return int(camera_optics(self._simulation, handle)[parameter - self.visionintparam_resolution_x])
-        raise self._unknown("integer", parameter, "jointintparam_, visionintparam_ or shapeintparam_")
+        if parameter == self.proxintparam_entity_to_detect:
+            self._world.sonar_limits(handle)  # raises
+            return self._caller.shared.collections.detected.get(handle, self.handle_all)
+        raise self._unknown("integer", parameter, "jointintparam_, visionintparam_, proxintparam_ or shapeintparam_")
 
     def setObjectInt32Param(self, handle: Handle, parameter: int, value: int) -> None:
-        """Set sim.jointintparam_dynctrlmode, the control mode of a joint, until the scene is reset."""
+        """Set sim.jointintparam_dynctrlmode, the control mode of a joint, or proxintparam_entity_to_detect, the object
+        or collection that a proximity sensor detects, until the scene is reset; or of a model sim.shapeintparam_static
+        (1: physics does not move it), of a created shape sim.shapeintparam_respondable."""
+        if parameter in (self.shapeintparam_static, self.shapeintparam_respondable):
+            change = self._set_static if parameter == self.shapeintparam_static else self._set_respondable
+            change(self._resolve(handle), value != 0)
+            return
+        if parameter == self.proxintparam_entity_to_detect:
+            self._set_entity_to_detect(self._resolve(handle), value)
+            return
         if parameter != self.jointintparam_dynctrlmode:
             if self.getObjectInt32Param(handle, parameter) == value:
                 return
-            raise ValueError(f"parameter {parameter} cannot be set; settable: sim.jointintparam_dynctrlmode")
+            raise ValueError(
+                f"parameter {parameter} cannot be set; settable: sim.jointintparam_dynctrlmode, "
+                "proxintparam_entity_to_detect, shapeintparam_static and shapeintparam_respondable"
+            )
         if value not in self._control_modes():
             raise ValueError(
                 f"{value} is not a control mode of a joint; valid ones: sim.jointdynctrl_free, jointdynctrl_force, "
@@ -157,6 +184,13 @@ class ParameterFunctions(JointFunctions, RandomFunctions):
             raise ValueError(
                 f"the model property {value} is not supported: models are visible and dynamic as their file says"
             )
+
+    def _set_entity_to_detect(self, sensor: int, entity: int) -> None:
+        self._world.sonar_limits(sensor)  # raises
+        entity = self.handle_all if entity == -1 else entity  # old programs
+        if not self._is_entity(entity):
+            raise ValueError(f"{entity} is neither an object nor a collection nor sim.handle_all")
+        self._caller.shared.collections.detected[sensor] = entity
 
     def _times(self) -> dict[int, float]:
         return {self.floatparam_simulation_time_step: float(self._simulation.time_step)}

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that start programs, write log messages and list the simulator's modules."""
+"""`sim` functions that start programs and list the simulator's modules."""
 
 from __future__ import annotations
 
 import shlex
 import subprocess
-import sys
 
-from bubblesim.output import write_line
 from bubblesim.scripting.allowed_programs import find_program
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -35,21 +33,3 @@ class ProgramFunctions(ApiContext):
         """Return the name of a plugin, 'RosInterface' for the ROS bridge; None (nil) if the index is too large."""
         plugins = ["RosInterface"] if self._caller.shared.has_ros else []
         return plugins[index] if 0 <= index < len(plugins) else None
-
-    def addLog(self, level: object, text: object) -> None:
-        """Write a message; errors and warnings are written to stderr, levels above infos are ignored."""
-        if isinstance(level, int) and level > self.verbosity_infos:
-            return
-        errors = (self.verbosity_errors, self.verbosity_scripterrors)
-        warnings = (self.verbosity_warnings, self.verbosity_scriptwarnings)
-        kind = "error" if level in errors else "warning" if level in warnings else "info"
-        stream = sys.stdout if kind == "info" else sys.stderr
-        try:
-            shown = str(text)
-        except Exception:
-            shown = object.__repr__(text)
-        write_line(stream, f"{kind}: {self._caller.object_path}: {shown}")
-
-    def addStatusbarMessage(self, text: object) -> None:
-        """Write a message."""
-        self.addLog(self.verbosity_scriptinfos, text)

@@ -3,31 +3,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from bubblesim._core import scene_folders
+from bubblesim._core import SceneError, scene_folders
 from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
+from bubblesim.scripting.saved_scene import scene_text, write_scene
+
+_SCENES = (".sdf", ".world", ".urdf")
 
 
 class SceneFileFunctions(CreatedObjectFunctions):
-    """A node simulates one scene from its start to its end. Of a path only the name of the file counts: 'arm.ttm' is
-    the model 'arm' of this project's folders."""
+    """Of a path only the name of the file counts: 'arm.ttm' is the model 'arm' of the folders that are searched. A
+    Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf file, or of a .ttt or
+    .ttm file next to one."""
 
     @for_remote_only
     def loadScene(self, file: str) -> Any:
-        """Stop the simulation, remove created objects and reset the scene, which must be that of the node; return 1.
+        """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
 
-        Another scene raises an error that says how to start it. For remote clients only.
+        It is searched as NAME.sdf in the folder of the first scene, the folder in which the node was started, and the
+        folders of scenes. All handles become invalid. If the file has errors, the present scene stays. For remote
+        clients only.
         """
-        raise RuntimeError(self._other_scene(file))
+        raise RuntimeError("sim.loadScene needs a running node")
 
     @for_remote_only
     def closeScene(self) -> Any:
-        """Stop the simulation, remove created objects and reset the scene; return 1. For remote clients only."""
+        """Stop the simulation and go on with an empty scene, a ground plane; return 1. For remote clients only."""
         raise RuntimeError("sim.closeScene needs a running node")
+
+    @for_remote_only
+    def saveScene(self, file: str, overwrite: bool = False) -> int:
+        """Write the scene of a stopped simulation to an .sdf file, which takes the place of a .ttt file; return 1.
+
+        The file of the scene is written with the models that were added, without those that were removed, and with the
+        present poses. An existing file is an error unless ``overwrite`` is true, and so are names, parents and static
+        flags that were changed; dummies, and colours of models of an <include>, are not written. For clients of a node
+        with --remote-trusted only.
+        """
+        if not self._caller.may_use_files:
+            raise PermissionError("sim.saveScene writes files: start the node with --remote-trusted")
+        if not self._is_stopped():
+            raise RuntimeError("sim.saveScene: stop the simulation first")
+        wanted = Path(file)
+        file_path = wanted if wanted.suffix == ".world" else wanted.with_suffix(".sdf")
+        write_scene(scene_text(self._simulation, self._edits, file_path.parent), file_path, overwrite=overwrite)
+        return 1
 
     def loadModel(self, file: str) -> int:
         """Add a model by the name of its file and return its handle; not in sysCall_actuation and sysCall_sensing.
@@ -35,43 +59,38 @@ class SceneFileFunctions(CreatedObjectFunctions):
         It is searched as models/NAME/model.sdf and NAME.sdf in the folder of the scene and the folders of scenes. A
         name that is taken gets a number. It stays until it is removed.
         """
-        found = next((path for path in self._places(file) if path.is_file()), None)
+        name = stem(file)
+        folders = [self._own_folder(), *map(Path, scene_folders())]
+        places = [
+            place for folder in folders for place in (folder / "models" / name / "model.sdf", folder / f"{name}.sdf")
+        ]
+        found = self._find("sim.loadModel", "model", file, places)
+        try:
+            return self._add_model(found.read_text(encoding="utf-8"), name)
+        except SceneError as error:
+            raise SceneError(str(error).replace("<data-string>", str(found))) from None
+
+    def _own_folder(self) -> Path:
+        return Path(self._simulation.scene_file).parent
+
+    def _find(self, function: str, what: str, file: str, places: Sequence[Path]) -> Path:
+        """Return the first of these files that exists, or the given one if the caller may use all files.
+
+        :raises LookupError: with the files that were searched.
+        """
+        searched = list(dict.fromkeys(place.absolute() for place in places))
+        if self._caller.may_use_files and Path(file).parent != Path():
+            given = Path(file)
+            searched.insert(0, given if given.suffix in _SCENES else given.with_suffix(".sdf"))
+        found = next((place for place in searched if place.is_file()), None)
         if found is None:
-            places = ", ".join(str(path) for path in self._places(file))
-            raise LookupError(f"sim.loadModel: there is no model '{_stem(file)}'; searched: {places}")
-        model = int(self._simulation.add_model(found.read_text(encoding="utf-8"), name=self._free_name(file)).handle)
-        self._caller.shared.loaded_models.append(model)
-        return model
-
-    def _places(self, file: str) -> Iterator[Path]:
-        name = _stem(file)
-        own = Path(self._simulation.scene_file).parent
-        for folder in dict.fromkeys([own, *map(Path, scene_folders())]):
-            yield folder / "models" / name / "model.sdf"
-            yield folder / f"{name}.sdf"
-
-    def _free_name(self, file: str) -> str:
-        taken = {self._tree.name(handle) for handle in self._tree.children(-1)}
-        name = _stem(file)
-        number = 1
-        while (name if number == 1 else f"{name}_{number}") in taken:
-            number += 1
-        return name if number == 1 else f"{name}_{number}"
-
-    def _other_scene(self, file: str) -> str:
-        own = Path(self._simulation.scene_file)
-        places = [Path(folder) / f"{_stem(file)}.sdf" for folder in [own.parent, *scene_folders()]]
-        found = next((path for path in places if path.is_file()), None)
-        if found is None:
-            searched = ", ".join(str(path) for path in dict.fromkeys(places))
-            return f"sim.loadScene: there is no scene '{_stem(file)}'; searched: {searched}"
-        return (
-            f"sim.loadScene: this node simulates the scene {own.stem}, and loads no other one; start another node with "
-            f"`rosrun bubblesim sim {found.stem} --remote`"
-        )
+            raise LookupError(
+                f"{function}: there is no {what} '{stem(file)}'; searched: {', '.join(map(str, searched))}"
+            )
+        return found
 
 
-def _stem(file: str) -> str:
+def stem(file: str) -> str:
     """Return the name of a file, which may be a path of another system, without folder and extension."""
     name = Path(file.replace("\\", "/")).stem
     if not name or name in (".", ".."):

@@ -6,6 +6,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+from bubblesim.scripting.api.functions import for_remote_only
+from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.caller import Scripts
 
@@ -41,6 +43,32 @@ class ScriptFunctions(ApiContext):
             return lambda *arguments: self._scripts().call_script(handle, name, arguments)
 
         return SimpleNamespace(**{name: caller(name) for name in self._scripts().script_functions(handle)})
+
+    def getScripts(self) -> list[dict[str, Any]]:
+        """Return all child scripts, for editors: ``handle``, ``object`` (its path), ``file``, ``language`` ('python' or
+        'lua') and ``state`` ('running', 'failed', 'ended' or 'stopped')."""
+        return self._scripts().descriptions()
+
+    def getScriptText(self, script: Handle) -> str:
+        """Return the text of the file of a child script."""
+        return self._scripts().text_of(self._resolve(script))
+
+    @for_remote_only
+    def initScript(self, script: Handle) -> bool:
+        """End a child script and start it again from its file; return whether it runs.
+
+        A stopped simulation loads its scripts when it starts.
+        """
+        return self._scripts().restart_script(self._resolve(script))
+
+    def getProblems(self) -> dict[str, Any]:
+        """Return what is wrong, for editors: ``revision``, which rises with each change, and ``problems`` with
+        ``source`` ('scene' or 'script'), ``level`` ('error' or 'warning'), ``object`` (path), ``file``, ``line`` (0 if
+        unknown) and ``text``.
+
+        They are the warnings of the scene's files, and for each script those since it was loaded.
+        """
+        return self._scripts().problems()
 
     def _scripts(self) -> Scripts:
         scripts = self._caller.shared.scripts

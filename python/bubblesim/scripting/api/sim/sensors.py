@@ -17,34 +17,32 @@ from bubblesim._core import (
     reading_time,
 )
 from bubblesim.scripting.api.kinds import Handle
-from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
 Reading = tuple[int, float, list[float], int, list[float]]
 
 
-class SensorFunctions(ApiContext):
-    """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres."""
+class SensorFunctions(CollectionFunctions):
+    """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres. They detect the
+    nearest object if it belongs to sim.proxintparam_entity_to_detect, by default all but their own model."""
 
     def readProximitySensor(self, sensor: Handle) -> Reading:
         """Return the last measurement; result 0 and distance 0.0 if nothing was detected."""
-        reading: Reading = read_proximity(self._simulation, self._resolve(sensor))
-        return reading
+        sensor = self._resolve(sensor)
+        return self._detected(read_proximity(self._simulation, sensor), sensor)
 
     def handleProximitySensor(self, sensor: Handle) -> Reading:
         """Measure now."""
-        reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
-        return reading
+        sensor = self._resolve(sensor)
+        return self._detected(measure_proximity(self._simulation, sensor), sensor)
 
     def checkProximitySensor(self, sensor: Handle, entity: Handle) -> Reading:
         """Measure now; the result is 0 also if the nearest object does not belong to ``entity``.
 
-        sim.handle_all includes all objects.
+        It is an object, a collection, or sim.handle_all.
         """
         reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
-        seen = reading[3]
-        if seen < 0 or entity == self.handle_all or self._belongs(seen, self._resolve(entity)):
-            return reading
-        return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
+        return self._limited(reading, entity if entity == self.handle_all else self._resolve(entity))
 
     def getReadingTime(self, sensor: Handle) -> float:
         """Return the time, s, of the state that the last measurement shows; do not measure.
@@ -97,8 +95,12 @@ class SensorFunctions(ApiContext):
             for contact in read_contacts(self._simulation, self._resolve(sensor)).contacts
         ]
 
-    def _belongs(self, handle: int, to: int) -> bool:
-        """Return whether an object is another one or its descendant."""
-        while handle >= 0 and handle != to:
-            handle = int(self._world.parent(handle))
-        return handle >= 0
+    def _detected(self, reading: Reading, sensor: int) -> Reading:
+        limits = self._caller.shared.collections.detected
+        return self._limited(reading, limits.get(sensor, self.handle_all)) if limits else reading
+
+    def _limited(self, reading: Reading, entity: int) -> Reading:
+        """Return a reading without an object that does not belong to an object or collection."""
+        if reading[3] < 0 or self._belongs(reading[3], entity):
+            return reading
+        return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]

@@ -6,9 +6,13 @@ from __future__ import annotations
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
 from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
+from bubblesim.scripting.api.sim.drawings import DrawingFunctions
 from bubblesim.scripting.api.sim.forces import ForceFunctions
+from bubblesim.scripting.api.sim.graphs import GraphFunctions
 from bubblesim.scripting.api.sim.joints import JointFunctions
+from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.matrices import MatrixFunctions
+from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
 from bubblesim.scripting.api.sim.parameters import ParameterFunctions
@@ -34,12 +38,16 @@ class SimApi(
     ForceFunctions,
     SensorFunctions,
     VisionFunctions,
+    CollectionFunctions,
     CustomDataFunctions,
     SignalFunctions,
     PackFunctions,
     TimeFunctions,
     ThreadFunctions,
     RandomFunctions,
+    DrawingFunctions,
+    GraphFunctions,
+    LogFunctions,
     ProgramFunctions,
     ScriptFunctions,
 ):

@@ -9,7 +9,7 @@ import numpy as np
 
 from bubblesim._core import camera_optics, measure_camera, override_image, read_camera, read_lidar
 from bubblesim.scripting.api.kinds import Bytes, Handle, Integers
-from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
 Array = np.ndarray[Any, Any]
 Packets = tuple[int, list[float]]
@@ -20,7 +20,7 @@ _METRES = 1
 _FOUR_CHANNELS, _FLIP_X, _FLIP_Y = 1, 2, 4
 
 
-class VisionFunctions(ApiContext):
+class VisionFunctions(CollectionFunctions):
     """Images as bytes have rows from bottom to top; numpy arrays have rows from top to bottom."""
 
     def getVisionSensorImg(
@@ -106,13 +106,14 @@ class VisionFunctions(ApiContext):
         return 0, _statistics(measure_camera(self._simulation, self._resolve(sensor)))
 
     def checkVisionSensor(self, sensor: Handle, entity: Handle) -> Packets:
-        """Measure now; return 1 if any part of an object is visible (of any object for sim.handle_all), else 0."""
+        """Measure now; return 1 if any part of an object or collection is visible, else 0.
+
+        sim.handle_all stands for any object.
+        """
         image = measure_camera(self._simulation, self._resolve(sensor))
-        if entity == self.handle_all:
-            seen = image.objects >= 0
-        else:
-            seen = np.isin(image.objects, self._with_all_below(self._resolve(entity)))
-        return int(seen.any()), _statistics(image)
+        entity = entity if entity == self.handle_all else self._resolve(entity)
+        seen = any(self._belongs(int(link), entity) for link in np.unique(image.objects) if link >= 0)
+        return int(seen), _statistics(image)
 
     def transformImage(self, image: Bytes, resolution: Integers, options: int) -> bytes:
         """Flip an image: options 2 left to right, 4 top to bottom; 1 for four bytes per pixel."""

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions that change objects: names, parents, colours, and whether physics moves them."""
+
+from __future__ import annotations
+
+from bubblesim._core import sensor_kind
+from bubblesim.scripting.api.kinds import Handle, Vector3
+from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.scene_edits import Hold, relative
+
+
+class ObjectChangeFunctions(ApiContext):
+    """Changes of a stopped scene stay until it is closed. Names, parents and static flags that are changed during a run
+    are those of before when it ends. ROS topics and messages keep the names of the scene's file."""
+
+    def setObjectAlias(self, handle: Handle, alias: str) -> None:
+        """Name an object."""
+        handle = self._resolve(handle)
+        if not alias or any(sign in alias for sign in "/[]{}*"):
+            raise ValueError(f"'{alias}' is not a name: it must not be empty or contain / [ ] {{ }} *")
+        if self._tree.kind(handle) == "dummy":
+            self._tree.dummy(handle).name = alias
+            return
+        self._edits.begin_change()
+        self._edits.names[handle] = alias
+
+    def setObjectName(self, handle: Handle, name: str) -> None:
+        """Name an object (old style)."""
+        self.setObjectAlias(handle, name)
+
+    def setObjectParent(self, handle: Handle, parent: int, keep_in_place: bool = True) -> None:
+        """Attach a model or a dummy to an object or, with -1, to the world. ``keep_in_place``: its pose in the world
+        stays, else its pose relative to the parent.
+
+        As in the original, a model moves along when its parent is set to a pose; physics moves it along if it is static
+        (sim.shapeintparam_static), or if the parent is a force-torque sensor, which holds it. The parent does not feel
+        its weight. Parts of a model cannot be attached elsewhere.
+        """
+        handle = self._resolve(handle)
+        parent = parent if parent == self.handle_world else self._resolve(parent)
+        if self._tree.parent(handle) == parent:
+            return
+        self._edits.begin_change()
+        self._tree.set_parent(handle, parent, in_place=keep_in_place)
+        if self._tree.kind(handle) == "model":
+            self._update_hold(handle)
+
+    def setObjectColor(self, handle: Handle, index: int, component: int, colour: Vector3) -> bool:
+        """Set a colour of a model, a link or a dummy: red, green, blue from 0 to 1. See setShapeColor."""
+        self.setShapeColor(handle, None, component, colour)
+        return True
+
+    def getObjectColor(self, handle: Handle, index: int, component: int) -> list[float] | None:
+        """Return a colour of a model, a link or a dummy; None (nil) if it has none. See getShapeColor."""
+        return self._colour(self._resolve(handle), component)
+
+    def setShapeColor(self, handle: Handle, name: object, component: int, colour: Vector3) -> None:
+        """Set the colour of all visuals of a model or link, which cameras see: red, green, blue from 0 to 1.
+
+        ``component`` is sim.colorcomponent_ambient_diffuse; other components, and the ``name`` of a part of a shape,
+        have no effect. The colour stays until the scene is closed.
+        """
+        handle = self._resolve(handle)
+        if self._tree.kind(handle) == "dummy":
+            self._tree.dummy(handle).colours[component] = colour
+        elif component == self.colorcomponent_ambient_diffuse:
+            self._edits.colours.set(self._simulation, handle, colour)
+        else:
+            self._simulation.color(handle)  # raises for objects without visuals
+
+    def getShapeColor(self, handle: Handle, name: object, component: int) -> tuple[int, list[float]]:
+        """Return 1 and the colour of the first visual of a model or link; 0 and black for components without effect."""
+        colour = self._colour(self._resolve(handle), component)
+        return (0, [0.0, 0.0, 0.0]) if colour is None else (1, colour)
+
+    def isDynamicallyEnabled(self, handle: Handle) -> bool:
+        """Return whether physics moves an object: the simulation is not stopped, and the model is not static."""
+        handle = self._resolve(handle)
+        if self._tree.kind(handle) == "dummy" or self._is_stopped():
+            return False
+        return not self._is_static(handle)
+
+    def resetDynamicObject(self, handle: Handle) -> None:
+        """Set the velocity of a model or link to 0."""
+        handle = self._resolve(handle)
+        self._world.set_state(handle, self._world.pose(handle), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+
+    def setShapeMass(self, handle: Handle, mass: float) -> None:
+        """Set the mass, kg, of a link or of all links of a model; the inertia is scaled by the same factor.
+
+        Masses of the scene's file are put back when the simulation is reset.
+        """
+        handle = self._resolve(handle)
+        shape = self._edits.shapes.get(handle)
+        if shape is None:
+            self._world.set_mass(handle, mass)
+            return
+        if not mass > 0:
+            raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
+        shape.mass = mass
+        self._rebuild(handle)
+
+    def getShapeMass(self, handle: Handle) -> float:
+        """Return the mass, kg, of a link or of all links of a model."""
+        handle = self._resolve(handle)
+        shape = self._edits.shapes.get(handle)
+        return float(self._world.mass(handle)) if shape is None else shape.mass
+
+    def _colour(self, handle: int, component: int) -> list[float] | None:
+        if self._tree.kind(handle) == "dummy":
+            return self._tree.dummy(handle).colours.get(component)
+        colour = [float(part) for part in self._simulation.color(handle)]
+        return colour if component == self.colorcomponent_ambient_diffuse else None
+
+    def _is_static(self, handle: int) -> bool:
+        return bool(self._world.is_static(handle)) or self._world.outermost_model_of(handle) in self._edits.static
+
+    def _set_static(self, handle: int, static: bool) -> None:
+        """Let physics move a model, or not."""
+        model = int(self._world.outermost_model_of(handle))
+        if static == self._is_static(model):
+            return
+        if self._world.is_static(model):
+            path = self._tree.short_path(model)
+            raise ValueError(f"{path} is static in the scene's file: physics cannot move it")
+        self._edits.begin_change()
+        (self._edits.static.add if static else self._edits.static.discard)(model)
+        if shape := self._edits.shapes.get(model):
+            shape.static = static
+            self._rebuild(model)
+        self._update_hold(self._resolve(self._shown(model)))
+
+    def _is_respondable(self, handle: int) -> bool:
+        shape = self._edits.shapes.get(int(self._world.outermost_model_of(handle)))
+        return shape is None or shape.respondable
+
+    def _set_respondable(self, handle: int, respondable: bool) -> None:
+        """Let other shapes collide with a created shape, or not."""
+        model = int(self._world.outermost_model_of(handle))
+        if respondable == self._is_respondable(model):
+            return
+        if model not in self._edits.shapes:
+            path = self._tree.short_path(model)
+            raise ValueError(f"{path} collides as the scene's file says; only created shapes can be changed")
+        self._edits.shapes[model].respondable = respondable
+        self._rebuild(model)
+
+    def _update_hold(self, model: int) -> None:
+        """Hold a model that is static, or attached to a force-torque sensor, in the frame of what it is attached to."""
+        self._edits.holds.pop(model, None)
+        if self._world.is_static(model):
+            return
+        frame = self._tree.frame_above(model)
+        if model in self._edits.static or (frame >= 0 and self._is_force_sensor(frame)):
+            pose = [float(number) for number in self._world.pose(model)]
+            self._edits.holds[model] = Hold(frame, relative(self._world, pose, frame))
+
+    def _is_force_sensor(self, handle: int) -> bool:
+        is_sensor = self._tree.kind(handle) == "sensor"
+        return is_sensor and sensor_kind(self._simulation, handle) == "force-torque sensor"
+
+    def _rebuild(self, model: int) -> None:
+        """Build a created shape anew with its new properties; callers keep its handle."""
+        edits = self._edits
+        shape, pose = edits.shapes[model], [float(number) for number in self._world.pose(model)]
+        linear, angular = self._world.velocity(model)
+        known, name, parent = self._shown(model), self._tree.name(model), self._tree.parent(model)
+        colour, static, placed = self._simulation.color(model), model in edits.static, edits.placed.get(model)
+        attached = [child for child, of in edits.parents.items() if of == model]
+        dummies = self._caller.shared.dummies.children(model)
+        for dummy in dummies:
+            dummy.parent = -1
+        data = {key: value for key, value in self._caller.shared.custom_data.items() if key[0] == model}
+        self._remove_model(model)
+        anew = self._add_model(shape.sdf(), shape.name)
+        edits.replaced[known] = anew
+        edits.shapes[anew] = shape
+        self._world.set_state(anew, pose, list(linear), list(angular))
+        self._edits.colours.set(self._simulation, anew, colour)
+        if self._tree.name(anew) != name:
+            edits.names[anew] = name
+        if parent >= 0:
+            edits.parents[anew] = parent
+        if static:
+            edits.static.add(anew)
+        if placed:
+            edits.placed[anew] = placed
+        for child in attached:
+            edits.parents[child] = anew
+            self._update_hold(child)
+        for dummy in dummies:
+            dummy.parent = anew
+        for (_, tag), value in data.items():
+            self._caller.shared.custom_data[anew, tag] = value
+        self._update_hold(anew)
+
+    def _add_model(self, text: str, name: str) -> int:
+        """Add a model from the text of its file; a name that is taken gets a number."""
+        taken = {str(self._world.name(handle)) for handle in self._world.models}
+        number = 1
+        while (free := name if number == 1 else f"{name}_{number}") in taken:
+            number += 1
+        model = int(self._simulation.add_model(text, name=free).handle)
+        self._edits.texts[model] = text
+        return model
+
+    def _remove_model(self, handle: int) -> None:
+        if scripts := self._caller.shared.scripts:
+            scripts.remove_model(handle)
+        else:
+            self._simulation.remove_model(handle)
