@@ -86,7 +86,8 @@ def main() -> None:
         middle, last = statistics.median(values), _p99(values)
         ratios = f"{middle / statistics.median(bare):18.2f} {last / _p99(bare):14.2f}"
         print(f"{name:8} {middle * 1e6:6.0f} us {last * 1e6:6.0f} us {ratios}")
-    with _node(_PORT + 9, "--speed", "max") as client:
+    with _node(_PORT + 9, "--speed", "max") as client:  # alone: the others have ended
+        handle = client.call("sim.getObject", ["/Tricycle"])
         client.call("sim.setStepping", [True])
         client.call("sim.startSimulation", [])
         begin = time.perf_counter()

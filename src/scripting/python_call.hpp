@@ -4,6 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -11,11 +12,12 @@
 
 namespace bubblesim::scripting {
 
-/// Acquires the GIL and calls. Other Python threads may use the simulation whenever the call releases the GIL. Converts
-/// a Python exception, which must not outlive the interpreter, to a std::runtime_error.
+/// Acquires the GIL and calls. Other Python threads may use the simulation, which may be null, whenever the call
+/// releases the GIL. Converts a Python exception, which must not outlive the interpreter, to a std::runtime_error.
 template <class Action>
-auto with_python(Simulation& simulation, const char* whose, Action action) {
-  const AccessLock::Pause others_may_use_it(simulation.world().access());
+auto with_python(Simulation* simulation, const char* whose, Action action) {
+  std::optional<AccessLock::Pause> others_may_use_it;
+  if (simulation != nullptr) others_may_use_it.emplace(simulation->world().access());
   const pybind11::gil_scoped_acquire gil;
   try {
     return action();

@@ -28,6 +28,8 @@ struct PythonSystem::Methods {
   pybind11::object reset;
   pybind11::object model_added;
   pybind11::object model_removing;
+  pybind11::object save_state;
+  pybind11::object restore_state;
 
   /// Call it with the GIL.
   void bind(pybind11::object object);
@@ -35,7 +37,7 @@ struct PythonSystem::Methods {
 
 template <class Action>
 void PythonSystem::with_python(Action action) {
-  scripting::with_python(engine_.runner().simulation(), name_.c_str(), [&] {
+  scripting::with_python(engine_.simulation(), name_.c_str(), [&] {
     action();
     after_call();
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/python_system.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 #include "python_methods.hpp"
@@ -9,21 +10,34 @@ namespace bubblesim {
 
 namespace py = pybind11;
 
-PythonEngine::PythonEngine(Runner& runner, messages::Bridge* bridge)
-    : runner_(runner), objects_(std::make_unique<Objects>()) {
-  scripting::with_python(runner.simulation(), "the simulator's Python code", [&] {
-    py::module_::import("bubblesim._core");  // knows the classes
-    objects_->runner = py::cast(&runner, py::return_value_policy::reference);
-    objects_->bridge = py::none();
-    if (bridge != nullptr) objects_->bridge = py::cast(bridge, py::return_value_policy::reference);
-  });
+PythonEngine::PythonEngine() : objects_(std::make_unique<Objects>()) {
+  scripting::with_python(nullptr, "the simulator's Python code",
+                         [] { py::module_::import("bubblesim._core"); });  // knows the classes
 }
 
-PythonEngine::~PythonEngine() {
+PythonEngine::~PythonEngine() { end(); }
+
+void PythonEngine::begin(Runner& runner, messages::Bridge* bridge) {
   const py::gil_scoped_acquire gil;
-  runner_.remove_gates();  // their functions may be Python's, and the runner outlives the interpreter
+  runner_ = &runner;
+  objects_->runner = py::cast(&runner, py::return_value_policy::reference);
+  objects_->bridge = py::none();
+  if (bridge != nullptr) objects_->bridge = py::cast(bridge, py::return_value_policy::reference);
+}
+
+void PythonEngine::end() {
+  const py::gil_scoped_acquire gil;
+  if (runner_ != nullptr) runner_->remove_gates();  // their functions may be Python's
+  runner_ = nullptr;
   objects_->runner = objects_->bridge = py::object();
 }
+
+Runner& PythonEngine::runner() {
+  if (runner_ == nullptr) throw std::logic_error("Python's systems have no runner");
+  return *runner_;
+}
+
+Simulation* PythonEngine::simulation() { return runner_ != nullptr ? &runner_->simulation() : nullptr; }
 
 void PythonSystem::Methods::bind(py::object object) {
   self = std::move(object);
@@ -37,6 +51,8 @@ void PythonSystem::Methods::bind(py::object object) {
   reset = method("reset");
   model_added = method("model_added");
   model_removing = method("model_removing");
+  save_state = method("save_state");
+  restore_state = method("restore_state");
 }
 
 PythonSystem::PythonSystem(PythonEngine& engine, std::string name)
@@ -81,6 +97,18 @@ void PythonSystem::model_added(World&, ObjectId model) {
 
 void PythonSystem::model_removing(World&, ObjectId model) {
   if (methods_->model_removing) with_python([&] { methods_->model_removing(model); });
+}
+
+std::string PythonSystem::state_name() const { return methods_->save_state ? name_ : ""; }
+
+std::string PythonSystem::save_state() {
+  std::string state;
+  with_python([&] { state = methods_->save_state().cast<std::string>(); });
+  return state;
+}
+
+void PythonSystem::restore_state(std::string_view state) {
+  with_python([&] { methods_->restore_state(py::bytes(state.data(), state.size())); });
 }
 
 }  // namespace bubblesim

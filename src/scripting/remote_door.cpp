@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "python_methods.hpp"
 
@@ -10,11 +11,13 @@ namespace bubblesim {
 
 namespace py = pybind11;
 
-RemoteDoor::RemoteDoor(PythonEngine& engine, const ChildScripts& scripts, const std::string& address, int port)
+RemoteDoor::RemoteDoor(PythonEngine& engine, const RemoteDoorOptions& options)
     : PythonSystem(engine, "the door for remote clients") {
   with_python([&] {
-    methods_->bind(
-        py::module_::import("bubblesim.remote.server").attr("RemoteServer")(scripts.methods_->self, address, port));
+    const py::object server = py::module_::import("bubblesim.remote.server").attr("RemoteServer");
+    const py::cpp_function note_clients([this](bool any) { has_clients_ = any; });
+    methods_->bind(server(options.address, options.port, note_clients, py::arg("trusted") = options.trusted,
+                          py::arg("fixed_scene") = options.fixed_scene));
   });
 }
 
@@ -26,7 +29,26 @@ RemoteDoor::~RemoteDoor() {
   }
 }
 
+void RemoteDoor::publish(const World& world, double time) {
+  if (has_clients_) PythonSystem::publish(world, time);
+}
+
+void RemoteDoor::attach(const ChildScripts& scripts, const std::string& failure) {
+  with_python([&] { methods_->self.attr("attach")(scripts.methods_->self, failure); });
+}
+
+void RemoteDoor::detach() {
+  with_python([&] { methods_->self.attr("detach")(); });
+}
+
+std::shared_ptr<const Scene> RemoteDoor::take_next_scene() {
+  std::shared_ptr<const Scene> next;
+  with_python([&] { next = methods_->self.attr("take_next_scene")().cast<std::shared_ptr<Scene>>(); });
+  return next;
+}
+
 void RemoteDoor::close() {
+  if (std::exchange(closed_, true)) return;
   with_python([&] { methods_->self.attr("close")(); });
 }
 

@@ -131,7 +131,7 @@ class Node(Background):
         return self.process.wait(timeout=DEADLINE)
 
 
-def told_by(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
+def findings_of(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
     """Return the JSON object that a probe, code of a Python node, prints at its end."""
     told = folder / "told"
     with told.open("w") as output:

@@ -94,7 +94,9 @@ def start(command: list[str], env: dict[str, str], **options: object) -> "subpro
 
 
 def stop(process: "subprocess.Popen[str]") -> None:
-    """End the process and everything that it started."""
+    """End a process of start() and everything that it started."""
+    if process.poll() is None:
+        assert os.getpgid(process.pid) == process.pid, "only start() makes a group to end"
     for number in (signal.SIGINT, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
@@ -114,6 +116,7 @@ class RosCore:
         )
         wait_until(lambda: "/rosout" in self.nodes(), "roscore to start")
         self._master_pid = int(self._ask_master("getPid", "/test"))
+        self._first_state = self._all_state()
 
     def __enter__(self) -> "RosCore":
         return self
@@ -139,6 +142,16 @@ class RosCore:
         code, message, value = getattr(master, method)(*arguments)
         assert code == 1, message
         return value
+
+    def is_as_new(self) -> bool:
+        """Return whether nothing but the state at the start is left."""
+        try:
+            return self.process.poll() is None and self._all_state() == self._first_state
+        except (OSError, xmlrpc.client.Error):
+            return False
+
+    def _all_state(self) -> tuple[object, object]:
+        return self.state(), sorted(self._ask_master("getParamNames", "/test"))
 
     def nodes(self) -> set[str]:
         return {node for book in self.state().values() for nodes in book.values() for node in nodes}
@@ -179,7 +192,23 @@ class RestartableCore:
         self.core = RosCore(self._directory, self.core.port)
 
 
+_kept: list[RosCore] = []  # that of the last test: starting one takes longer than most tests
+
+
 @pytest.fixture
 def roscore(tmp_path: Path) -> Iterator[RosCore]:
-    with RosCore(tmp_path / "roslog") as core:
-        yield core
+    """Yield a roscore that is as new: without nodes, parameters and services of tests."""
+    log = tmp_path / "roslog"
+    core = _kept.pop() if _kept else RosCore(log)
+    core.env = ros_environment(core.port, log)
+    yield core
+    core.resume()
+    if core.is_as_new():
+        _kept.append(core)
+    else:
+        stop(core.process)
+
+
+def pytest_sessionfinish() -> None:
+    while _kept:
+        stop(_kept.pop().process)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import uuid
+from collections.abc import Iterator
 from types import SimpleNamespace
 from typing import Any, Self
 
@@ -12,6 +13,7 @@ import cbor2
 import numpy as np
 import zmq
 
+from bubblesim.remote.frames import Frame, read_frames
 from bubblesim.remote.remote_sim import RemoteSim
 from bubblesim.scripting.api.functions import functions
 
@@ -30,6 +32,7 @@ class Connection:
         :param timeout: s to wait for a reply, more than the longest ``sim.wait``.
         :raises TimeoutError: if there is no answer.
         """
+        self._host = host
         self._address = f"{host}:{port}"
         self._uuid = str(uuid.uuid4())
         self._timeout = timeout
@@ -59,10 +62,21 @@ class Connection:
         results = [_typed(value) for value in reply["ret"]]
         return results[0] if len(results) == 1 else tuple(results) if results else None
 
+    def frames(self) -> Iterator[Frame]:
+        """Yield the last frame of the simulation again and again, as it changes, up to 60 a second.
+
+        Between two frames it waits. A program that is slow skips frames and does not slow the simulation.
+
+        >>> for frame in simulator.frames():
+        ...     print(frame.time, frame.poses[frame.links.index("/Ball/body")])
+
+        :raises TimeoutError: if the node is gone.
+        """
+        return read_frames(self._context, self._host, self._timeout, self.call)
+
     def close(self) -> None:
         """Disconnect, which ends the stepping mode of this connection."""
-        self._socket.close()
-        self._context.term()
+        self._context.destroy(0)  # with the sockets of frames
 
     def __enter__(self) -> Self:
         """Return this connection."""

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.remote import protocol
+from bubblesim.remote.frame_publisher import layout
 from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.remote.remote_sim import RemoteSim
+from bubblesim.remote.window import functions as window_functions
 from bubblesim.scripting.api.functions import functions
 
 
@@ -23,6 +25,12 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
         if wanted != "sim" and not (isinstance(wanted, str) and wanted.partition("-")[0] == "sim"):
             raise ImportError(f"module '{wanted}' not found: remote clients have the module sim")
         return None if name == "require" else info()
+    if request.function == "frames.open":
+        return client.door.publish_frames()
+    if request.function == "frames.layout":
+        return layout(client)
+    if module == "window":
+        return window_functions.call(client, name, request.arguments)
     if module != "sim" or name.startswith("_"):
         raise AttributeError(f"there is no function '{request.function}': remote clients have those of sim")
     function = getattr(sim, name)

@@ -73,6 +73,22 @@ class Door(Protocol):
     steps: int
     """Number of steps since the start of the server."""
     host: Any
+    scenes: int
+    """Number of scenes since the start of the server."""
+    failure: str
+    """Why the scene that a client asked for is not there; empty if it is."""
+    fixed_scene: str
+    """Why clients cannot load another scene; empty if they can."""
+    trusted: bool
+    """Clients may start all programs and use all files."""
+    folders: list[Path]
+    """In which scenes are searched."""
+
+    def change_scene(self, scene: Any) -> None:
+        """Let the node go on with another ``bubblesim.Scene``."""
+
+    def publish_frames(self) -> int:
+        """Publish frames from now on, and return the port."""
 
     def stepping_changed(self) -> None:
         """A client has changed its level of stepping."""
@@ -96,6 +112,8 @@ class RemoteClient:
     is_remote: bool = True
     at_end: dict[Hashable, Hook] = field(default_factory=dict)
     in_each_step: dict[Hashable, Hook] = field(default_factory=dict)
+    at_leave: dict[Hashable, Callable[[], None]] = field(default_factory=dict)
+    """What the client holds in this scene is released by these when it leaves, or its connection breaks."""
     programs: list[Any] = field(default_factory=list)
     lines: dict[bytes, Line] = field(default_factory=dict)
     callbacks: deque[tuple[str, tuple[Any, ...]]] = field(default_factory=lambda: deque(maxlen=1000))
@@ -113,8 +131,23 @@ class RemoteClient:
         self.object_path = f"remote client {self.number}"
 
     def may_start(self, program: Path) -> bool:
-        """Return whether the client may start this program: those that a Lua script may start."""
-        return is_allowed(program, self.door.host.allowed_programs)
+        """Return whether the client may start this program: those that a Lua script may start, unless it is trusted."""
+        return self.door.trusted or is_allowed(program, self.door.host.allowed_programs)
+
+    @property
+    def may_use_files(self) -> bool:
+        """Whether the client may read and write all files."""
+        return self.door.trusted
+
+    def begin_scene(self, shared: SharedData) -> None:
+        """Go on with another scene."""
+        self.shared = shared
+        self.at_end.clear()
+        self.in_each_step.clear()
+        self.at_leave.clear()
+        self.callbacks.clear()
+        self.granted = 0
+        self.waits_for_time = False
 
     def callback(self, function: Callable[..., object] | str) -> Callable[..., None]:
         """Return a function that calls a function of the client."""

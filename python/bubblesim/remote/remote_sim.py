@@ -7,9 +7,10 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from bubblesim._core import RunState
+from bubblesim._core import RunState, Scene
 from bubblesim.remote.remote_client import Conversation, Pending, RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
+from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
 
 _TOLERANCE = 1e-6  # of a step
@@ -87,16 +88,20 @@ class RemoteSim(SimApi):
 
     def loadScene(self, file: str) -> Any:
         """See SimApi.loadScene."""
-        self._require_this_scene(file)
-        return self.closeScene()
+        self._require_changeable_scene("sim.loadScene")
+        if not file:
+            return self._change_scene(Scene.empty())
+        places = [folder / f"{stem(file)}.sdf" for folder in self._caller.door.folders]
+        own = Path(self._simulation.scene_file)
+        if stem(file) == own.stem:  # also of another format than .sdf
+            places.insert(0, own)
+        found = self._find("sim.loadScene", "scene", file, places)
+        return self._change_scene(self._simulation.scene if found.suffix == ".xacro" else Scene(str(found)))
 
     def closeScene(self) -> Any:
         """See SimApi.closeScene."""
-        self._runner.stop(wait=False)
-        pending = self._after_commands()
-        self._caller.door.after_commands(self._remove_created)
-        pending.result = lambda: 1
-        return pending
+        self._require_changeable_scene("sim.closeScene")
+        return self._change_scene(Scene.empty())
 
     def testCB(self, first: Any, callback: Any, second: Any, calls: int = _CALLS_OF_TEST) -> Conversation:
         """Call a function of the client several times, and return what it returns at last."""
@@ -136,16 +141,19 @@ class RemoteSim(SimApi):
         timer.start()
         return Pending(over.is_set, lambda: 0.0)
 
-    def _require_this_scene(self, file: str) -> None:
-        own = Path(self._simulation.scene_file)
-        if Path(file.replace("\\", "/")).stem != own.stem:
-            raise RuntimeError(self._other_scene(file))
+    def _require_changeable_scene(self, function: str) -> None:
+        if why := self._caller.door.fixed_scene:
+            raise RuntimeError(f"{function}: the scene cannot be changed: {why}")
 
-    def _remove_created(self) -> None:
-        shared = self._caller.shared
-        for model in [model for model in shared.loaded_models if self._tree.contains(model)]:
-            self._remove_model(model)
-        shared.loaded_models.clear()
-        for handle in list(shared.dummies.by_handle):
-            shared.dummies.remove(handle)
-        shared.custom_data.clear()
+    def _change_scene(self, scene: Any) -> Pending:
+        door = self._caller.door
+        before = door.scenes
+
+        def result() -> int:
+            if door.failure:
+                raise RuntimeError(door.failure)
+            return 1
+
+        self._runner.stop(wait=False)
+        door.after_commands(lambda: door.change_scene(scene))
+        return Pending(lambda: door.scenes > before, result)

@@ -2,68 +2,137 @@
 """Serves remote clients: a system of the node, whose sockets belong to the simulating thread.
 
 The runner watches the descriptors of the sockets and calls ``_serve`` between steps, so a call finds the simulation at
-rest. ZeroMQ's descriptors signal edges: after each use of a socket its events are read again.
+rest. ZeroMQ's descriptors signal edges: after each use of a socket outside of ``_serve`` the runner is asked to call it
+again.
 """
 
 from __future__ import annotations
 
 import ipaddress
-import math
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import zmq
 from zmq.utils.monitor import recv_monitor_message
 
-from bubblesim._core import RunState
+from bubblesim._core import scene_folders
 from bubblesim.output import write_line
 from bubblesim.remote import protocol
+from bubblesim.remote.clients import Clients
+from bubblesim.remote.frame_publisher import FramePublisher
 from bubblesim.remote.function_calls import carry_out, info
 from bubblesim.remote.remote_client import Line, Pending, RemoteClient
-from bubblesim.remote.remote_sim import RemoteSim
-from bubblesim.scripting.host.started_programs import end_programs
 
 _SLICE = 0.005  # s of requests between two looks at other commands
-_LINGER = 1  # ms for the next request of a client that has just got its reply
-_MOST_CLIENTS = 2000
 _MOST_NESTED = 50  # calls in callbacks in calls
-_BETWEEN_LOOKS = 1.0  # s between two looks for clients that are silent for too long
 _ENDED = "the simulator has ended"
+
+# As plain numbers: those of pyzmq are enumerations, whose operators take longer than sending.
+_NOW = int(zmq.NOBLOCK)
+_MORE_NOW = int(zmq.NOBLOCK | zmq.SNDMORE)
+_HAS_MORE = int(zmq.RCVMORE)
+_EVENTS = int(zmq.EVENTS)
+_INPUT = int(zmq.POLLIN)
 
 
 class RemoteServer:
-    """Listens from its creation until ``close``."""
+    """Listens from its creation until ``close``, and serves the scene that it is attached to."""
 
-    def __init__(self, host: Any, address: str, port: int) -> None:
+    def __init__(
+        self,
+        address: str,
+        port: int,
+        note_clients: Callable[[bool], None],
+        *,
+        trusted: bool = False,
+        fixed_scene: str = "",
+    ) -> None:
         """Listen on address:port; port 0 takes a free one.
 
-        :param host: the ScriptHost of the node.
+        :param note_clients: called with whether there are clients; ``publish`` is called only then.
+        :param trusted: clients may start all programs and use all files.
+        :param fixed_scene: why clients cannot load another scene; empty if they can.
         :raises RuntimeError: if the address cannot be used.
         """
-        self.host = host
+        self.host: Any = None
+        self.trusted = trusted
+        self.fixed_scene = fixed_scene
         self.steps = 0
-        self._runner = host.runner
-        self._clients: dict[str, RemoteClient] = {}  # by uuid
-        self._modules: dict[str, RemoteSim] = {}  # by uuid
+        self.scenes = 0  # number of scenes so far
+        self.failure = ""  # why the scene that a client asked for is not there
+        self.folders: list[Path] = []  # in which scenes are searched
+        self._next_scene: Any = None
+        self._runner: Any = None
+        self._watch: Any = None
+        self._watch_of_monitor: Any = None
+        self._clients = Clients(self, note_clients)
         self._lines: dict[bytes, Line] = {}
-        self._created = 0
-        self._gate: int | None = None
-        self._next_look = 0.0
+        self._waiting: dict[bytes, Line] = {}  # those with a pending call; perhaps some others
         self._ending = False
         self._info = protocol.encode({"ret": [info()]})
         self._context = zmq.Context()
+        self._address = address
+        self._frames: FramePublisher | None = None
         self._socket = self._listen(address, port)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
-        self._watches = [
-            self._runner.watch(self._socket.getsockopt(zmq.FD), self._serve),
-            self._runner.watch(self._monitor.getsockopt(zmq.FD), self._serve_monitor),
-        ]
+        if trusted:
+            write_line(
+                sys.stderr,
+                "warning: --remote-trusted: remote clients can start any program, and read and write scene files",
+            )
+
+    # Scenes
+
+    def attach(self, host: Any, failure: str = "") -> None:
+        """Serve the scene of a ScriptHost.
+
+        :param failure: why the scene that a client asked for is not this one.
+        """
+        self.host = host
+        self.failure = failure
+        self.scenes += 1
+        self._runner = host.runner
+        if not self.folders:
+            first = Path(host.simulation.scene_file)
+            self.folders = [first.absolute().parent] if first.name else []
+            self.folders += [Path.cwd(), *map(Path, scene_folders())]
+        self._watch = self._runner.watch(self._socket.getsockopt(zmq.FD), self._serve)
+        self._watch_of_monitor = self._runner.watch(self._monitor.getsockopt(zmq.FD), self._serve_monitor)
+        self._clients.begin_scene(host)
+        if self._frames is not None:
+            self._frames.show(self.scenes, self._runner)
+        self._runner.post(self._answer_pending)
+        self._watch.look_again()  # the descriptors do not signal what came in between
+
+    def detach(self) -> None:
+        """Leave the scene; requests wait until the next one is attached."""
+        self._close_watches()
+        self._clients.leave_scene()
+        if self._frames is not None:
+            self._frames.show_none()
+        self.host = self._runner = None
+
+    def _close_watches(self) -> None:
+        if self.host is not None:
+            self._watch.close()
+            self._watch_of_monitor.close()
+
+    def change_scene(self, scene: Any) -> None:
+        """Let the node go on with another ``bubblesim.Scene``."""
+        self._next_scene = scene
+        self._runner.end(wait=False)
+
+    def take_next_scene(self) -> Any:
+        """Return the scene for the node to go on with; None if it is to end."""
+        scene, self._next_scene = self._next_scene, None
+        return scene
 
     def _listen(self, address: str, port: int) -> zmq.Socket[bytes]:
         socket = self._context.socket(zmq.ROUTER)
-        socket.setsockopt(zmq.LINGER, 200)  # ms for the last replies
+        socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
         socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
         socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
         socket.setsockopt(zmq.SNDHWM, 16)  # replies that are not read
@@ -89,33 +158,30 @@ class RemoteServer:
     def publish(self) -> None:
         """Count a step, and answer those who waited for it."""
         self.steps += 1
-        if not self._clients:
-            return
-        for client in self._clients.values():
-            if client.granted:
-                client.granted -= 1
-        self._answer_pending()
+        self._clients.note_step()
+        if self._waiting:
+            self._answer_pending()
 
     def stop(self) -> None:
         """End the stepping of all clients."""
-        for client in self._clients.values():
-            client.level = client.granted = 0
-        self.stepping_changed()
+        self._clients.end_stepping()
         self._runner.post(self._answer_pending)  # the state is stopped then
 
     def close(self) -> None:
         """Send an error to the clients that wait, and stop listening."""
         if self._socket.closed:
             return
-        for watch in self._watches:
-            watch.close()
+        self._close_watches()
         self._ending = True
-        self._serve()  # those who have just asked wait for an answer, too
+        if self.host is not None:
+            self._serve()  # those who have just asked wait for an answer, too
         for line in list(self._lines.values()):
             if line.is_open:
                 fits = line.pending is not None and line.pending.fits_the_end
                 self._send(line, protocol.result(None) if fits else protocol.error(_ENDED))
-        end_programs([program for client in self._clients.values() for program in client.programs])
+        self._clients.end_programs()
+        if self._frames is not None:
+            self._frames.close()
         self._socket.disable_monitor()
         self._monitor.close(0)
         self._socket.close()
@@ -123,26 +189,16 @@ class RemoteServer:
 
     # For clients
 
+    def publish_frames(self) -> int:
+        """Publish frames from now on, and return the port."""
+        if self._frames is None:
+            self._frames = FramePublisher(self._context, self._address)
+            self._frames.show(self.scenes, self._runner)
+        return self._frames.port
+
     def stepping_changed(self) -> None:
         """Hold back steps if a client is in stepping mode."""
-        wanted = any(client.level for client in self._clients.values())
-        if wanted and self._gate is None:
-            self._gate = self._runner.add_gate(self._may_step, self._why_not)
-        elif not wanted and self._gate is not None:
-            self._runner.remove_gate(self._gate)
-            self._gate = None
-
-    def _may_step(self) -> bool:
-        now = time.monotonic()
-        if now > self._next_look:
-            self._next_look = now + _BETWEEN_LOOKS
-            if any(_is_silent(client, now) for client in self._clients.values()):
-                self._runner.post(self._forget_silent)  # not here: it may remove this gate
-        return all(c.granted or c.waits_for_time or not c.level for c in self._clients.values())
-
-    def _why_not(self) -> str:
-        names = ", ".join(client.object_path for client in self._clients.values() if client.level)
-        return f"{names} steps the simulation"
+        self._clients.stepping_changed()
 
     def after_commands(self, done: Callable[[], None]) -> None:
         """Call a function when the commands given so far have been carried out, and answer pending calls then."""
@@ -151,51 +207,36 @@ class RemoteServer:
             done()
             self._answer_pending()
 
-        self._runner.post(carried_out)
+        if self._runner is not None:  # a timer may end between two scenes
+            self._runner.post(carried_out)
 
     def deliver(self, client: RemoteClient) -> None:
         """Send the callbacks of a client if it waits for a reply."""
         for line in client.lines.values():
             if client.callbacks and line.is_open and not line.calls_back:
                 self._pump(line)
-        self._look_again()
+        self._watch.look_again()
 
     # Messages
 
     def _serve(self) -> bool:
         """Handle requests for a while; return whether there are more."""
         end = time.perf_counter() + _SLICE
-        while True:
-            try:
-                self._receive()
-            except zmq.Again:
-                if not self._may_linger() or not self._socket.poll(_LINGER):
-                    return False
+        while int(self._socket.getsockopt(_EVENTS)) & _INPUT:  # cheaper than an exception of recv
             if time.perf_counter() > end:
-                return self._has_input()
-
-    def _may_linger(self) -> bool:
-        """Return whether no step is late if this waits for the next request, which saves the change of threads."""
-        if self._ending:
-            return False
-        if self._runner.state != RunState.RUNNING or math.isfinite(self._runner.speed):
-            return True
-        return self._gate is not None and not self._may_step()
-
-    def _look_again(self) -> None:
-        """Do what the descriptor may not signal any more, after the socket was used outside of _serve."""
-        if not self._socket.closed and self._has_input():
-            self._runner.post(lambda: self._look_again() if self._serve() else None)
-
-    def _has_input(self) -> bool:
-        return bool(int(self._socket.getsockopt(zmq.EVENTS)) & zmq.POLLIN)
+                return True
+            self._receive()
+        return False
 
     def _receive(self) -> None:
-        """Handle one message; raise zmq.Again if there is none."""
-        identity = self._socket.recv(zmq.NOBLOCK)
+        """Handle one message."""
+        receive, option = self._socket.recv, self._socket.getsockopt
+        identity = receive(_NOW)
         line = self._lines.get(identity)
         if line is not None:
-            parts = self._socket.recv_multipart()
+            parts = [receive(_NOW)]
+            while option(_HAS_MORE):
+                parts.append(receive(_NOW))
         else:
             self._serve_monitor()  # before a descriptor is known under its new owner
             frames = self._socket.recv_multipart(copy=False)
@@ -215,12 +256,11 @@ class RemoteServer:
         if not request.uuid:
             self._send(line, protocol.encode({"success": False, "error": "the request has no uuid"}))
             return
-        client = self._client_of(line, request)
-        client.last_seen = time.monotonic()
+        client = self._clients.client_of(line, request.uuid, request.timeout)
         if request.function == protocol.EXECUTED:
             self._returned(line, request.arguments)
         elif request.function == protocol.END:
-            self._forget(client)
+            self._clients.forget(client)
             self._send(line, protocol.encode({}))
         elif (line.is_open and not line.calls_back) or len(line.outer) >= _MOST_NESTED:
             self._send(line, protocol.error("the previous call on this socket is not answered yet"))
@@ -237,9 +277,10 @@ class RemoteServer:
             if request.function == "zmqRemoteApi.info" and request.arguments == ["sim"]:
                 reply = self._info
             else:
-                value = carry_out(request, self._modules[request.uuid], client)
+                value = carry_out(request, self._clients.sim_of(request.uuid), client)
                 if isinstance(value, Pending) and not value.is_done():
                     line.pending = value
+                    self._waiting[line.identity] = line
                     self._pump(line)
                     return
                 if hasattr(value, "send"):
@@ -294,21 +335,23 @@ class RemoteServer:
             reply, line.reply = line.reply, None
             if line.outer:
                 line.end_inner()
+                if line.pending is not None:
+                    self._waiting[line.identity] = line
             self._send(line, reply)
 
     def _answer_pending(self) -> None:
-        sent = False
-        for line in list(self._lines.values()):
+        for line in list(self._waiting.values()):
             if self._settle(line):
                 self._pump(line)
-                sent = True
-        if sent:
-            self._look_again()
+                self._watch.look_again()
 
     def _settle(self, line: Line) -> bool:
         """Turn a pending call into its reply if it is done."""
         pending = line.pending
-        if pending is None or not pending.is_done():
+        if pending is not None and not pending.is_done():
+            return False
+        self._waiting.pop(line.identity, None)
+        if pending is None:
             return False
         line.pending = None
         try:
@@ -318,33 +361,20 @@ class RemoteServer:
         return True
 
     def _send(self, line: Line, message: bytes) -> None:
-        parts = [line.identity, b"", message]
+        send = self._socket.send
         try:
             try:
-                self._socket.send_multipart(parts, zmq.NOBLOCK)
+                send(line.identity, _MORE_NOW)
             except zmq.Again:
-                self._socket.getsockopt(zmq.EVENTS)  # learns here how much the peer has read
-                self._socket.send_multipart(parts, zmq.NOBLOCK)
+                self._socket.getsockopt(_EVENTS)  # learns here how much the peer has read
+                send(line.identity, _MORE_NOW)
         except zmq.ZMQError:  # it is gone, or does not read
             self._drop(line)
+            return
+        send(b"", _MORE_NOW)  # only the first part can fail
+        send(message, _NOW)
 
-    # Who is there
-
-    def _client_of(self, line: Line, request: protocol.Request) -> RemoteClient:
-        client = self._clients.get(request.uuid)
-        if client is None:
-            if len(self._clients) >= _MOST_CLIENTS:
-                self._forget(min(self._clients.values(), key=lambda each: each.last_seen))
-            self._created += 1
-            client = RemoteClient(self, self.host.shared, self._created, request.timeout or 600.0)
-            self._clients[request.uuid] = client
-            self._modules[request.uuid] = RemoteSim(self._runner, client)
-        if line.client is not client:
-            if line.client is not None:
-                line.client.lines.pop(line.identity, None)
-            line.client = client
-            client.lines[line.identity] = line
-        return client
+    # Broken connections
 
     def _serve_monitor(self) -> bool:
         """Forget the lines whose connection broke."""
@@ -358,32 +388,17 @@ class RemoteServer:
 
     def _drop(self, line: Line) -> None:
         self._lines.pop(line.identity, None)
+        self._waiting.pop(line.identity, None)
         line.clear()
-        if line.client is not None:
-            line.client.lines.pop(line.identity, None)
-            if not line.client.lines:
-                self._forget(line.client)
-
-    def _forget(self, client: RemoteClient) -> None:
-        for uuid in [uuid for uuid, known in self._clients.items() if known is client]:
-            del self._clients[uuid], self._modules[uuid]
-        for line in list(client.lines.values()):
-            line.client = None
-            line.clear()
-        client.lines.clear()
-        end_programs(client.programs)
-        client.programs = []
-        self.stepping_changed()
-
-    def _forget_silent(self) -> None:
-        now = time.monotonic()
-        for client in [client for client in self._clients.values() if _is_silent(client, now)]:
-            write_line(sys.stderr, f"info: {client.object_path} is silent for {client.timeout:g} s and was released")
-            self._forget(client)
-
-
-def _is_silent(client: RemoteClient, now: float) -> bool:
-    return now - client.last_seen > client.timeout and not any(line.is_open for line in client.lines.values())
+        client = line.client
+        if client is None:
+            return
+        client.lines.pop(line.identity, None)
+        if not client.lines:
+            self._clients.forget(client)
+        elif client.waits_for_time:  # perhaps on this line
+            client.waits_for_time = False
+            self._answer_pending()
 
 
 def _text(error: Exception) -> str:

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions of the module ``window``: each takes the Window and the arguments of the client."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bubblesim.remote.remote_client import RemoteClient
+from bubblesim.remote.window import editing, objects, running, saving, scene, sensors
+from bubblesim.remote.window.window import window_of
+
+# A file for each subject; its FUNCTIONS are what clients may call.
+_SUBJECTS = (scene, running, sensors, objects, editing, saving)
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    function.__name__: function for subject in _SUBJECTS for function in subject.FUNCTIONS
+}
+
+
+def call(client: RemoteClient, name: str, arguments: list[Any]) -> Any:
+    """Call a function of the window for a client, in the scene that runs.
+
+    :raises AttributeError: if there is no function of that name.
+    """
+    function = FUNCTIONS.get(name)
+    if function is None:
+        raise AttributeError(f"there is no function 'window.{name}'")
+    window = window_of(client.door.host)
+    window.client = client
+    return function(window, *arguments)

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim.connect."""
+
+import numpy as np
+import pytest
+
+import bubblesim
+from door_support import Door
+from ros_support import free_port
+
+
+def test_bubblesim_connect_has_typed_results(door: Door) -> None:
+    with bubblesim.connect(door.port) as simulator:
+        sim = simulator.sim
+        assert sim.getObjectPosition.__doc__ == "Return [x, y, z] in metres."
+        car = sim.getObject("/Tricycle")
+        sim.setStepping(True)
+        sim.startSimulation()
+        dummy = sim.createDummy(0.1)
+        sim.setObjectPosition(dummy, np.array([1.0, 2.0, 3.0]))
+        np.testing.assert_allclose(sim.getObjectPosition(dummy), [1, 2, 3])
+        assert isinstance(sim.getObjectPosition(car), np.ndarray)
+        assert sim.step() is None
+        with pytest.raises(RuntimeError, match="did you mean /Tricycle"):
+            sim.getObject("/Tricyle")
+    other = door.sim()
+    other.wait(0.5)  # the connection has ended its stepping
+
+
+def test_bubblesim_connect_says_that_nobody_answers() -> None:
+    port = free_port()
+    with pytest.raises(TimeoutError, match=f"no answer from 127.0.0.1:{port}"):
+        bubblesim.connect(port, timeout=0.2)

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stepping mode, waiting, and clients that disappear while they step."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import cbor2
+import pytest
+
+from door_support import Door
+from node_support import run_sim, write
+from ros_support import wait_until
+
+
+def test_two_clients_step_together(door: Door) -> None:
+    one, two, watching = door.sim(), door.sim(), door.sim()
+    assert (one.setStepping(True), one.setStepping(True), one.setStepping(False)) == (0, 1, 2)
+    two.setStepping(True)
+    one.startSimulation()
+    assert watching.getSimulationTime() == 0
+    one.client.call("sim.step", [False])  # alone it does nothing
+    for _ in range(3):
+        assert watching.getSimulationTime() == 0
+    two.step()
+    assert watching.getSimulationTime() == pytest.approx(0.05)
+    two.client.call("sim.step", [False])
+    one.step()
+    assert watching.getSimulationTime() == pytest.approx(0.1)
+    two.setStepping(False)
+    one.step()
+    assert watching.getSimulationTime() == pytest.approx(0.15)
+    watching.stopSimulation()
+    watching.startSimulation()  # the stop has ended the stepping
+    watching.wait(1.0)
+
+
+def test_wait_runs_the_steps_of_a_stepping_client(door: Door) -> None:
+    sim = door.sim()
+    sim.setStepping(True)
+    sim.startSimulation()
+    sim.wait(0.5)
+    assert sim.getSimulationTime() == pytest.approx(0.5)
+    begin = time.monotonic()
+    sim.wait(0.2, False)
+    assert time.monotonic() - begin >= 0.2
+    assert sim.getSimulationTime() == pytest.approx(0.5)
+
+
+KILLED = """
+import sys, time
+from coppeliasim_zmqremoteapi_client import RemoteAPIClient
+port, state, moment = sys.argv[1:]
+sim = RemoteAPIClient(port=int(port)).require('sim')
+if state != 'running':
+    sim.setStepping(True)
+if state != 'stopped':
+    sim.startSimulation()
+if state == 'paused':
+    sim.pauseSimulation()
+big = bytes(40_000_000)
+MOMENTS = {
+    'idle': lambda: time.sleep(1000),
+    'call': lambda: sim.getObjectPosition(sim.getObject('/Tricycle')),
+    'large call': lambda: sim.setStringSignal('big', big),
+    'step': lambda: sim.step(),
+    'wait': lambda: sim.wait(1000.0, state != 'stopped'),
+    'callback': lambda: sim.testCB(1, lambda a, b: time.sleep(1000), 2),
+}
+print('ready', flush=True)
+while True:
+    MOMENTS[moment]()
+"""
+MOMENTS = ["idle", "call", "large call", "step", "wait", "callback"]
+
+
+@pytest.mark.parametrize("state", ["stopped", "paused", "running", "stepping"])
+def test_a_client_killed_at_any_moment_releases_the_simulation(door: Door, tmp_path: Path, state: str) -> None:
+    program = write(tmp_path / "client.py", KILLED)
+    sim = door.sim()
+    files = Path(f"/proc/{door.process.pid}/fd")
+    before = len(list(files.iterdir()))
+    for number, moment in enumerate(MOMENTS):
+        command = [sys.executable, str(program), str(door.port), state, moment]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+            assert process.stdout
+            assert process.stdout.readline() == "ready\n"
+            time.sleep((0.0, 0.003, 0.01, 0.05)[number % 4])
+            os.kill(process.pid, signal.SIGKILL)
+        expected = {"stopped": sim.simulation_stopped, "paused": sim.simulation_paused}
+        assert sim.getSimulationState() == expected.get(state, sim.simulation_advancing_running), moment
+        sim.startSimulation()
+        then = sim.getSimulationTime()
+        wait_until(lambda then=then: sim.getSimulationTime() > then + 0.2, f"the simulation to run on after a {moment}")
+        sim.stopSimulation()
+    wait_until(lambda: len(list(files.iterdir())) <= before, "the end of the connections")
+
+
+def test_a_client_that_is_silent_for_its_timeout_is_released(door: Door) -> None:
+    sim = door.sim()
+    silent = door.raw()
+    for message in (
+        {"func": "sim.setStepping", "args": [True], "uuid": "silent", "ver": 2, "timeout": 1},
+        {"func": "sim.startSimulation", "args": [], "uuid": "silent"},
+    ):
+        silent.send(cbor2.dumps(message))
+        assert "ret" in cbor2.loads(silent.recv())
+    assert sim.getSimulationTime() == 0
+    wait_until(lambda: sim.getSimulationTime() > 0, "the release")
+    assert "is silent for 1 s and was released" in door.output
+    silent.close()
+
+
+def test_a_silent_client_changes_nothing(tmp_path: Path) -> None:
+    options = ["--no-ros", "--speed", "max", "--until", 3, "--state-hash", "--seed", 5]
+    alone = run_sim("tricycle", *options).stdout.split()[-1]
+    with Door(tmp_path, "--speed", 2, "--start", *options[3:]) as door:
+        sim = door.sim()
+        sim.getObject("/Tricycle")
+        door.process.wait(20)
+        assert door.output.split()[-1] == alone

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A node with a door, the server of the window, and a page in a real browser; everything ends with the block."""
+
+import subprocess
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from playwright.sync_api import Page, sync_playwright
+
+from node_support import Node
+from ros_support import free_port, ros_environment, start, stop, wait_until
+
+_BROWSER = "/usr/bin/chromium"
+_SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox")
+_TIMEOUT = 40_000  # ms
+
+
+class ToolsPage:
+    """The window of a scene; `page` is Playwright's, `errors` what the browser's console has reported."""
+
+    page: Page
+
+    def __init__(self, folder: Path, scene: str, *options: object, env: Mapping[str, str] | None = None) -> None:
+        self._folder = folder
+        self._ends = ExitStack()
+        self.errors: list[str] = []
+        door, self.port = free_port(), free_port()
+        self.env = dict(env or ros_environment(free_port(), folder))
+        ros = [] if env else ["--no-ros"]
+        self.node = self._ends.enter_context(
+            Node(self.env, folder / "node.txt", scene, *ros, f"--remote={door}", "--start", *options)
+        )
+        wait_until(lambda: "remote clients can connect" in self.node.output, "the door")
+        command = [sys.executable, "-m", "bubblesim.web", "--door", str(door), "--port", str(self.port), "--token", "t"]
+        with (folder / "server.txt").open("w") as log:
+            self.server = start(command, self.env, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+        self._ends.callback(stop, self.server)
+        wait_until(lambda: "the window is at" in (folder / "server.txt").read_text(), "the server")
+
+    def __enter__(self) -> Self:
+        playwright = self._ends.enter_context(sync_playwright())
+        browser = playwright.chromium.launch(executable_path=_BROWSER, args=list(_SOFTWARE_GL))
+        self._ends.callback(browser.close)
+        self.page = browser.new_page(viewport={"width": 1400, "height": 900})
+        self.page.set_default_timeout(_TIMEOUT)
+        self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.goto(f"http://127.0.0.1:{self.port}/?token=t")
+        self.wait_for("window.bubblesim?.scene.objects.size > 0")
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._ends.close()
+
+    def show(self, panel: str) -> None:
+        """Bring a panel to the front."""
+        self.page.click(f'.tab[data-panel="{panel}"]')
+
+    def call(self, function: str, *arguments: Any) -> Any:
+        """Call a function as the page does."""
+        return self.page.evaluate("([name, args]) => bubblesim.link.call(name, args)", [function, list(arguments)])
+
+    def wait_for(self, condition: str) -> None:
+        """Wait until an expression of JavaScript is true. The page's policy forbids Playwright's own way to wait."""
+        wait_until(lambda: bool(self.page.evaluate(f"Boolean({condition})")), condition, timeout=_TIMEOUT / 1000)

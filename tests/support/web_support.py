@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A node with its window, and pages in a real browser."""
+
+import os
+import re
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, Self
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from ros_support import built, start, stop, wait_until
+
+_FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
+PATIENCE = 60_000  # ms, for a busy machine that draws without a GPU
+
+
+class Node:
+    """A node without ROS that shows a window."""
+
+    def __init__(self, folder: Path, scene: str, *options: str) -> None:
+        """Start it, and wait for the address of the window."""
+        self._errors = (folder / "node.err").open("w+")
+        command = [str(built("sim")), scene, "--no-ros", "--web", *options]
+        self._output = (folder / "node.out").open("w")
+        self.process = start(command, dict(os.environ), stdout=self._output, stderr=self._errors)
+        self.address = self._find(r"the window is at (\S+)")
+        self.origin = self.address.partition("/?")[0]
+
+    def _find(self, pattern: str) -> str:
+        found: list[str] = []
+
+        def look() -> bool:
+            self._errors.seek(0)
+            match = re.search(pattern, self._errors.read())
+            if match:
+                found.append(match[1])
+            return match is not None
+
+        wait_until(look, f"{pattern} in the node's output")
+        return found[0]
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        stop(self.process)
+        self._errors.close()
+        self._output.close()
+
+
+_DIFFERENT_PIXELS = """(async () => {
+  const a = bubblesim;
+  await a.view.settled();
+  const sensor = [...a.scene.objects.values()].find((e) => e.parameters?.kind === "camera");
+  const seen = a.view.pictureFrom(sensor);
+  const { rgb } = await a.link.call("window.reading", [sensor.handle]);
+  let pixels = 0;
+  for (let i = 0; i < seen.width * seen.height; ++i) {
+    if ([0, 1, 2].some((c) => Math.abs(seen.rgba[4 * i + c] - rgb[3 * i + c]) > 40)) ++pixels;
+  }
+  return pixels / (seen.width * seen.height);
+})()"""
+
+
+class Window:
+    """A page that shows the scene."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        """Open it and wait until the scene is drawn."""
+        self.page = page
+        self.errors: list[str] = []
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        page.goto(address)
+        self.wait("bubblesim.scene.models.length > 0 && bubblesim.link.frame")
+        self.js("bubblesim.view.settled()")
+
+    def js(self, expression: str, argument: Any = None) -> Any:
+        """Return the value of an expression; `x` is the argument."""
+        return self.page.evaluate(f"x => ({expression})", argument)
+
+    def wait(self, condition: str, argument: Any = None) -> None:
+        """Wait until an expression is true."""
+        # Not wait_for_function: it evaluates texts in the page, which the page's own policy forbids.
+        end = time.monotonic() + PATIENCE / 1000
+        while not self.page.evaluate(f"x => Boolean({condition})", argument):
+            assert time.monotonic() < end, f"{condition}; errors of the page: {self.errors}"
+            self.page.wait_for_timeout(50)
+
+    def difference_from_camera(self) -> float:
+        """Return the share of pixels that differ from the simulator's picture of the first camera."""
+        return float(self.js(_DIFFERENT_PIXELS))
+
+    def call(self, function: str, *arguments: Any) -> Any:
+        """Call a function of the simulator as the page does."""
+        return self.page.evaluate("([name, args]) => bubblesim.link.call(name, args)", [function, list(arguments)])
+
+    def select(self, path: str) -> None:
+        """Select an object."""
+        self.js("bubblesim.selection.select(bubblesim.scene.byPath(x))", path)
+
+    def button(self, title: str) -> Any:
+        """Return the button whose title begins so."""
+        return self.page.locator(f"button[title^='{title}']")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """Debian's Chromium, which draws in software."""
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=_FLAGS)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def show(browser: Browser) -> Iterator[Callable[..., Window]]:
+    """Open pages; at the end there must be no errors in their consoles."""
+    windows: list[Window] = []
+
+    def open_page(node: Node | str) -> Window:
+        page = browser.new_context(viewport={"width": 1000, "height": 620}).new_page()
+        page.set_default_timeout(PATIENCE)
+        windows.append(Window(page, node if isinstance(node, str) else node.address))
+        return windows[-1]
+
+    yield open_page
+    for window in windows:
+        errors = window.errors
+        window.page.context.close()
+        assert errors == []
