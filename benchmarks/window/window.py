@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cost of a page that takes every frame: CPU of the simulator, latency and size of frames, time to the first picture.
+
+Runs the node with a window, and a client that reads frames as the page does, in rounds with and without the client:
+
+    python benchmarks/window/window.py [--rounds N] [--seconds S]
+"""
+
+import argparse
+import asyncio
+import os
+import re
+import statistics
+import struct
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import aiohttp
+import cbor2
+from playwright.sync_api import sync_playwright
+
+from bubblesim.running.places import node_program
+
+BODIES = 1000
+
+
+def boxes(folder: Path) -> str:
+    """Write a scene of boxes that turn in the air, so that none of them sleeps; return its file."""
+    models = "".join(
+        f'<model name="box_{i}"><pose>{(i % 40) * 0.5} {(i // 40) * 0.5} 1 0 0 0</pose><link name="link">'
+        "<gravity>false</gravity><visual name='v'><geometry><box><size>.2 .2 .2</size></box></geometry></visual>"
+        "<collision name='c'><geometry><box><size>.2 .2 .2</size></box></geometry></collision></link></model>"
+        for i in range(BODIES)
+    )
+    file = folder / "boxes.sdf"
+    file.write_text(f'<sdf version="1.9"><world name="boxes">{models}</world></sdf>')
+    return str(file)
+
+
+def cpu_time(process: int) -> float:
+    """Return the CPU time of a process in s."""
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Client:
+    """Reads frames as a page does."""
+
+    def __init__(self) -> None:
+        """Start without frames."""
+        self.latencies: list[float] = []
+        self.sizes: list[int] = []
+
+    async def read(self, address: str, seconds: float) -> None:
+        """Read frames for a time."""
+        origin = address.partition("/?")[0]
+        jar = aiohttp.CookieJar(unsafe=True)  # of an address without a name
+        async with aiohttp.ClientSession(cookie_jar=jar) as session:
+            await session.get(address)
+            async with session.ws_connect(f"{origin}/socket", headers={"Origin": origin}, max_msg_size=0) as socket:
+                end = time.monotonic() + seconds
+                async for message in socket:
+                    if message.data[0] == 0:
+                        (written,) = struct.unpack_from("<d", message.data, 16)
+                        self.latencies.append(time.monotonic() - written)
+                        self.sizes.append(len(message.data))
+                        await socket.send_bytes(cbor2.dumps([struct.unpack_from("<I", message.data, 4)[0]]))
+                    if time.monotonic() > end:
+                        return
+
+
+def first_picture(address: str, openings: int) -> float:
+    """Return the median time in s from opening the address to a picture of the whole scene, drawn without a GPU."""
+    times = []
+    with sync_playwright() as playwright:
+        flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=flags)
+        for _ in range(openings):
+            page = browser.new_context(viewport={"width": 1000, "height": 620}).new_page()
+            begin = time.monotonic()
+            page.goto(address)
+            while not page.evaluate("Boolean(window.bubblesim?.scene.models.length && bubblesim.link.frame)"):
+                time.sleep(0.02)
+            page.evaluate("bubblesim.view.settled()")
+            times.append(time.monotonic() - begin)
+            page.context.close()
+        browser.close()
+    return statistics.median(times)
+
+
+def measure(name: str, scene: str, folder: Path, rounds: int, seconds: float) -> None:
+    """Print the figures of a scene."""
+    log = (folder / "log").open("w+")
+    command = [str(node_program()), scene, "--no-ros", "--web", "--speed", "3"]
+    with subprocess.Popen(command, stderr=log) as node:
+        try:
+            while not (found := re.search(r"the window is at (\S+)", (folder / "log").read_text())):
+                time.sleep(0.2)
+            client = Client()
+            asyncio.run(client.read(found[1], 2))  # begins to share frames
+            ratios = []
+            for _ in range(rounds):
+                before = cpu_time(node.pid)
+                time.sleep(seconds)
+                alone = cpu_time(node.pid) - before
+                before = cpu_time(node.pid)
+                asyncio.run(client.read(found[1], seconds))
+                ratios.append((cpu_time(node.pid) - before) / alone)
+            opened = first_picture(found[1], 5)
+        finally:
+            node.terminate()
+    late = statistics.quantiles(client.latencies, n=20)[-1]
+    rate = len(client.latencies) / (2 + rounds * seconds)
+    print(
+        f"{name}: CPU of the simulator with a page {statistics.median(ratios):.3f} x (median of {rounds}); "
+        f"{rate:.0f} frames/s of {statistics.median(client.sizes):.0f} bytes; "
+        f"latency median {1000 * statistics.median(client.latencies):.1f} ms, p95 {1000 * late:.1f} ms; "
+        f"first picture after {opened:.2f} s"
+    )
+
+
+def main() -> None:
+    """Measure the tricycle and a scene of many bodies."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--seconds", type=float, default=5.0, help="of a round")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        measure("tricycle", "tricycle", folder, options.rounds, options.seconds)
+        measure(f"{BODIES} bodies", boxes(folder), folder, options.rounds, options.seconds)
+
+
+if __name__ == "__main__":
+    main()

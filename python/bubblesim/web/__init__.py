@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The server of the window: a process of its own between the pages in browsers and the door of a simulator."""

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Records topics to a bag, for pages."""
+
+from __future__ import annotations
+
+import asyncio
+import datetime
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+from typing import Any
+
+from bubblesim.web import ros_topics
+
+_BEGIN = 30.0  # s until rosbag has opened its file
+_GRACE = 10.0  # s for the index of the bag
+
+
+class Recording:
+    """One recording at a time, for all pages."""
+
+    def __init__(self) -> None:
+        """Create it without a recording."""
+        self._process: subprocess.Popen[bytes] | None = None
+        self._file = ""
+
+    def state(self) -> dict[str, Any]:
+        """Return whether it ``runs``, and its ``file``."""
+        return {"runs": self._process is not None and self._process.poll() is None, "file": self._file}
+
+    async def start(self, topics: list[str]) -> dict[str, Any]:
+        """Record topics, or all without a list, to a new file in the folder where the server was started."""
+        if self.state()["runs"]:
+            raise RuntimeError(f"{self._file} is being recorded already")
+        await asyncio.to_thread(ros_topics.node)
+        program = shutil.which("rosbag")
+        if program is None:
+            raise RuntimeError("rosbag is not installed: apt install rosbag")
+        for topic in topics:
+            if not topic.startswith("/"):
+                raise ValueError(f"'{topic}' is not the name of a topic: it must begin with /")
+        now = datetime.datetime.now().astimezone()
+        self._file = str(Path.cwd() / f"bubblesim_{now:%Y-%m-%d_%H-%M-%S}.bag")
+        command = [program, "record", "-q", "-O", self._file, *(topics or ["-a"])]
+        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
+        await self._wait_for_file()
+        return self.state()
+
+    async def _wait_for_file(self) -> None:
+        """Wait until rosbag has opened the file: one that is ended before leaves none."""
+        end = time.monotonic() + _BEGIN
+        while not Path(f"{self._file}.active").exists():
+            process = self._process
+            if process is None or process.poll() is not None:
+                raise RuntimeError(f"rosbag has ended before it opened {self._file}: see the output of the window")
+            if time.monotonic() > end:
+                await self.stop()
+                raise RuntimeError(f"rosbag has not opened {self._file} within {_BEGIN:g} s")
+            await asyncio.sleep(0.05)
+
+    async def stop(self) -> dict[str, Any]:
+        """End the recording, and wait for its file."""
+        process = self._process
+        if process is not None and process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                await asyncio.to_thread(process.wait, _GRACE)
+            except subprocess.TimeoutExpired:
+                process.terminate()
+        self._process = None  # not before: until then pages show that it runs, and its file has another name
+        return self.state()
+
+    def close(self) -> None:
+        """End a recording with the server."""
+        if self._process is not None and self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+
+
+recording = Recording()

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calls of functions through the door, without blocking the server."""
+
+from __future__ import annotations
+
+import asyncio
+import uuid
+from typing import Any
+
+import cbor2
+import zmq
+import zmq.asyncio
+
+_TIMEOUT = 660.0  # s; the longest of the door's own waits is shorter
+
+
+class DoorError(RuntimeError):
+    """The simulator has answered with an error, or not at all."""
+
+
+class DoorClient:
+    """A client of the door, such as a page. Calls on one of its lines wait for each other."""
+
+    def __init__(self, context: zmq.asyncio.Context, address: str) -> None:
+        """Connect; this does not wait.
+
+        :param address: of the door, such as tcp://127.0.0.1:23000.
+        """
+        self._context = context
+        self._address = address
+        self._uuid = str(uuid.uuid4())
+        self._lines: dict[str, tuple[asyncio.Lock, zmq.asyncio.Socket]] = {}
+
+    async def call(self, function: str, *arguments: Any, timeout: float = _TIMEOUT) -> Any:
+        """Call a function by its full name, and return its result.
+
+        :raises DoorError: with the error of the function.
+        """
+        reply = cbor2.loads(await self.forward(function, list(arguments), timeout=timeout))
+        if "err" in reply:
+            raise DoorError(reply["err"])
+        results = reply.get("ret", [])
+        return results[0] if len(results) == 1 else results or None
+
+    async def forward(self, function: str, arguments: list[Any], line: str = "", timeout: float = _TIMEOUT) -> bytes:
+        """Call a function, and return the reply as the door sends it: a CBOR map with ``ret`` or ``err``.
+
+        :param line: calls on different lines do not wait for each other.
+        """
+        if line not in self._lines:
+            self._lines[line] = (asyncio.Lock(), self._connect())
+        lock, _ = self._lines[line]
+        async with lock:
+            socket = self._lines[line][1]
+            message = {"func": function, "args": arguments, "uuid": self._uuid, "timeout": 86400}
+            await socket.send_multipart([b"", cbor2.dumps(message)])
+            try:
+                reply: list[bytes] = await asyncio.wait_for(socket.recv_multipart(), timeout)
+            except TimeoutError:
+                socket.close(0)
+                self._lines[line] = (lock, self._connect())
+                raise DoorError(f"{function}: no answer from the simulator in {timeout:g} s") from None
+            except asyncio.CancelledError:
+                socket.close(0)
+                self._lines[line] = (lock, self._connect())
+                raise
+        return reply[-1]
+
+    def close(self) -> None:
+        """Disconnect."""
+        for _, socket in self._lines.values():
+            socket.close(0)
+        self._lines.clear()
+
+    def _connect(self) -> zmq.asyncio.Socket:
+        socket = self._context.socket(zmq.DEALER)
+        socket.setsockopt(zmq.LINGER, 0)
+        socket.setsockopt(zmq.HEARTBEAT_IVL, 5000)
+        socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 15000)
+        socket.connect(self._address)
+        return socket

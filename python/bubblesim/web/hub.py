@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The simulator as all pages see it: its last frame, its events, and whether it is there."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections import deque
+from pathlib import Path
+from typing import Any
+
+import zmq.asyncio
+
+from bubblesim._core import FrameReader
+from bubblesim.web.door_line import DoorClient, DoorError
+
+_PERIOD = 1 / 60  # s between two looks at the frames
+_IDLE = 0.25  # s, without pages
+_MOST_EVENTS = 10_000
+_BETWEEN_TRIES = 0.5  # s, for a simulator that is gone
+_ANSWER = 10.0  # s
+
+
+class Hub:
+    """Follows one simulator."""
+
+    def __init__(self, address: str) -> None:
+        """Remember the address of the door; ``run`` does the work."""
+        self.context = zmq.asyncio.Context()
+        self.address = address
+        self.scene: dict[str, Any] = {}
+        """What window.share returns; empty while there is no simulator."""
+        self.session = 0
+        """Number of scenes so far."""
+        self.count = 0
+        """Of the last frame."""
+        self.changed = asyncio.Condition()
+        """Notified of frames and events."""
+        self.events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
+        self.next_event = 0
+        self.pages = 0
+        self._door = DoorClient(self.context, address)
+        self._reader: FrameReader | None = None
+        self._packed: tuple[int, bytes] | None = None
+        self._kept: dict[tuple[str, int], bytes] = {}
+
+    async def run(self) -> None:
+        """Follow the simulator until cancelled."""
+        while True:
+            try:
+                await self._begin()
+                await self._follow()
+            except (DoorError, OSError):
+                pass
+            if self.scene:
+                self.scene = {}
+                self._reader = None
+                self.emit("gone", None)
+                await self._notify()
+            await asyncio.sleep(_BETWEEN_TRIES)
+
+    async def _begin(self) -> None:
+        scene = await self._door.call("window.share", timeout=_ANSWER)
+        self._reader = FrameReader(scene["frames"])
+        self._kept.clear()
+        self._packed = None  # each scene counts its frames from 1
+        self.count = 0
+        self.events.clear()  # of the scene before
+        self.session += 1
+        self.scene = scene
+        self.emit("scene", scene)
+        await self._notify()
+
+    async def _follow(self) -> None:
+        assert self._reader is not None
+        revision = notices = None
+        next_event = self.scene["next_event"]
+        looks = 0
+        while True:
+            head = self._reader.head()
+            if head is not None:
+                count, now_revision, now_notices, _, _, closed = head
+                if closed:
+                    return
+                if now_notices != notices:
+                    notices = now_notices
+                    news = await self._door.call("window.events", next_event, timeout=_ANSWER)
+                    next_event = news["next"]
+                    for name, data in news["events"]:
+                        self.emit(name, data)
+                    await self._notify()
+                if revision is not None and now_revision != revision:
+                    self.emit("models", None)
+                revision = now_revision
+                if count != self.count:
+                    self.count = count
+                    await self._notify()
+            looks += 1
+            if looks % 60 == 0 and not Path(self.scene["frames"]).exists():
+                return
+            await asyncio.sleep(_PERIOD if self.pages else _IDLE)
+
+    def frame(self) -> bytes | None:
+        """Return the last frame as the page reads it; None if there is none now."""
+        if self._reader is None:
+            return None
+        if self._packed is None or self._packed[0] != self.count:
+            packed = self._reader.packed()
+            if packed is None:
+                return None
+            self._packed = (self.count, packed)
+        return self._packed[1]
+
+    async def kept(self, function: str, number: int) -> bytes:
+        """Return the reply of window.mesh or window.texture, from memory if it was asked for before."""
+        key = (function, number)
+        if key not in self._kept:
+            session = self.session
+            reply = await self._door.forward(function, [number], line="meshes")
+            if session != self.session:
+                return reply
+            self._kept[key] = reply
+        return self._kept[key]
+
+    def emit(self, name: str, data: Any) -> None:
+        """Send an event to all pages."""
+        self.events.append((self.next_event, name, data))
+        self.next_event += 1
+
+    async def _notify(self) -> None:
+        async with self.changed:
+            self.changed.notify_all()
+
+    async def close(self) -> None:
+        """Leave the simulator."""
+        with contextlib.suppress(zmq.ZMQError):
+            self._door.close()
+            self.context.destroy(0)

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The connection of one page: its calls, the frames and the events.
+
+Messages are binary. Those of the page are CBOR lists: ``[number, function, arguments, line]`` is a call, ``[count]``
+says that a frame was drawn. Those of the server are frames, which begin with a zero byte (see FrameReader.packed), and
+CBOR lists: ``[number, reply]`` answers a call, ``[null, name, data]`` is an event.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from typing import Any
+
+import cbor2
+from aiohttp import WSMsgType, web
+
+from bubblesim._core import cbor_decode
+from bubblesim.web.access import is_looking
+from bubblesim.web.door_line import DoorClient, DoorError
+from bubblesim.web.hub import Hub
+from bubblesim.web.ros_markers import PageMarkers
+from bubblesim.web.ros_topics import PageTopics
+from bubblesim.web.served import SERVED
+from bubblesim.web.tools import TOOLS
+
+_MOST_BYTES = 64 * 1024 * 1024
+_IN_FLIGHT = 2  # frames that were sent and not drawn yet
+_KEPT = {"window.mesh", "window.texture"}
+_SERVED = SERVED | TOOLS
+
+
+class Page:
+    """A page, from its connection to its end."""
+
+    def __init__(self, hub: Hub, *, may_edit: bool) -> None:
+        """Prepare the connection.
+
+        :param may_edit: the page may call functions that change the simulation or files.
+        """
+        self.hub = hub
+        self.may_edit = may_edit
+        self.door = DoorClient(hub.context, hub.address)
+        self.topics = PageTopics()
+        self.markers = PageMarkers()
+        self._socket = web.WebSocketResponse(max_msg_size=_MOST_BYTES, heartbeat=20, compress=False)
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._drawn = 0
+        self._sent: list[int] = []
+
+    async def serve(self, request: web.Request) -> web.WebSocketResponse:
+        """Serve the page until it closes."""
+        await self._socket.prepare(request)
+        transport = request.transport
+        if transport is not None:
+            transport.set_write_buffer_limits(high=65536)
+        self.hub.pages += 1
+        self._start(self._send_news())
+        try:
+            async for message in self._socket:
+                if message.type == WSMsgType.BINARY:
+                    await self._receive(message.data)
+        finally:
+            self.hub.pages -= 1
+            for task in list(self._tasks):
+                task.cancel()
+            self.topics.close()
+            self.markers.close()
+            self.door.close()
+        return self._socket
+
+    async def _receive(self, data: bytes) -> None:
+        try:
+            message = cbor_decode(data)
+        except ValueError:
+            return
+        if not isinstance(message, list):
+            return
+        if len(message) == 1:
+            self._sent = [count for count in self._sent if count != message[0]]
+            async with self.hub.changed:
+                self.hub.changed.notify_all()
+        elif len(message) == 4:
+            self._start(self._answer(*message))
+
+    async def _answer(self, number: Any, function: Any, arguments: Any, line: Any) -> None:
+        reply = await self._reply(str(function), list(arguments), str(line))
+        with contextlib.suppress(ConnectionError, RuntimeError):
+            await self._socket.send_bytes(b"\x82" + cbor2.dumps(number) + reply)
+
+    async def _reply(self, function: str, arguments: list[Any], line: str) -> bytes:
+        """Return the reply to a call as CBOR, a map with ``ret`` or ``err``."""
+        try:
+            if function in _SERVED:
+                served = _SERVED[function]
+                if served.edits and not self.may_edit:
+                    raise DoorError(f"{function}: this window may only look")
+                value = await served.call(self, *arguments)
+                return _encode({"ret": [value]})
+            if not self.may_edit and not is_looking(function):
+                raise DoorError(f"{function}: this window may only look")
+            if function in _KEPT:
+                return await self.hub.kept(function, int(arguments[0]))
+            return await self.door.forward(function, arguments, line)
+        except Exception as error:
+            return _encode({"err": str(error) or type(error).__name__})
+
+    async def _send_news(self) -> None:
+        """Send events and frames: all events, and of the frames the last one when the page is ready for it."""
+        hub = self.hub
+        next_event = hub.next_event
+        last: tuple[int, int] = (0, 0)
+        scene = hub.scene
+        await self._event("hello", {"edit": self.may_edit})
+        if scene:
+            await self._event("scene", scene)
+        while True:
+            for number, name, data in list(hub.events):
+                if number >= next_event:
+                    next_event = number + 1
+                    await self._event(name, data)
+            now = (hub.session, hub.count)
+            if now != last and len(self._sent) < _IN_FLIGHT:
+                frame = hub.frame()
+                if frame is not None:
+                    last = now
+                    self._sent.append(int.from_bytes(frame[4:8], "little"))
+                    await self._socket.send_bytes(frame)
+                    continue
+            async with hub.changed:
+                if hub.next_event == next_event:
+                    with contextlib.suppress(asyncio.TimeoutError):
+                        await asyncio.wait_for(hub.changed.wait(), 1.0)
+
+    async def _event(self, name: str, data: Any) -> None:
+        await self._socket.send_bytes(cbor2.dumps([None, name, data]))
+
+    def _start(self, work: Any) -> None:
+        task = asyncio.get_running_loop().create_task(self._guarded(work))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _guarded(self, work: Any) -> None:
+        with contextlib.suppress(ConnectionError, RuntimeError):
+            await work
+
+
+def _encode(reply: dict[str, Any]) -> bytes:
+    encoded: bytes = cbor2.dumps(reply)
+    return encoded

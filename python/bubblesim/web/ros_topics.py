@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ROS topics for pages: velocities and numbers. The server is a node of its own while a page uses them."""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import threading
+import time
+from collections import deque
+from typing import Any
+
+_lock = threading.Lock()
+_ROS_TYPES = {"geometry_msgs/Twist", "geometry_msgs/TwistStamped"}
+_NUMERIC = {
+    *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)),
+    *("float32", "float64", "bool", "byte", "char", "time", "duration"),
+}
+_MOST_FIELDS = 400
+_MOST_SAMPLES = 5000
+_MOST_WATCHED = 64
+_SILENCE = 0.4  # s without a command, after which a robot is stopped
+_DEEPEST = 6
+
+
+class NoRosError(RuntimeError):
+    """There is no ROS master, or no rospy."""
+
+
+@functools.cache
+def _started() -> Any:
+    import rospy
+
+    rospy.init_node("bubblesim_window", anonymous=True, disable_signals=True)
+    return rospy
+
+
+def node() -> Any:
+    """Return rospy, with the node of the server; raise NoRosError. It may take a second the first time."""
+    try:
+        import rosgraph
+    except ImportError as error:
+        raise NoRosError(f"ROS is not installed for {error.name}") from None
+    with _lock:
+        if not rosgraph.is_master_online():
+            raise NoRosError("no ROS master is running, or the simulator runs without ROS (--no-ros)")
+        return _started()
+
+
+async def topics(_page: Any) -> list[list[str]]:
+    """Return names and types of all published topics, and of those that nodes listen to for velocities."""
+
+    def ask() -> list[list[str]]:
+        import rosgraph
+
+        rospy = node()
+        known: dict[str, str] = dict(rospy.get_published_topics())
+        master = rosgraph.Master("/bubblesim_window")
+        types = dict(master.getTopicTypes())
+        for name, _ in master.getSystemState()[1]:
+            known.setdefault(name, types.get(name, "*"))
+        return sorted([name, kind] for name, kind in known.items() if kind != "*")
+
+    return await asyncio.to_thread(ask)
+
+
+async def fields(_page: Any, topic: str) -> list[str]:
+    """Return the paths of the numeric fields of a topic, such as 'twist.linear.x' or 'ranges[0]'."""
+
+    def ask() -> list[str]:
+        return list(_paths(_class_of(topic), ""))[:_MOST_FIELDS]
+
+    return await asyncio.to_thread(ask)
+
+
+def _class_of(topic: str) -> Any:
+    import rostopic
+
+    node()
+    found, _, _ = rostopic.get_topic_class(topic)
+    if found is None:
+        raise ValueError(f"the type of the topic {topic} is not known: nobody publishes it")
+    return found
+
+
+def _paths(message: Any, before: str, depth: int = 0) -> Any:
+    import roslib.message
+
+    for name, kind in zip(message.__slots__, message._slot_types, strict=True):
+        plain, is_array, _ = kind.partition("[")
+        path = f"{before}{name}{'[0]' if is_array else ''}"
+        if plain in _NUMERIC:
+            yield path
+        elif "/" in plain and depth < _DEEPEST:
+            yield from _paths(roslib.message.get_message_class(plain), f"{path}.", depth + 1)
+
+
+class Watch:
+    """Values of one field of a topic."""
+
+    def __init__(self, topic: str, path: str) -> None:
+        """Subscribe."""
+        self._steps = path.replace("[", ".[").split(".")
+        self._samples: deque[tuple[int, float, float]] = deque(maxlen=_MOST_SAMPLES)
+        self._count = 0
+        rospy = node()
+        self._rospy = rospy
+        self._subscriber = rospy.Subscriber(topic, _class_of(topic), self._receive, queue_size=100)
+
+    def _receive(self, message: Any) -> None:
+        value = message
+        try:
+            for step in self._steps:
+                value = value[int(step[1:-1])] if step.startswith("[") else getattr(value, step)
+        except (AttributeError, IndexError, ValueError):
+            return
+        header = getattr(message, "header", None)
+        stamp = header.stamp.to_sec() if header is not None else 0.0
+        number = value.to_sec() if hasattr(value, "to_sec") else float(value)
+        self._count += 1
+        self._samples.append((self._count, stamp or self._rospy.get_time(), number))
+
+    def since(self, number: int) -> dict[str, Any]:
+        """Return the samples after a number: times, s of ROS time, and values."""
+        new = [sample for sample in list(self._samples) if sample[0] > number]
+        return {"last": self._count, "times": [t for _, t, _ in new], "values": [v for _, _, v in new]}
+
+    def close(self) -> None:
+        """Unsubscribe."""
+        self._subscriber.unregister()
+
+
+class Driver:
+    """Publishes the velocities of one page, and zero when the page is silent: nobody drives a robot any more."""
+
+    def __init__(self, topic: str) -> None:
+        """Advertise the topic, with the type that its listeners have, else geometry_msgs/Twist."""
+        import rosgraph
+        from geometry_msgs.msg import Twist, TwistStamped
+
+        rospy = node()
+        types = dict(rosgraph.Master("/bubblesim_window").getTopicTypes())
+        kind = types.get(topic, "geometry_msgs/Twist")
+        if kind not in (*_ROS_TYPES, "*"):
+            raise ValueError(f"{topic} has the type {kind}; velocities are geometry_msgs/Twist or TwistStamped")
+        self.topic = topic
+        self._rospy = rospy
+        self._stamped = TwistStamped if kind.endswith("Stamped") else None
+        self._twist = Twist
+        self._publisher = rospy.Publisher(topic, self._stamped or Twist, queue_size=1)
+        self._moving = False
+        self._last = 0.0
+
+    def send(self, forward: float, left: float, turn: float) -> None:
+        """Publish a velocity: m/s, m/s, rad/s."""
+        twist = self._twist()
+        twist.linear.x, twist.linear.y, twist.angular.z = forward, left, turn
+        message = twist
+        if self._stamped is not None:
+            message = self._stamped()
+            message.header.stamp = self._rospy.get_rostime()
+            message.twist = twist
+        self._publisher.publish(message)
+        self._moving = (forward, left, turn) != (0.0, 0.0, 0.0)
+        self._last = time.monotonic()
+
+    def stop_if_silent(self) -> None:
+        """Stop the robot if the last command is too old."""
+        if self._moving and time.monotonic() - self._last > _SILENCE:
+            self.send(0.0, 0.0, 0.0)
+
+    def close(self) -> None:
+        """Stop the robot, and end publishing."""
+        if self._moving:
+            self.send(0.0, 0.0, 0.0)
+        self._publisher.unregister()
+
+
+class PageTopics:
+    """What one page subscribes and publishes."""
+
+    def __init__(self) -> None:
+        """Create it without topics."""
+        self._watches: dict[int, Watch] = {}
+        self._created = 0
+        self._driver: Driver | None = None
+        self._guard: asyncio.Task[None] | None = None
+
+    async def watch(self, topic: str, path: str) -> int:
+        """Subscribe to a field of a topic; return the number of the watch."""
+        if len(self._watches) >= _MOST_WATCHED:
+            raise ValueError(f"a page can plot at most {_MOST_WATCHED} fields of topics")
+        found = await asyncio.to_thread(Watch, topic, path)
+        self._created += 1
+        self._watches[self._created] = found
+        return self._created
+
+    def samples(self, number: int, since: int) -> dict[str, Any]:
+        """Return the samples of a watch; see Watch.since."""
+        return self._watches[number].since(since)
+
+    async def unwatch(self, number: int) -> None:
+        """End a watch."""
+        found = self._watches.pop(number, None)
+        if found is not None:
+            await asyncio.to_thread(found.close)
+
+    async def drive(self, topic: str, forward: float, left: float, turn: float) -> None:
+        """Publish a velocity; without another one within 0.4 s, zero follows."""
+        if self._driver is None or self._driver.topic != topic:
+            if self._driver is not None:
+                self._driver.close()
+                self._driver = None
+            self._driver = await asyncio.to_thread(Driver, topic)
+        self._driver.send(forward, left, turn)
+        if self._guard is None:
+            self._guard = asyncio.get_running_loop().create_task(self._watch_silence())
+
+    async def _watch_silence(self) -> None:
+        while self._driver is not None:
+            await asyncio.sleep(_SILENCE / 4)
+            if self._driver is not None:
+                self._driver.stop_if_silent()
+        self._guard = None
+
+    def close(self) -> None:
+        """Stop the robot, and end all subscriptions."""
+        if self._driver is not None:
+            self._driver.close()
+            self._driver = None
+        for each in self._watches.values():
+            each.close()
+        self._watches.clear()
+        if self._guard is not None:
+            self._guard.cancel()

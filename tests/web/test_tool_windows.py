@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Panels of the window that need a scene or a master of their own, in a real browser."""
+
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("playwright")
+
+from node_support import findings_of, write
+from ros_support import RosCore, start, stop, wait_until
+from tools_page import ToolsPage
+
+
+def test_cameras_are_live(tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "sensors") as window:
+        window.show("cameras")
+        window.page.wait_for_selector(".camera canvas")
+        pictures = "[...document.querySelectorAll('.camera canvas')]"
+        pixels = "c.getContext('2d').getImageData(0, 0, c.width, c.height).data"
+        window.wait_for(f"{pictures}.every(c => c.width > 1 && new Set({pixels}).size > 8)")
+        notes = f"{pictures}.map(c => c.parentElement.textContent).join()"
+        before = window.page.evaluate(notes)
+        window.wait_for(f"{notes} !== {before!r}")
+        assert window.errors == []
+
+
+PROBE = """
+import json
+import rospy
+from geometry_msgs.msg import Twist
+
+received = []
+rospy.init_node('probe')
+rospy.Subscriber('/drive_here', Twist, lambda m: received.append([m.linear.x, m.angular.z]), queue_size=1000)
+while not rospy.is_shutdown():
+    rospy.sleep(0.02)
+    moved = any(x > 0.1 for x, _ in received)
+    if moved and len(received) > 4 and received[-1] == [0.0, 0.0]:
+        break
+print(json.dumps({'received': received}), flush=True)
+rospy.spin()
+"""
+
+
+def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, tmp_path: Path) -> None:
+    result: dict[str, list[list[float]]] = {}
+    with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
+        listener = threading.Thread(target=lambda: result.update(findings_of(PROBE, roscore.env, tmp_path)))
+        listener.start()
+        wait_until(lambda: "/drive_here" in str(roscore.state()["subscribers"]), "the probe")
+        window.show("driving")
+        window.page.fill(".driving input >> nth=0", "/drive_here")
+        window.page.click(".drive")
+        window.page.keyboard.down("w")
+        window.page.wait_for_timeout(1500)
+        window.page.close()  # with the key down: the server stops the robot
+        listener.join(timeout=30)
+    received = result["received"]
+    assert [0.5, 0.0] in received
+    assert received[-1] == [0.0, 0.0]
+
+
+def test_a_field_of_a_topic_is_plotted_and_a_bag_recorded(roscore: RosCore, tmp_path: Path) -> None:
+    code = "def sysCall_init(): self.p = simROS.advertise('/t', 'std_msgs/Float64')\n"
+    code += "def sysCall_sensing(): simROS.publish(self.p, {'data': sim.getSimulationTime() + 5})\n"
+    script = write(tmp_path / "script.py", code)
+    with ToolsPage(tmp_path, "ball", "--child-script", f"/Ball={script}", env=roscore.env) as window:
+        window.show("plots")
+        topics = dict(window.call("server.topics"))
+        assert topics["/t"] == "std_msgs/Float64"
+        assert window.call("server.topicFields", "/t") == ["data"]
+        window.page.evaluate("bubblesim.plot('topic', ['/t', 'data']).then(() => 0)")
+        window.wait_for("bubblesim.plots.plots[0]?.series[0].series.times.length > 5")
+        times, values = window.page.evaluate(
+            "(({times, values}) => [times, values])(bubblesim.plots.plots[0].series[0].series)"
+        )
+        assert np.ptp(np.subtract(values, times)) < 0.2
+        window.show("record")
+        window.page.wait_for_selector(".record option:text-is('/t')", state="attached")
+        window.page.select_option(".record select", "/t")
+        window.page.click("button:has-text('Record a bag')")
+        window.page.wait_for_selector("button:has-text('End the recording')")
+        window.page.wait_for_timeout(1500)
+        window.page.click("button:has-text('End the recording')")
+        window.page.wait_for_selector(".record .hint:has-text('Recorded to')")
+        bags = list(tmp_path.glob("bubblesim_*.bag"))
+        assert len(bags) == 1
+        assert bags[0].stat().st_size > 4096
+        window.page.click("button:has-text('Record a bag')")
+        window.page.wait_for_selector("button:has-text('End the recording')")
+        assert window.errors == []
+    # The second one ends with the server.
+    wait_until(lambda: len(list(tmp_path.glob("bubblesim_*.bag"))) == 2, "the second bag")
+
+
+MARKERS = """
+import rospy
+from geometry_msgs.msg import Point, TransformStamped
+from std_msgs.msg import ColorRGBA
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+rospy.init_node('markers')
+frames = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+several = rospy.Publisher('/several', MarkerArray, queue_size=1, latch=True)
+one = rospy.Publisher('/one', Marker, queue_size=1, latch=True)
+mount = TransformStamped()
+mount.header.frame_id, mount.child_frame_id = 'Ball/link', 'mount'
+mount.transform.translation.z = 0.5
+mount.transform.rotation.w = 1.0
+frames.publish(TFMessage([mount]))
+
+def marker(frame, number, kind, x):
+    made = Marker(ns='n', id=number, type=kind)
+    made.header.frame_id = frame
+    made.pose.position.x = x
+    made.pose.orientation.w = 1.0
+    made.scale.x = made.scale.y = made.scale.z = 0.2
+    made.color = ColorRGBA(1.0, 0.0, 0.0, 1.0)
+    made.points = [Point(0.0, 0.0, 0.0), Point(1.0, 0.0, 0.0)] if kind == Marker.LINE_STRIP else []
+    made.text = 'here' if kind == Marker.TEXT_VIEW_FACING else ''
+    return made
+
+kinds = [Marker.ARROW, Marker.CUBE, Marker.SPHERE, Marker.LINE_STRIP, Marker.TEXT_VIEW_FACING]
+several.publish(MarkerArray([marker('world', number, kind, 3.0) for number, kind in enumerate(kinds)]))
+one.publish(marker('mount', 9, Marker.CUBE, 0.0))
+rospy.spin()
+"""
+
+
+def test_markers_of_nodes_are_in_the_picture(roscore: RosCore, tmp_path: Path) -> None:
+    program = start([sys.executable, "-c", MARKERS], roscore.env)
+    with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
+        window.page.evaluate("bubblesim.view.setOverlay('ros_markers', true)")
+        window.wait_for("bubblesim.rosMarkers?.length === 6")
+        window.call("window.pause")  # the ball rolls
+        window.wait_for("bubblesim.link.frame.state === 'paused'")
+        window.page.wait_for_timeout(500)  # motion between two frames is interpolated
+        window.page.evaluate("bubblesim.view.settled()")
+        layer = "bubblesim.view.overlays.find(e => e.id === 'ros_markers').layer.object3d"
+        place = f"(() => {{ const l = {layer}; l.updateMatrixWorld(true); return l.children.flatMap(h => h.children)"
+        place += ".map(m => m.matrixWorld.elements.slice(12, 15)); })()"
+        ball = window.call("window.get_state", window.page.evaluate("bubblesim.scene.byPath('/Ball/link').handle"))[
+            "pose"
+        ]
+        window.wait_for(f"{place}.some(p => p[0] !== 3 && p[2] !== 0)")
+        places = window.page.evaluate(place)
+        assert places.count([3, 0, 0]) == 5
+        mounted = next(each for each in places if each != [3, 0, 0])
+        assert np.linalg.norm(np.subtract(mounted, ball[:3])) == pytest.approx(0.5, abs=0.01)
+        stop(program)
+        window.page.evaluate("bubblesim.view.setOverlay('ros_markers', false)")
+        assert window.errors == []

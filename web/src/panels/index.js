@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The panels of the page, in the order of their tabs. A panel is a file with an object:
+//   id, title
+//   place          left, right or bottom
+//   create(app)    returns its element; app is described in main.js
+//   show(), hide() called when its tab is selected, and when another one is (both optional)
+import { cameras } from "./cameras.js";
+import { output } from "./console.js";
+import { driving } from "./driving.js";
+import { models } from "./models.js";
+import { plots } from "./plots.js";
+import { problems } from "./problems.js";
+import { properties } from "./properties.js";
+import { record } from "./record.js";
+import { scripts } from "./scripts.js";
+import { tree } from "./tree.js";
+
+export const panels = [tree, models, properties, driving, record, output, scripts, plots, cameras, problems];

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Screenshots, and bags of topics.
+import { h } from "../dom.js";
+import { Poll, download, stamp } from "../poll.js";
+
+export const record = {
+  id: "record",
+  title: "Record",
+  place: "right",
+  create(app) {
+    const shot = h("button", { title: "Save the 3D view as a picture" }, "Take a screenshot");
+    const topics = h("select", { multiple: true, size: 8, title: "Topics; none: all" });
+    const toggle = h("button.primary", "Record a bag");
+    const state = h("p.hint");
+    let runs = false;
+    shot.onclick = async () => download(`bubblesim_${stamp()}.png`, await app.view.screenshot());
+    const showState = (found) => {
+      runs = found.runs;
+      toggle.textContent = runs ? "End the recording" : "Record a bag";
+      toggle.classList.toggle("recording", runs);
+      state.textContent = found.file ? `${runs ? "Recording to" : "Recorded to"} ${found.file}` : "";
+      topics.disabled = runs;
+    };
+    toggle.onclick = async () => {
+      toggle.disabled = true;
+      const found = runs
+        ? await app.attempt("server.stopRecording")
+        : await app.attempt("server.startRecording", [[...topics.selectedOptions].map(({ value }) => value)]);
+      toggle.disabled = false;
+      if (found) showState(found);
+    };
+    this.poll = new Poll(app, 2000, async () => {
+      showState(await app.link.call("server.recording", [], "ros"));
+      if (runs) return;
+      const found = await app.link.call("server.topics", [], "ros").catch(() => []);
+      const names = found.map(([name]) => name);
+      if (names.join() === [...topics.options].map(({ value }) => value).join()) return;
+      const chosen = new Set([...topics.selectedOptions].map(({ value }) => value));
+      topics.replaceChildren(...names.map((value) => h("option", { value, selected: chosen.has(value) }, value)));
+    });
+    return h(
+      "div.record",
+      shot,
+      h("h3", "Topics"),
+      topics,
+      h("p.hint", "Select topics, or none to record all of them. The bag is written where the window was started."),
+      toggle,
+      state,
+    );
+  },
+  show() {
+    this.poll.start();
+  },
+  hide() {
+    this.poll.stop();
+  },
+};

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values over time: a source adds them, a plot shows them.
+
+const MOST = 50_000; // values; the oldest ones are dropped
+
+export class Series {
+  times = [];
+  values = [];
+
+  constructor(label, colour) {
+    this.label = label;
+    this.colour = colour;
+  }
+
+  /// Adds a value at a time, s. When time goes back, as after a stop, the series begins anew.
+  add(time, value) {
+    const last = this.times.at(-1);
+    if (last !== undefined && time <= last) {
+      if (time === last) return;
+      this.clear();
+    }
+    this.times.push(time);
+    this.values.push(value);
+    if (this.times.length > MOST) {
+      this.times.splice(0, MOST / 10);
+      this.values.splice(0, MOST / 10);
+    }
+  }
+
+  clear() {
+    this.times = [];
+    this.values = [];
+  }
+
+  /// The values of the last `seconds` before `end`: [times, values].
+  part(end, seconds) {
+    let from = 0;
+    if (Number.isFinite(seconds)) {
+      let high = this.times.length;
+      while (from < high) {
+        const middle = (from + high) >> 1;
+        if (this.times[middle] < end - seconds) from = middle + 1;
+        else high = middle;
+      }
+    }
+    return [this.times.slice(from), this.values.slice(from)];
+  }
+}
+
+/// All series as CSV: a row for each time of any of them.
+export function toCsv(series) {
+  const rows = new Map();
+  series.forEach(({ times, values }, column) => {
+    times.forEach((time, i) => {
+      if (!rows.has(time)) rows.set(time, new Array(series.length).fill(""));
+      rows.get(time)[column] = Number.isNaN(values[i]) ? "" : values[i];
+    });
+  });
+  const quoted = series.map(({ label }) => `"${label.replaceAll('"', '""')}"`);
+  const body = [...rows.keys()].sort((a, b) => a - b).map((time) => [time, ...rows.get(time)].join(","));
+  return `${[`"time (s)"`, ...quoted].join(",")}\n${body.join("\n")}\n`;
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The objects of the scene, as the simulator has described them.
+import { Emitter } from "./emitter.js";
+
+/// Emits "changed" ({ added, removed } lists of objects) after each change of the objects, "colours" (a list of
+/// links) when they have other colours, and "cleared" before the objects of another scene come.
+export class Scene extends Emitter {
+  objects = new Map(); // by handle
+  models = []; // handles of the top level
+  environment = null;
+  info = null; // what window.share returns
+  linkIndex = new Map(); // handle of a link: its row in the poses of frames
+  colours = new Map(); // that were set, by handle of the link: red, green, blue from 0 to 1
+  axisIndex = new Map(); // handle of a joint: the place of its first axis in the joint positions of frames
+  revision = -1;
+  #link;
+  #busy = false;
+  #again = false;
+  #newer = null; // colours that were set while the objects are fetched
+
+  constructor(link) {
+    super();
+    this.#link = link;
+    link.on("scene", (info) => {
+      this.#clear();
+      this.info = info;
+      this.#fetch();
+    });
+    link.on("models", () => this.#fetch());
+    link.on("colours", (news) => {
+      this.#newer?.push(...news);
+      this.#recolour(news);
+    });
+    link.on("connection", (connected) => {
+      if (!connected) this.#again = false;
+    });
+  }
+
+  /// The objects below one, or the models of the top level.
+  children(handle = -1) {
+    if (handle === -1) return this.models.map((each) => this.objects.get(each)).filter(Boolean);
+    return this.objects.get(handle)?.children ?? [];
+  }
+
+  /// The object of this path, or undefined.
+  byPath(path) {
+    for (const object of this.objects.values()) if (object.path === path) return object;
+    return undefined;
+  }
+
+  /// The model of the top level of an object.
+  outermost(object) {
+    let each = object;
+    while (each && each.parent !== -1) each = this.objects.get(each.parent);
+    return each;
+  }
+
+  /// The pose of a link in the last frame, or its pose at the start: x, y, z and a quaternion x, y, z, w.
+  pose(object) {
+    const row = this.linkIndex.get(object.handle);
+    const frame = this.#link.frame;
+    if (row === undefined || !frame || frame.revision !== this.revision) return object.pose;
+    return frame.poses.subarray(7 * row, 7 * row + 7);
+  }
+
+  #clear() {
+    const removed = [...this.objects.values()];
+    this.objects.clear();
+    this.models = [];
+    this.linkIndex.clear();
+    this.axisIndex.clear();
+    this.colours.clear();
+    this.revision = -1;
+    this.emit("cleared", removed);
+    if (removed.length) this.emit("changed", { added: [], removed });
+  }
+
+  /// Finds the link that carries an object.
+  #attach(object) {
+    if (object.kind === "joint") {
+      object.carrier = object.child_link;
+    } else if (object.kind === "sensor") {
+      const parent = this.objects.get(object.parent);
+      object.carrier = parent?.kind === "joint" ? parent.child_link : object.parent;
+    } else if (object.kind === "model") {
+      object.carrier = object.canonical_link;
+    }
+  }
+
+  async #fetch() {
+    if (this.#busy) {
+      this.#again = true;
+      return;
+    }
+    this.#busy = true;
+    const info = this.info;
+    this.#newer = [];
+    try {
+      const news = await this.#link.call("window.models", [this.models]);
+      if (this.info === info) this.#take(news);
+    } catch (error) {
+      if (this.#link.connected) console.warn(`the objects of the scene: ${error.message}`);
+    } finally {
+      this.#busy = false;
+      this.#newer = null;
+      if (this.#again) {
+        this.#again = false;
+        this.#fetch();
+      }
+    }
+  }
+
+  #recolour(news) {
+    const links = [];
+    for (const [handle, colour] of news) {
+      if (String(this.colours.get(handle)) === String(colour)) continue;
+      this.colours.set(handle, colour);
+      if (this.objects.has(handle)) links.push(this.objects.get(handle));
+    }
+    if (links.length) this.emit("colours", links);
+  }
+
+  #take(news) {
+    this.#recolour([...news.colours, ...this.#newer]);
+    const there = new Set(news.models);
+    const removed = [];
+    for (const object of [...this.objects.values()]) {
+      if (there.has(this.outermost(object)?.handle)) continue;
+      removed.push(object);
+    }
+    for (const object of removed) this.objects.delete(object.handle);
+    for (const object of news.objects) {
+      object.children = [];
+      this.objects.set(object.handle, object);
+    }
+    for (const object of news.objects) this.objects.get(object.parent)?.children.push(object);
+    for (const object of news.objects) this.#attach(object);
+    this.models = news.models;
+    this.environment = news.environment;
+    this.revision = news.revision;
+    this.linkIndex = new Map(news.links.map((handle, row) => [handle, row]));
+    this.axisIndex = new Map();
+    news.axes.forEach(([joint, axis], place) => {
+      if (axis === 0) this.axisIndex.set(joint, place);
+    });
+    this.emit("changed", { added: news.objects, removed });
+  }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lights of the scene. Three.js divides by pi what a surface reflects, the simulator's cameras do not.
+import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector3 } from "three";
+
+const SHADOW_SPAN = 12; // m around the point that is looked at
+const BIAS = 0.004; // m
+
+export class Lights {
+  group = new Group();
+  #suns = [];
+
+  set(environment, shadows) {
+    this.group.clear();
+    this.#suns = [];
+    this.group.add(new AmbientLight(new Color(...environment.ambient), Math.PI));
+    for (const light of environment.lights) this.#add(light, shadows && environment.shadows);
+  }
+
+  /// Keeps the shadows around a point.
+  follow(target, distance) {
+    const span = Math.min(Math.max(distance, 2), 4 * SHADOW_SPAN);
+    for (const { light, direction } of this.#suns) {
+      light.target.position.copy(target);
+      light.position.copy(target).addScaledVector(direction, -3 * span);
+      const { camera } = light.shadow;
+      camera.left = camera.bottom = -span;
+      camera.right = camera.top = span;
+      camera.near = 0.05;
+      camera.far = 6 * span;
+      camera.updateProjectionMatrix();
+      light.shadow.bias = -BIAS / (camera.far - camera.near);
+    }
+  }
+
+  #add(description, shadows) {
+    const colour = new Color(...description.diffuse);
+    let light;
+    if (description.kind === "directional") {
+      light = new DirectionalLight(colour, Math.PI);
+      this.#suns.push({ light, direction: new Vector3(...description.direction).normalize() });
+    } else if (description.kind === "point") {
+      light = new PointLight(colour, Math.PI, description.range, 1);
+      light.position.set(...description.position);
+    } else {
+      light = new SpotLight(colour, Math.PI, description.range, description.outer_angle / 2, 0.3, 1);
+      light.position.set(...description.position);
+      light.target.position.copy(light.position).add(new Vector3(...description.direction));
+    }
+    if (shadows && description.cast_shadows && description.kind !== "point") {
+      light.castShadow = true;
+      light.shadow.mapSize.set(2048, 2048);
+      light.shadow.bias = -0.0003;
+      light.shadow.normalBias = 0.004; // m
+    }
+    this.group.add(light);
+    if (light.target) this.group.add(light.target);
+  }
+}
