@@ -3,9 +3,10 @@
 """Drive to the goals of move_base_simple/goal on a map, and stop in front of obstacles.
 
 Subscribes to map, scan and move_base_simple/goal; publishes cmd_vel, ~path, ~arrived (Bool) at the end of each goal.
-Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~comfort (m, preferred distance to walls),
-~max_speed (m/s), ~max_turn (rad/s), ~acceleration (m/s2), ~lookahead (m), ~turning_radius (m, 0 for a robot that
-turns in place), ~tolerance (m), ~patience (s in front of an obstacle after which the goal is aborted).
+Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~length and ~width (m, of a rectangular robot, otherwise
+0), ~comfort (m, preferred distance to walls), ~max_speed (m/s), ~max_turn (rad/s), ~acceleration (m/s2),
+~lookahead (m), ~turning_radius (m, 0 for a robot that turns in place), ~tolerance (m), ~patience (s in front of an
+obstacle after which the goal is aborted).
 """
 
 import signal
@@ -25,9 +26,10 @@ from std_msgs.msg import Bool
 
 from bubblesim.controllers.keyboard_teleop import Velocity as TwistVelocity
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
+from bubblesim.navigation.driver import STANDING, Driver
 from bubblesim.navigation.driving import Driving, GaveUpError
 from bubblesim.navigation.grid_map import GridMap
-from bubblesim.navigation.path_following import STANDING, Driver
+from bubblesim.navigation.local_planning import Body
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
 from bubblesim.nodes.run_node import run_node, run_ros_program
@@ -40,9 +42,9 @@ SPARE = 0.05  # m, margin of paths in addition to the robot's radius, for the pa
 class GoTo:
     """Stores the latest map and scan, and drives while there is a goal."""
 
-    def __init__(self, driver: Driver, footprint: Footprint) -> None:
+    def __init__(self, driver: Driver, footprint: Footprint, body: Body | None) -> None:
         """Create publishers and subscribers; the node must be initialised."""
-        self._driving = Driving(driver, footprint, float(rospy.get_param("~patience", 10.0)))
+        self._driving = Driving(driver, footprint, float(rospy.get_param("~patience", 10.0)), body=body)
         self._map_frame = str(rospy.get_param("~map_frame", "map"))
         self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
         self._shown: list[Point] = []  # the path that was published last
@@ -140,7 +142,11 @@ def make() -> GoTo:
     """Create the node from its parameters."""
     driver = read_driver()
     comfort = float(rospy.get_param("~comfort", driver.radius + 0.3))
-    return GoTo(driver, Footprint(driver.radius + SPARE, comfort))
+    length, width = (float(rospy.get_param(f"~{name}", 0.0)) for name in ("length", "width"))
+    if not (length >= 0.0 and width >= 0.0 and (length > 0.0) == (width > 0.0)):
+        raise ValueError(f"length is {length} and width is {width}, both must be above 0, or 0 for a round robot")
+    body = Body.rectangle(length, width) if length > 0.0 else None
+    return GoTo(driver, Footprint(driver.radius + SPARE, comfort), body)
 
 
 def main() -> int:

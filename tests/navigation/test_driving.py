@@ -7,9 +7,9 @@ from collections.abc import Callable
 import pytest
 
 from bubblesim.controllers.planar_motion import Pose2D, moved
+from bubblesim.navigation.driver import Driver
 from bubblesim.navigation.driving import Driving, GaveUpError
 from bubblesim.navigation.grid_map import GridMap
-from bubblesim.navigation.path_following import Driver
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, seen_from
 from rooms import drawn
