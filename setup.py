@@ -8,6 +8,10 @@ setup(
     **generate_distutils_setup(
         packages=find_packages("python"),
         package_dir={"": "python"},
-        package_data={"bubblesim.scripting.language": ["*.lua"], "bubblesim.cli": ["templates/*.in"]},
+        package_data={
+            "bubblesim.scripting.language": ["*.lua"],
+            "bubblesim.cli": ["templates/*.in"],
+            "bubblesim.gym_tasks": ["scenes/*.sdf"],
+        },
     )
 )

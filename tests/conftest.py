@@ -9,7 +9,7 @@ import pytest
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise for nohup
 
-pytest_plugins = ["ros_support"]
+pytest_plugins = ["ros_support", "web_support"]
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -76,17 +76,32 @@ def test_core_builds_alone(tmp_path: Path) -> None:
 
 # The imports that each Python package may use of the others; nothing imports `cli`, `demo` and `testing`.
 PYTHON_LAYERS = [
-    {"program", "output", "geometry", "messages"},
+    {"program", "output", "geometry", "messages", "delayed_rows"},
     {"controllers"},
     {"ros_messages", "navigation", "nodes"},
     {"running"},
-    {"scripting.caller", "scripting.dummies", "scripting.allowed_programs", "scripting.threads"},
+    {
+        "scripting.dummies",
+        "scripting.drawings",
+        "scripting.graphs",
+        "scripting.log",
+        "scripting.object_collections",
+        "scripting.primitive_shapes",
+        "scripting.set_colours",
+        "scripting.set_numbers",
+        "scripting.problems",
+        "scripting.scene_edits",
+        "scripting.saved_scene",
+    },
+    {"scripting.caller", "scripting.allowed_programs", "scripting.threads"},
     {"scripting.api"},
     {"scripting.language"},
     {"scripting.host"},
     {"gazebo_plugins", "observers", "remote"},
     {"checking", "services"},
+    {"web"},
     {"doctor"},
+    {"sweeps", "gym_tasks"},
     {"cli", "demo", "testing"},
 ]
 

@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
   ScriptOptions script;
   script.replacements = {{"/Tricycle", argv[1]}};
   Runner runner(simulation);
-  PythonEngine python(runner, &bridge);
+  PythonEngine python;
+  python.begin(runner, &bridge);
   ChildScripts scripts(python, script);
   simulation.add(scripts);
 

@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
   ScriptOptions options;
   options.replacements = {{"/Tricycle", FIVE_CALLS_SCRIPT}};
   Runner runner(scripted);
-  PythonEngine python(runner, nullptr);
+  PythonEngine python;
+  python.begin(runner, nullptr);
   ChildScripts scripts(python, options);
   scripted.add(scripts);
 

@@ -10,17 +10,20 @@
 
 from __future__ import annotations
 
+from pkgutil import extend_path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bubblesim._core import (
         AltimeterReading,
+        Batch,
         Buoyancy,
         CameraImage,
         CollisionShape,
         Contact,
         ContactPoint,
         ContactReading,
+        Distribution,
         Diverged,
         Drag,
         ForceTorqueReading,
@@ -36,6 +39,7 @@ if TYPE_CHECKING:
         NotCarriedOut,
         Object,
         ProximityReading,
+        Quantity,
         Rotor,
         Runner,
         RunState,
@@ -51,12 +55,14 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AltimeterReading",
+    "Batch",
     "Buoyancy",
     "CameraImage",
     "CollisionShape",
     "Contact",
     "ContactPoint",
     "ContactReading",
+    "Distribution",
     "Diverged",
     "Drag",
     "ForceTorqueReading",
@@ -72,6 +78,7 @@ __all__ = [
     "NotCarriedOut",
     "Object",
     "ProximityReading",
+    "Quantity",
     "Rotor",
     "RunState",
     "Runner",
@@ -84,6 +91,9 @@ __all__ = [
     "scene_folders",
     "scene_names",
 ]
+
+# In a development space, the compiled module is in another folder of the path: spawned processes need it too.
+__path__ = extend_path(__path__, __name__)
 
 
 def __getattr__(name: str) -> Any:

@@ -9,6 +9,7 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while mo
 
 import argparse
 import os
+import re
 import sys
 import tempfile
 import time
@@ -16,6 +17,7 @@ from pathlib import Path
 
 from bubblesim.program import run_program
 from bubblesim.running.master import provide_master, simulated_time
+from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.recording import Recording
 from bubblesim.running.stop import Stop, wait_for
@@ -52,11 +54,13 @@ def run(scene: str, seconds: float, picture: Path) -> None:
             from bubblesim.running.observer import Observer  # a ROS node: it needs a master
 
             observer = Observer(recording)
-            programs.start("simulator", "rosrun", "bubblesim", "sim", scene)
+            simulator = programs.start("simulator", "rosrun", "bubblesim", "sim", scene, *_window())
             controller = _CONTROLLERS.get(Path(scene).stem)
             if controller:
                 programs.start("controller", "rosrun", "bubblesim", controller)
             wait_for(lambda: len(recording.samples) > 1, "the robot's pose on /tf", programs, stop)
+            if address := re.search(r"the window is at (\S+)", simulator.output()):
+                print(f"window             {address[1]}", flush=True)
             if recording.samples:
                 watch(recording, seconds, programs, stop)
             observer.close()
@@ -68,6 +72,15 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     print(f"{recording.summary()}\npicture            {picture}", flush=True)
     if recording.distance() < _MIN_DISTANCE and not stop.requested:
         raise RunError("nothing moved")
+
+
+def _window() -> list[str]:
+    """Return the option for the window, if its page is built."""
+    try:
+        page_folder()
+    except RunError:
+        return []
+    return ["--web"]
 
 
 def main() -> int:

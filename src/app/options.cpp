@@ -102,6 +102,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   bool no_ros = false;
   double until = 0;
   int remote_port = kRemotePort;
+  int web_port = 0;
 
   options.arguments = xacro_arguments(argc, argv);
   CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
@@ -109,7 +110,8 @@ ParsedOptions parse_options(int argc, char** argv) {
       "Exit codes: 0 success, 1 stdout is full or closed, 2 bad input, 3 a script failed, 4 the physics diverged.\n"
       "ROS remappings (name:=value) are accepted; in a xacro scene they are also arguments of xacro.");
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
-  app.add_option("SCENE", options.scene, "scene name, or path of an .sdf file");
+  app.add_option("SCENE", options.scene,
+                 "scene name, or path of an .sdf file; with --remote it may be left to the clients");
   app.add_option("--seed", options.seed, "random seed (default 0)");
   CLI::Option* until_option =
       app.add_option("--until", until, "end at this simulation time in seconds, or when stopped");
@@ -143,10 +145,26 @@ ParsedOptions parse_options(int argc, char** argv) {
           ->check(CLI::Range(0, 65535));
   app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)")
       ->needs(remote);
+  app.add_flag("--remote-trusted", options.remote_trusted,
+               "clients may do what Python child scripts may: start any program, load scenes and models from any file, "
+               "save scenes")
+      ->needs(remote);
   app.add_flag("--start", options.start, "with --remote: start the simulation at once")->needs(remote);
+  CLI::Option* web =
+      app.add_option("--web", web_port, "PORT: show the window in a browser (default 8080 or the next free port)")
+          ->expected(0, 1)
+          ->check(CLI::Range(1, 65535));
+  app.add_option("--web-address", options.web_address,
+                 "address that the window listens on (default 127.0.0.1); there, all who have its token control the "
+                 "simulation, over a connection that is not encrypted")
+      ->needs(web);
+  app.add_option("--web-edit", options.web_edit, "false: the window may look, and change nothing (default true)")
+      ->needs(web);
   app.add_flag("--replace", options.replace, "shut down a running node of the same name");
   app.add_flag("--strict", options.strict, "end with exit code 3 when a script fails");
   app.add_flag("--state-hash", options.state_hash, "print a hash of the whole state at the end");
+  app.add_option("--load-state", options.load_state, "FILE: begin with a state that --save-state saved");
+  app.add_option("--save-state", options.save_state, "FILE: save the state at the end");
   app.add_flag("--list-scenes", list_scenes, "print the names of the scenes and exit");
   try {
     app.parse(own_arguments(argc, argv));
@@ -154,9 +172,11 @@ ParsedOptions parse_options(int argc, char** argv) {
       for (const std::string& name : scene_names()) std::cout << name << "\n";
       return {std::nullopt, kFine};
     }
-    if (options.scene.empty()) throw CLI::RequiredError("SCENE (see --list-scenes)");
+    if (options.scene.empty() && !*remote) throw CLI::RequiredError("SCENE (see --list-scenes)");
     if (*until_option) options.until = until;
     if (*remote) options.remote_port = remote_port;
+    options.web = static_cast<bool>(*web);
+    if (web_port != 0) options.web_port = web_port;
     options.speed = parse_speed(speed);
     options.ros = !no_ros;
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");

@@ -30,6 +30,8 @@ struct Options {
   bool replace = false;  ///< shut down a node of the same name
   bool strict = false;
   bool state_hash = false;
+  std::filesystem::path load_state;  ///< empty: begin at the start of the scene
+  std::filesystem::path save_state;  ///< empty: none
   std::vector<std::pair<std::string, std::filesystem::path>> child_scripts;
   std::vector<std::filesystem::path> script_paths;
   bool gazebo_compat = false;
@@ -40,7 +42,12 @@ struct Options {
   std::vector<std::string> lockstep;  ///< topics
   std::optional<int> remote_port;     ///< of the door for remote clients
   std::string remote_address = "127.0.0.1";
-  bool start = false;                  ///< with the door, which otherwise leaves the start to a client
+  bool remote_trusted = false;  ///< clients may start all programs and use all files
+  bool start = false;           ///< with the door, which otherwise leaves the start to a client
+  bool web = false;             ///< start the server of the window
+  std::optional<int> web_port;  ///< default: 8080, or the next free one
+  std::string web_address = "127.0.0.1";
+  bool web_edit = true;                ///< pages may change the simulation and files
   std::vector<std::string> arguments;  ///< NAME:=VALUE, for a xacro scene
 };
 

@@ -66,6 +66,7 @@ struct RosBridge::Impl {
   bool processing_input = false;
 
   EndpointId next_id = 1;
+  EndpointId first_of_scenes = 1;  // those before are the bridge's own
 
   RosClock clock{queue};
   UseSimTime use_sim_time;
@@ -109,6 +110,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     offer_pause_service("~unpause", false);
   }
   if (options.on_step) offer_step_service();
+  first_of_scenes = next_id;
   master.start();
 }
 
@@ -271,6 +273,15 @@ void RosBridge::publish_diagnostics() {
   if (impl_->master.run([impl = impl_.get()] { impl->diagnostics.publish(); }, kLastWords)) {
     std::this_thread::sleep_for(kLastWords);  // roscpp sends on its own thread and does not report when it is done
   }
+}
+
+void RosBridge::shutdown_endpoints() {
+  {
+    const std::lock_guard lock(impl_->urgent_mutex);
+    impl_->urgent.clear();
+  }
+  impl_->topics.shutdown_all();
+  impl_->services.remove_from(impl_->first_of_scenes);
 }
 
 bool RosBridge::connected() const {

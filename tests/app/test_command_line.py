@@ -109,6 +109,26 @@ def test_state_hash_is_equal_in_every_process_and_depends_on_what_happened() -> 
     assert state_hash("--until", 1.05, "--seed", 5) != first
 
 
+def test_a_saved_state_continues_as_if_the_run_had_not_ended(tmp_path: Path) -> None:
+    code = """
+        def sysCall_init(): pass
+        def sysCall_actuation():
+            sim.setJointTargetVelocity(sim.getObject('/FrontMotor'), sim.getSimulationTime())
+    """
+    script = write(tmp_path / "script.py", code)
+    run = ["tricycle", "--no-ros", "--speed", "max", "--state-hash", "--child-script", f"/Tricycle={script}"]
+    file = tmp_path / "state"
+    whole = run_sim(*run, "--until", 2)
+    first = run_sim(*run, "--until", 1, "--save-state", file)
+    assert first.returncode == 0, first.stderr
+    second = run_sim(*run, "--until", 2, "--load-state", file, "--seed", 4)
+    assert second.stdout == whole.stdout
+    file.write_bytes(file.read_bytes()[:-1])
+    cut = run_sim(*run, "--until", 2, "--load-state", file)
+    assert cut.returncode == 2
+    assert f"{file}: the saved state is damaged" in cut.stderr
+
+
 def test_diverging_physics_end_with_exit_code_4_and_cleanup(tmp_path: Path) -> None:
     code = """
         def sysCall_init(): sim.launchExecutable('sleep', '36057.5')

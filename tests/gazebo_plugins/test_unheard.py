@@ -44,12 +44,12 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 def measurements(peer: Peer) -> tuple[float, int]:
-    """Return the simulated time of the next report, and the number of measurements until then."""
+    """Return the simulated time of the next report after the first step, and the number of measurements until then."""
     while True:
         message = peer.next("/diagnostics", "diagnostic_msgs/DiagnosticArray")
         for status in message["status"]:
             values = {pair["key"]: pair["value"] for pair in status["values"]}
-            if "Measurements of sensors" in values:
+            if float(values.get("Simulation time (s)", 0)) > 0:
                 return float(values["Simulation time (s)"]), int(values["Measurements of sensors"])
 
 

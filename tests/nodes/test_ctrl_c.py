@@ -71,6 +71,8 @@ def wait_until_it_loads_modules(process: "subprocess.Popen[str]") -> None:
     """Wait until Python has started and handles SIGINT, before the program's first lines."""
 
     def catches() -> bool:
+        if process.poll() is not None:
+            return False
         caught = re.search(r"SigCgt:\s+(\w+)", Path(f"/proc/{process.pid}/status").read_text())
         return caught is not None and bool(int(caught[1], 16) & 1 << (signal.SIGINT - 1))
 

@@ -26,6 +26,7 @@ transforms = tf2_ros.TransformBroadcaster()
 buffer = tf2_ros.Buffer()
 tf2_ros.TransformListener(buffer)
 wait_until(lambda: scans.get_num_connections() > 0, "the mapper")
+wait_until(lambda: transforms.pub_tf.get_num_connections() > 1, "the subscribers of transforms")
 
 def range_at(x, angle):  # the room extends from (-2, -3) to (6, 3)
     along, up = math.cos(angle), math.sin(angle)

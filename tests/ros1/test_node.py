@@ -12,7 +12,7 @@ from ros_support import RosCore, free_port, ros_environment, wait_until
 NAME = "/sim_ros_interface"
 BOUND = 2.0
 """Seconds within which a bridge must end, whatever its master does."""
-SLACK = 0.5
+SLACK = 1.5
 """Extra time for starting and ending a process on a busy machine."""
 
 

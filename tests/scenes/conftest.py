@@ -26,6 +26,9 @@ def script(roscore: RosCore, tmp_path: Path) -> Iterator[Script]:
 
     yield run
     for node in nodes:
-        if node.process.poll() is None:
+        code = node.process.poll()
+        assert code is None or code >= 0, f"the node crashed ({code}): {node.output}"
+        if code is None:
             ended = 3 if "is disabled" in node.output else 0
-            assert node.end() in (ended, -signal.SIGINT)  # on a busy machine the node ends before it has cleaned up
+            code = node.end()
+            assert code in (ended, -signal.SIGINT), node.output  # on a busy machine it ends before it has cleaned up

@@ -11,7 +11,7 @@ import pytest
 import bubblesim
 from bubblesim.controllers.differential_drive import DifferentialDrive, wheel_speeds
 from bubblesim.controllers.planar_motion import Velocity
-from node_support import Node, run_script, run_sim, told_by, write
+from node_support import Node, findings_of, run_script, run_sim, write
 from ros_support import RosCore
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33)
@@ -116,7 +116,7 @@ def test_it_follows_velocities_and_tells_where_it_is(roscore: RosCore, tmp_path:
     roscore.set_param("/use_sim_time", True)
     roscore.set_param("/sim_ros_interface/odometry_noise", noise)
     with Node(roscore.env, tmp_path / "log", "pioneer", "--speed", "2") as node:
-        found = told_by(PROBE, roscore.env, tmp_path)
+        found = findings_of(PROBE, roscore.env, tmp_path)
         assert node.end() == 0
     assert found["frames"] == ["odom", "base_link"]
     assert found["true_speeds"] == pytest.approx([0.4, 0.5], rel=0.01)

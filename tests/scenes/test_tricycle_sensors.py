@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import Node, run_script, told_by
+from node_support import Node, findings_of, run_script
 from ros_support import REPOSITORY, RosCore
 
 PROBE = """
@@ -45,7 +45,7 @@ print(json.dumps({
 def test_what_they_tell_agrees(roscore: RosCore, tmp_path: Path) -> None:
     roscore.set_param("/use_sim_time", True)
     with Node(roscore.env, tmp_path / "log", "tricycle", "--speed", "2") as node:
-        found = told_by(PROBE, roscore.env, tmp_path)
+        found = findings_of(PROBE, roscore.env, tmp_path)
         assert node.end() == 0
     assert found["frames"] == ["odom", "base_link", "Gps", "Camera_optical"]
     # A degree of latitude at 48 degrees north is 111 194 m, a degree of longitude 74 395 m (WGS84). x is east, and the

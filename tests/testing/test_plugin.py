@@ -74,6 +74,31 @@ BY_THE_CLOCK = """\
 """
 
 
+STARTS_WHEN_HEARD = """\
+    import time
+
+    def sysCall_init():
+        self.steps = 0
+        self.publisher = simROS.advertise("/front_sonar", "std_msgs/Float32")
+        simROS.subscribe("/speed", "std_msgs/Float32", lambda message: None)
+        while not simROS.wantsMessages(self.publisher):
+            time.sleep(0.01)
+        time.sleep(0.5)  # until the subscriber is connected, too
+
+    def sysCall_sensing():
+        self.steps += 1
+        simROS.publish(self.publisher, {"data": float(self.steps)})
+"""
+ECHOES = """\
+    import rospy
+    from std_msgs.msg import Float32
+    rospy.init_node("mine")
+    speed = rospy.Publisher("/speed", Float32, queue_size=1)
+    rospy.Subscriber("/front_sonar", Float32, lambda message: speed.publish(message.data))
+    rospy.spin()
+"""
+
+
 @pytest.fixture
 def ten(tmp_path: Path) -> str:
     """Write a controller that answers ten times, and then no more."""
@@ -133,6 +158,16 @@ def test_the_controller_drives_and_its_messages_are_known(controller: StartContr
     assert len(speeds) == 98  # 100 steps; the first has no subscriber yet, the last no answer yet
     assert speeds[0][1].data == pytest.approx(0.525)  # 0.5 rad/s, 5 % more with each answer
     assert speeds[1][0] - speeds[0][0] == pytest.approx(0.05)
+
+
+def test_a_controller_gets_no_message_of_the_first_step_however_early_it_subscribes(
+    tmp_path: Path, controller: StartController, sim: StartSimulator
+) -> None:
+    controller(f"/usr/bin/python3 {write(tmp_path / 'echoes.py', ECHOES)}")
+    script = write(tmp_path / "starts_when_heard.py", STARTS_WHEN_HEARD)
+    tricycle = sim("tricycle", lockstep=["/speed"], options=["--child-script", f"/Tricycle={script}"])
+    tricycle.run(0.2)
+    assert [message.data for _, message in tricycle.messages("/speed")] == [2.0, 3.0]
 
 
 @pytest.mark.parametrize("answer", [WITHOUT_CLOCK, CLOCK_LATER], ids=["never", "later than the rest"])

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from bubblesim.running.processes import RunError
 
-_COMMANDS = ("run", "scenes", "new-scene", "check", "api", "test", "doctor")
+_COMMANDS = ("run", "shell", "scenes", "new-scene", "check", "api", "test", "sweep", "view", "doctor")
 _FAILED, _BAD_INPUT = 1, 2
 
 _DESCRIPTION = """\
@@ -18,10 +18,13 @@ Runs robot scenes and helps to write them. Begin with:
 
   bubblesim scenes                       list the scenes
   bubblesim run tricycle --roscore       run one, with a ROS master
+  bubblesim shell tricycle --no-ros      a Python prompt with `sim`
   bubblesim new-scene mine               create a new scene
   bubblesim check my/robot.sdf           validate a file
   bubblesim api getObject                show a function for scripts
   bubblesim test test_mine.py            test a controller in the simulator
+  bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters
+  bubblesim view                         open the window of a running simulation
   bubblesim doctor                       diagnose problems of ROS or Python"""
 _EPILOG = """\
 exit codes: 0 success, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` returns those of the

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterator
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from bubblesim.gazebo_plugins.parameters import ParameterError, Parameters
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext, StepTime
 from bubblesim.gazebo_plugins.registry import PLUGINS, library
+from bubblesim.gazebo_plugins.saved_state import collected, restored
 from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
 from bubblesim.gazebo_plugins.sensors.sensor_topic import NoPlugin, SensorTopic
 from bubblesim.gazebo_plugins.transforms import Transforms
@@ -69,6 +71,22 @@ class GazeboPlugins:
     def reset(self) -> None:
         """Reset all plugins after a world reset."""
         self._each("reset")
+
+    def save_state(self) -> bytes:
+        """Return the state of all plugins; empty without plugins."""
+        states = {key: collected(plugin) for key, plugin in self._keyed()}
+        return json.dumps(states).encode() if states else b""
+
+    def restore_state(self, state: bytes) -> None:
+        """Restore the states of the plugins that are there, as far as they were saved."""
+        states = json.loads(state)
+        for key, plugin in self._keyed():
+            if key in states:
+                restored(states[key], plugin)
+
+    def _keyed(self) -> Iterator[tuple[str, Plugin]]:
+        for number, plugin in enumerate(self._plugins):
+            yield f"{number} {plugin.context.owner} {type(plugin).__name__}", plugin
 
     def actuate(self) -> None:
         """Call ``actuate`` of all plugins."""

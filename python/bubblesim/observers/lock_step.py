@@ -23,7 +23,8 @@ class LockStep:
     """An observer of a bridge. A step is complete when a message has been received on each topic since its end.
 
     Scripts create their topics in the first step. Before the second, a publisher of each topic must be connected, a
-    subscriber of a topic that scripts publish, and one of /clock.
+    subscriber of a topic that scripts publish, and one of /clock. What scripts publish before that reaches no node,
+    because it would depend on the speed of the connections which messages a controller gets.
     """
 
     def __init__(self, topics: list[str], bridge: Any, runner: Any) -> None:
@@ -34,6 +35,7 @@ class LockStep:
         self._simulation = runner.simulation
         self._subscribers: dict[str, int] = {}  # by topic
         self._publishers: list[int] = []  # of all topics
+        self.connected = False  # since the last start of a script
         self._started = False
         self._pending: set[str] = set()
         self._since = time.monotonic()
@@ -50,6 +52,7 @@ class LockStep:
         """Wait for the connections again: a script has started."""
         if topic in self._topics:
             self._subscribers[topic] = subscriber
+            self.connected = False
             self._restart(started=False)
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
@@ -78,9 +81,9 @@ class LockStep:
         """Return whether the next step may start."""
         if self._simulation.time == 0.0:
             return True  # scripts create their topics in the first step
-        if not self._started:
-            return self._connected()
-        return not self._pending
+        if not self.connected:
+            self.connected = self._connections_have_settled()
+        return self.connected and not (self._started and self._pending)
 
     def timeout_reason(self) -> str:
         """Return which messages are missing, and the likely reason."""
@@ -105,7 +108,7 @@ class LockStep:
         self._since = time.monotonic()
         self._warned = False
 
-    def _connected(self) -> bool:
+    def _connections_have_settled(self) -> bool:
         received = {topic: self._bridge.has_publisher(id_) for topic, id_ in self._subscribers.items()}
         subscribed_to = [self._has_subscribers(publisher) for publisher in self._publishers]
         if self._topics - received.keys() or not all(received.values()) or not any(subscribed_to):

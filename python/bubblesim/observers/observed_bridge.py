@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from bubblesim.observers.lock_step import LockStep
+
 
 class Observer(Protocol):
     """Notified of what scripts do with topics."""
@@ -35,15 +37,21 @@ class Observer(Protocol):
 class ObservedBridge:
     """Wraps a bridge; see ``bubblesim._core.Bridge``."""
 
-    def __init__(self, bridge: Any, observers: list[Observer], *, keeps_all: bool = False) -> None:
+    def __init__(
+        self, bridge: Any, observers: list[Observer], *, keeps_all: bool = False, lockstep: LockStep | None = None
+    ) -> None:
         """Create it without publishers.
 
         :param keeps_all: an observer uses all messages, also those without subscribers.
+        :param lockstep: what is published before its connections are complete is checked, but not sent; latched
+            messages are.
         """
         self.observers = observers
         self.keeps_all = keeps_all
         self._bridge = bridge
+        self._lockstep = lockstep
         self._published: dict[int, tuple[str, str]] = {}  # topic and type by publisher
+        self._latched: set[int] = set()
 
     def __getattr__(self, name: str) -> Any:
         """Forward all functions that are not observed."""
@@ -53,13 +61,16 @@ class ObservedBridge:
         """Advertise a topic and notify the observers."""
         publisher: int = self._bridge.advertise(topic, message_type, queue_size, latch)
         self._published[publisher] = topic, message_type
+        if latch:
+            self._latched.add(publisher)
         for observer in self.observers:
             observer.advertised(publisher)
         return publisher
 
     def publish(self, publisher: int, message: Any) -> Any:
         """Publish, and notify the observers."""
-        truncations = self._bridge.publish(publisher, message)
+        withheld = self._lockstep is not None and not self._lockstep.connected and publisher not in self._latched
+        truncations = (self._bridge.check if withheld else self._bridge.publish)(publisher, message)
         for observer in self.observers:
             observer.published(*self._published[publisher], message)
         return truncations

@@ -23,9 +23,10 @@ class Observers:
         self._observers: list[Observer] = []
         if record:
             self._observers.append(BagRecorder(Path(record), bridge))
-        if lockstep:
-            self._observers.append(LockStep(lockstep, bridge, runner))
-        self.bridge = ObservedBridge(bridge, self._observers, keeps_all=bool(record))
+        lock_step = LockStep(lockstep, bridge, runner) if lockstep else None
+        if lock_step:
+            self._observers.append(lock_step)
+        self.bridge = ObservedBridge(bridge, self._observers, keeps_all=bool(record), lockstep=lock_step)
 
     def process_input(self) -> None:
         """Notify the observers after input was processed."""

@@ -17,3 +17,15 @@ def node_program() -> Path:
     if not program.is_file():
         raise RunError(f"the node is not built: file not found: {program}; build the workspace with ROS")
     return program
+
+
+def page_folder() -> Path:
+    """Return the folder of the page of the window, <prefix>/share/bubblesim/web."""
+    core = importlib.util.find_spec("bubblesim._core")
+    folder = Path((core and core.origin) or "").parents[4] / "share" / "bubblesim" / "web"
+    if not (folder / "index.html").is_file():
+        raise RunError(
+            f"the page of the window is not built: {folder}; build it with Node.js 20 or later on PATH, or run "
+            "scripts/setup"
+        )
+    return folder

@@ -46,13 +46,17 @@ class Program:
         """Return the exit code, None while it runs; negative: the signal that ended it."""
         return self._process.poll()
 
+    def output(self) -> str:
+        """Return its output so far, if stored."""
+        return self._log.read_text(errors="replace") if self._log else ""
+
     def check(self) -> None:
         """Raise RunError, with its last output if stored, if it has ended by itself."""
         if self._stopped or self.exit_code is None:
             return
         output = ""
         if self._log:
-            last_lines = self._log.read_text(errors="replace").splitlines()[-15:]
+            last_lines = self.output().splitlines()[-15:]
             output = "; its last output:" + "".join(f"\n  {line}" for line in last_lines)
         raise RunError(f"the {self.name} ended with exit code {self.exit_code}{output}")
 

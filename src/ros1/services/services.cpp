@@ -116,6 +116,15 @@ void Services::serve() {
 
 void Services::remove_client(EndpointId id) { clients_.erase(find_endpoint(clients_, id, "service client")); }
 
+void Services::remove_from(EndpointId first) {
+  std::vector<EndpointId> ids;
+  for (const auto& [id, server] : servers_) {
+    if (id >= first) ids.push_back(id);
+  }
+  for (const EndpointId id : ids) remove_server(id);
+  clients_.clear();
+}
+
 WaitingCount Services::waiting(EndpointId server) const {
   return find_endpoint(servers_, server, "service server")->second->waiting();
 }

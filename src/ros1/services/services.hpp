@@ -43,6 +43,8 @@ class Services {
   void add_client(messages::EndpointId id, const std::string& name, const messages::ServiceType& type);
   void remove_server(messages::EndpointId id);
   void remove_client(messages::EndpointId id);
+  /// Removes the servers and clients with this id and later ones.
+  void remove_from(messages::EndpointId first);
   WaitingCount waiting(messages::EndpointId server) const;
   const messages::ServiceType& type(messages::EndpointId id) const;
 

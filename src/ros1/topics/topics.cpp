@@ -190,6 +190,11 @@ std::size_t Topics::publishers_on(const std::string& topic) const {
                                                 [&](const auto& entry) { return entry.second->topic() == topic; }));
 }
 
+void Topics::shutdown_all() {
+  while (!publishers_.empty()) shutdown_publisher(publishers_.begin()->first);
+  while (!subscribers_.empty()) shutdown_subscriber(subscribers_.begin()->first);
+}
+
 void Topics::silence() {
   for (const auto& [id, subscriber] : subscribers_) subscriber->silence();
 }

@@ -45,6 +45,8 @@ class Topics {
   std::size_t publishers_on(const std::string& topic) const;
   /// On the master thread: updates has_publisher().
   void look_for_publishers();
+  /// Shuts down all publishers and subscribers.
+  void shutdown_all();
   /// Silences all subscribers, for the end of the bridge.
   void silence();
 
