@@ -105,6 +105,9 @@ def stop(process: "subprocess.Popen[str]") -> None:
             continue
 
 
+OF_ONE_TYPE = ("/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static")
+
+
 class RosCore:
     """A running roscore. `env` is the environment of its clients; as a context manager it ends with the block."""
 
@@ -150,8 +153,10 @@ class RosCore:
         except (OSError, xmlrpc.client.Error):
             return False
 
-    def _all_state(self) -> tuple[object, object]:
-        return self.state(), sorted(self._ask_master("getParamNames", "/test"))
+    def _all_state(self) -> tuple[object, object, object]:
+        # Until a topic is advertised again, tools such as rostopic take the type that it had last.
+        types = sorted(pair for pair in self._ask_master("getTopicTypes", "/test") if pair[0] not in OF_ONE_TYPE)
+        return self.state(), sorted(self._ask_master("getParamNames", "/test")), types
 
     def nodes(self) -> set[str]:
         return {node for book in self.state().values() for nodes in book.values() for node in nodes}

@@ -21,7 +21,6 @@ class Properties {
   element = h("div.properties");
   #app;
   #updates = []; // functions of the state
-  #time = -1;
   #waiting = false;
 
   constructor(app) {
@@ -31,7 +30,6 @@ class Properties {
     app.scene.on("changed", () => {
       if (!app.selection.object) this.#show();
     });
-    app.scene.on("colours", () => (this.#time = -1));
     this.#show();
     setInterval(() => this.#look(), PERIOD);
   }
@@ -39,7 +37,6 @@ class Properties {
   #show() {
     const { object } = this.#app.selection;
     this.#updates = [];
-    this.#time = -1;
     if (!object) {
       this.element.replaceChildren(this.#sceneProperties());
       return;
@@ -65,12 +62,9 @@ class Properties {
     const { selection, link } = this.#app;
     const { object } = selection;
     if (!object || this.#waiting || !link.connected || !link.frame || this.element.hidden || !this.element.isConnected) return;
-    const { count } = link.frame;
-    if (count === this.#time) return;
     this.#waiting = true;
     try {
       const state = await link.call("window.get_state", [object.handle], "properties");
-      this.#time = count;
       if (selection.object === object) for (const update of this.#updates) await update(state);
     } catch (error) {
       if (link.connected) console.debug(error.message); // it was removed
@@ -139,7 +133,8 @@ class Properties {
   /// What can be set: mass and friction of models and links, gain of motors, noise of sensors.
   #numbers(object) {
     const rows = NUMBERS.filter(({ kinds }) => kinds.includes(object.kind)).map(({ name, title, unit, hint }) => {
-      let present = null;
+      let present; // in the simulation
+      let shown; // in the input, but for what is being typed
       const input = h("input", {
         type: "number",
         name,
@@ -148,17 +143,18 @@ class Properties {
         title: hint,
         readOnly: !this.#app.link.mayEdit,
         onchange: async () => {
-          input.blur(); // then it shows the present value again, and the keys are those of the window
-          await this.#app.editing.number(object, name, Number(input.value), present).catch(() => {});
-          present = null;
+          input.blur(); // the keys are those of the window again
+          await this.#app.editing.number(object, name, Number(input.value), present);
+          shown = undefined; // what was typed may have been refused
         },
       });
       const term = h("dt", unit ? `${title}, ${unit}` : title);
       const value = h("dd", input);
       this.#updates.push(({ numbers: found }) => {
         term.hidden = value.hidden = !(name in found);
-        if (present === found[name] || document.activeElement === input) return;
         present = found[name];
+        if (shown === present || document.activeElement === input) return;
+        shown = present;
         input.value = present === undefined ? "" : String(Number(present.toPrecision(6)));
       });
       return [term, value];

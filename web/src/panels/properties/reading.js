@@ -9,11 +9,13 @@ export function readingSection(app, sensor) {
   const canvas = h("canvas.reading", { hidden: true });
   const box = h("div");
   let last = -PERIOD;
+  let count = -1; // of the frame then
   return {
     element: section("Last reading", canvas, box),
     async update() {
-      if (performance.now() - last < PERIOD) return; // a camera's image takes the simulator a while
+      if (app.link.frame.count === count || performance.now() - last < PERIOD) return; // an image takes the simulator a while
       last = performance.now();
+      count = app.link.frame.count;
       const reading = await app.link.call("window.reading", [sensor.handle], "properties");
       if (reading.rgb || reading.depth) drawImage(canvas, { ...sensor.parameters, ...reading });
       else if (reading.ranges) drawScan(canvas, reading, sensor.parameters);
