@@ -117,7 +117,7 @@ class RosCore:
         self.process = start(
             ["roscore", "-p", str(self.port)], self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
-        wait_until(lambda: "/rosout" in self.nodes(), "roscore to start")
+        wait_until(lambda: "/rosout" in self.state()["subscribers"], "roscore to start")  # the last thing that it does
         self._master_pid = int(self._ask_master("getPid", "/test"))
         self._first_state = self._all_state()
 
