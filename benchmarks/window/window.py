@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cost of a page that takes every frame: CPU of the simulator, latency and size of frames, time to the first picture.
+"""Cost of a page that takes every frame: CPU and steps of the simulator, latency and size of frames, the first picture.
 
 Runs the node with a window, and a client that reads frames as the page does, in rounds with and without the client:
 
@@ -8,22 +8,42 @@ Runs the node with a window, and a client that reads frames as the page does, in
 
 import argparse
 import asyncio
-import os
+import contextlib
+import itertools
 import re
 import statistics
 import struct
 import subprocess
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import aiohttp
 import cbor2
 from playwright.sync_api import sync_playwright
 
+import bubblesim
 from bubblesim.running.places import node_program
 
 BODIES = 1000
+PORT = 23470
+
+
+# Step times as a script sees them: the distances of its calls, at full speed.
+STEP_TIMES = """\
+import time
+
+def sysCall_init():
+    self.calls = []
+
+def sysCall_actuation():
+    self.calls.append(time.perf_counter())
+
+def take():
+    calls, self.calls = self.calls, []
+    return calls
+"""
 
 
 def boxes(folder: Path) -> str:
@@ -41,8 +61,7 @@ def boxes(folder: Path) -> str:
 
 def cpu_time(process: int) -> float:
     """Return the CPU time of a process in s."""
-    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return time.clock_gettime((~process << 3) | 2)  # as clock_getcpuclockid(3)
 
 
 class Client:
@@ -90,27 +109,56 @@ def first_picture(address: str, openings: int) -> float:
     return statistics.median(times)
 
 
-def measure(name: str, scene: str, folder: Path, rounds: int, seconds: float) -> None:
-    """Print the figures of a scene."""
-    log = (folder / "log").open("w+")
-    command = [str(node_program()), scene, "--no-ros", "--web", "--speed", "3"]
-    with subprocess.Popen(command, stderr=log) as node:
+@contextlib.contextmanager
+def window_of(scene: str, folder: Path, *options: str) -> Iterator[tuple[int, str]]:
+    """Run a node with a window; yield its process and the address."""
+    log = folder / "log"
+    command = [str(node_program()), scene, "--no-ros", "--web", *options]
+    with log.open("w") as output, subprocess.Popen(command, stderr=output) as node:
         try:
-            while not (found := re.search(r"the window is at (\S+)", (folder / "log").read_text())):
+            while not (found := re.search(r"the window is at (\S+)", log.read_text())):
                 time.sleep(0.2)
-            client = Client()
-            asyncio.run(client.read(found[1], 2))  # begins to share frames
-            ratios = []
-            for _ in range(rounds):
-                before = cpu_time(node.pid)
-                time.sleep(seconds)
-                alone = cpu_time(node.pid) - before
-                before = cpu_time(node.pid)
-                asyncio.run(client.read(found[1], seconds))
-                ratios.append((cpu_time(node.pid) - before) / alone)
-            opened = first_picture(found[1], 5)
+            yield node.pid, found[1]
         finally:
             node.terminate()
+
+
+def step_times(scene: str, model: str, folder: Path, rounds: int, seconds: float) -> None:
+    """Print the 99th percentile of the step times at full speed, with a page relative to that without."""
+    script = folder / "step_times.py"
+    script.write_text(STEP_TIMES)
+    options = ["--speed", "max", "--remote", str(PORT), "--start", "--child-script", f"{model}={script}"]
+    ratios = []
+    with window_of(scene, folder, *options) as (_, address), bubblesim.connect(PORT) as simulator:
+        asyncio.run(Client().read(address, 2))
+
+        def late_step() -> float:
+            calls = simulator.call("sim.callScriptFunction", "take", model)
+            return statistics.quantiles([b - a for a, b in itertools.pairwise(calls)], n=100)[-1]
+
+        late_step()
+        for _ in range(rounds):
+            time.sleep(seconds)
+            alone = late_step()
+            asyncio.run(Client().read(address, seconds))
+            ratios.append(late_step() / alone)
+    print(f"  step times at full speed, 99th percentile with a page: {statistics.median(ratios):.3f} x")
+
+
+def measure(name: str, scene: str, folder: Path, rounds: int, seconds: float) -> None:
+    """Print the figures of a scene."""
+    client = Client()
+    ratios = []
+    with window_of(scene, folder, "--speed", "3") as (process, address):
+        asyncio.run(client.read(address, 2))  # begins to share frames
+        for _ in range(rounds):
+            before = cpu_time(process)
+            time.sleep(seconds)
+            alone = cpu_time(process) - before
+            before = cpu_time(process)
+            asyncio.run(client.read(address, seconds))
+            ratios.append((cpu_time(process) - before) / alone)
+        opened = first_picture(address, 5)
     late = statistics.quantiles(client.latencies, n=20)[-1]
     rate = len(client.latencies) / (2 + rounds * seconds)
     print(
@@ -129,8 +177,12 @@ def main() -> None:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        measure("tricycle", "tricycle", folder, options.rounds, options.seconds)
-        measure(f"{BODIES} bodies", boxes(folder), folder, options.rounds, options.seconds)
+        for title, scene, model in (
+            ("tricycle", "tricycle", "/Tricycle"),
+            (f"{BODIES} bodies", boxes(folder), "/box_0"),
+        ):
+            measure(title, scene, folder, options.rounds, options.seconds)
+            step_times(scene, model, folder, options.rounds, options.seconds)
 
 
 if __name__ == "__main__":
