@@ -43,27 +43,30 @@ def boxes(count: int) -> list[tuple[float, float, float]]:
     return found
 
 
+def scene_of(box_count: int, robots: int = 1, more: str = "") -> str:
+    """Return a scene of boxes and tricycles side by side, in SDFormat."""
+    models = "".join(
+        f"""<model name="Box{i}"><static>true</static><pose>{x} {y} 0.2 0 0 {heading}</pose><link name="l">
+        <collision name="c"><geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link></model>"""
+        for i, (x, y, heading) in enumerate(boxes(box_count))
+    )
+    models += "".join(
+        f"""<include><uri>model://tricycle</uri><name>Tricycle{i}</name>
+        <pose>{8 * (i % 10)} {8 * (i // 10)} 0 0 0 0</pose></include>"""
+        for i in range(robots)
+    )
+    return f"""<sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
+        <physics name="p" type="ode"><max_step_size>{STEP}</max_step_size></physics>
+        <include><uri>model://floor</uri></include>{models}{more}</world></sdf>"""
+
+
 class Ours:
     """Tricycles side by side in bubblesim."""
 
     def __init__(self, box_count: int, robots: int = 1) -> None:
         """Load the scene and set the commands for a circle."""
-        scene = "".join(
-            f"""<model name="Box{i}"><static>true</static><pose>{x} {y} 0.2 0 0 {heading}</pose><link name="l">
-            <collision name="c"><geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link></model>"""
-            for i, (x, y, heading) in enumerate(boxes(box_count))
-        )
-        scene += "".join(
-            f"""<include><uri>model://tricycle</uri><name>Tricycle{i}</name>
-            <pose>{8 * (i % 10)} {8 * (i // 10)} 0 0 0 0</pose></include>"""
-            for i in range(robots)
-        )
         with tempfile.NamedTemporaryFile("w", suffix=".sdf") as file:
-            file.write(
-                f"""<sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
-                <physics name="p" type="ode"><max_step_size>{STEP}</max_step_size></physics>
-                <include><uri>model://floor</uri></include>{scene}</world></sdf>"""
-            )
+            file.write(scene_of(box_count, robots))
             file.flush()
             self.simulation = bubblesim.Simulation(file.name)
         for i in range(robots):
