@@ -8,7 +8,6 @@ again.
 
 from __future__ import annotations
 
-import ipaddress
 import sys
 import time
 from collections.abc import Callable
@@ -24,6 +23,7 @@ from bubblesim.remote import protocol
 from bubblesim.remote.clients import Clients
 from bubblesim.remote.frame_publisher import FramePublisher
 from bubblesim.remote.function_calls import carry_out, info
+from bubblesim.remote.listening import listen
 from bubblesim.remote.remote_client import Line, Pending, RemoteClient
 
 _SLICE = 0.005  # s of requests between two looks at other commands
@@ -76,7 +76,7 @@ class RemoteServer:
         self._context = zmq.Context()
         self._address = address
         self._frames: FramePublisher | None = None
-        self._socket = self._listen(address, port)
+        self._socket = listen(self._context, address, port)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
         if trusted:
             write_line(
@@ -129,29 +129,6 @@ class RemoteServer:
         """Return the scene for the node to go on with; None if it is to end."""
         scene, self._next_scene = self._next_scene, None
         return scene
-
-    def _listen(self, address: str, port: int) -> zmq.Socket[bytes]:
-        socket = self._context.socket(zmq.ROUTER)
-        socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
-        socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
-        socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
-        socket.setsockopt(zmq.SNDHWM, 16)  # replies that are not read
-        socket.setsockopt(zmq.ROUTER_MANDATORY, 1)  # sending to a client that is gone is an error
-        socket.setsockopt(zmq.HEARTBEAT_IVL, 10_000)  # ms; finds machines that are gone
-        socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30_000)
-        try:
-            socket.bind(f"tcp://{address}:{port if port else '*'}")
-        except zmq.ZMQError as error:
-            socket.close(0)
-            self._context.term()
-            raise RuntimeError(
-                f"cannot listen on {address}:{port}: {error.strerror}; another port: --remote=PORT"
-            ) from None
-        where = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
-        write_line(sys.stderr, f"info: remote clients can connect to {where}")
-        if not _is_loopback(address):
-            write_line(sys.stderr, f"warning: all who reach {address} can control the simulation: there is no password")
-        return socket
 
     # Phases of the simulation
 
@@ -403,10 +380,3 @@ class RemoteServer:
 
 def _text(error: Exception) -> str:
     return str(error) or type(error).__name__
-
-
-def _is_loopback(address: str) -> bool:
-    try:
-        return address == "localhost" or ipaddress.ip_address(address).is_loopback
-    except ValueError:
-        return False

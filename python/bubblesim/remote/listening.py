@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The socket on which remote clients connect."""
+
+from __future__ import annotations
+
+import ipaddress
+import sys
+
+import zmq
+
+from bubblesim.output import write_line
+from bubblesim.remote import protocol
+
+
+def listen(context: zmq.Context[zmq.Socket[bytes]], address: str, port: int) -> zmq.Socket[bytes]:
+    """Return a socket that is bound to address:port, and log where; port 0 takes a free one.
+
+    :raises RuntimeError: if the address cannot be used; the context is terminated.
+    """
+    socket = context.socket(zmq.ROUTER)
+    socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
+    socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
+    socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
+    socket.setsockopt(zmq.SNDHWM, 16)  # replies that are not read
+    socket.setsockopt(zmq.ROUTER_MANDATORY, 1)  # sending to a client that is gone is an error
+    socket.setsockopt(zmq.HEARTBEAT_IVL, 10_000)  # ms; finds machines that are gone
+    socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30_000)
+    try:
+        socket.bind(f"tcp://{address}:{port if port else '*'}")
+    except zmq.ZMQError as error:
+        socket.close(0)
+        context.term()
+        raise RuntimeError(
+            f"cannot listen on {address}:{port}: {error.strerror}; another port: --remote=PORT"
+        ) from None
+    where = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
+    write_line(sys.stderr, f"info: remote clients can connect to {where}")
+    if not _is_loopback(address):
+        write_line(sys.stderr, f"warning: all who reach {address} can control the simulation: there is no password")
+    return socket
+
+
+def _is_loopback(address: str) -> bool:
+    try:
+        return address == "localhost" or ipaddress.ip_address(address).is_loopback
+    except ValueError:
+        return False
