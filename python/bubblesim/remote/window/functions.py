@@ -13,9 +13,17 @@ from bubblesim.remote.window.window import window_of
 # A file for each subject; its FUNCTIONS are what clients may call.
 _SUBJECTS = (scene, running, sensors, objects, editing, saving)
 
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    function.__name__: function for subject in _SUBJECTS for function in subject.FUNCTIONS
-}
+
+def _by_name() -> dict[str, Callable[..., Any]]:
+    functions: dict[str, Callable[..., Any]] = {}
+    for function in (each for subject in _SUBJECTS for each in subject.FUNCTIONS):
+        other = functions.setdefault(function.__name__, function)
+        if other is not function:
+            raise TypeError(f"two functions 'window.{function.__name__}': in {other.__module__}, {function.__module__}")
+    return functions
+
+
+FUNCTIONS = _by_name()
 
 
 def call(client: RemoteClient, name: str, arguments: list[Any]) -> Any:
