@@ -8,7 +8,7 @@ run_sanitizers() {
   local root=$1 filter=${2:-*} kind build program failed=0
   local suppressions=$root/tests/sanitizers
   for kind in thread address,undefined; do
-    build=$root/.ws/sanitize/$kind
+    build=$root/.ws/sanitize/${kind//,/-}  # a comma in a path ends an option for the linker
     mkdir -p "$(dirname "$build")"
     # -Wno-tsan: ThreadSanitizer does not know fences. The frames in shared memory have some; their readers map the memory
     # a second time, so it does not compare the accesses anyway.

@@ -41,8 +41,9 @@ struct WorkerPool::Job {
   std::size_t count;
   std::size_t next = 0;     // the first part that nobody has begun
   std::size_t running = 0;  // parts begun and not ended
+  bool awaited = false;     // the thread that gave the task waits for the last parts
   std::size_t failed_part = 0;
-  std::exception_ptr failure;
+  std::exception_ptr failure = nullptr;
 };
 
 WorkerPool& WorkerPool::shared() {
@@ -95,21 +96,21 @@ void WorkerPool::do_part(Job& job, std::unique_lock<std::mutex>& lock) {
     job.failed_part = part;
   }
   --job.running;
-  if (job.running == 0 && job.next == job.count) changed_.notify_all();
+  if (job.awaited && job.running == 0) changed_.notify_all();
 }
 
 void WorkerPool::run(std::size_t count, const Task& task) {
   if (count == 0) return;
-  Job job{task, count, 0, 0, 0, nullptr};
+  if (count == 1) return task(0);
+  Job job{task, count};
   std::unique_lock lock(mutex_);
-  if (count > 1) {
-    jobs_.push_back(&job);
-    for (std::size_t i = 1; i < count && i <= workers_.size(); ++i) changed_.notify_one();
-  }
+  jobs_.push_back(&job);
+  for (std::size_t i = 1; i < count && i <= workers_.size(); ++i) changed_.notify_one();
   while (job.next < job.count) do_part(job, lock);
   // Parts of other jobs meanwhile: those that this one waits for may have given them.
   while (job.running > 0) {
     if (jobs_.empty()) {
+      job.awaited = true;
       changed_.wait(lock);
     } else {
       do_part(*jobs_.front(), lock);

@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -24,6 +27,31 @@ TEST(WorkerPool, DoesEachPartOnce) {
       for (const std::atomic<int>& number : calls) EXPECT_EQ(number, 1);
     }
   }
+}
+
+/// How often threads of this process other than the calling one went to sleep.
+long sleeps_of_other_threads() {
+  long sum = 0;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (thread.path().filename() == std::to_string(gettid())) continue;
+    std::ifstream status(thread.path() / "status");
+    const std::string key = "voluntary_ctxt_switches:";
+    for (std::string line; std::getline(status, line);) {
+      if (line.rfind(key, 0) == 0) sum += std::stol(line.substr(key.size()));
+    }
+  }
+  return sum;
+}
+
+TEST(WorkerPool, WakesNoThreadForATaskOfOnePart) {
+  WorkerPool pool(2);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the new threads begin to wait
+  const long before = sleeps_of_other_threads();
+  for (int i = 0; i < 200; ++i) {
+    pool.run(1, [](std::size_t) {});
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  EXPECT_LT(sleeps_of_other_threads() - before, 20);
 }
 
 TEST(WorkerPool, TakesTasksFromWithinTasks) {
