@@ -16,12 +16,23 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--long", action="store_true", help="run the tests marked long, too")
 
 
-# These files take minutes: the tests start with them, so that no process waits for another one at the end.
-START_WITH = ["meta/test_workspace.py", "test_benchmarks.py", "test_docs.py", "services/test_stuck_scripts.py"]
+# The tests start with these, in this order: files that take minutes, so that no process waits for another one at the
+# end, then pages that are drawn without a GPU.
+START_WITH = [
+    "meta/test_workspace.py",
+    "test_benchmarks.py",
+    "test_docs.py",
+    "services/test_stuck_scripts.py",
+    "tests/web/",
+]
+
+
+def _turn(item: pytest.Item) -> int:
+    return next((i for i, part in enumerate(START_WITH) if part in str(item.path)), len(START_WITH))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    items.sort(key=lambda item: not str(item.path).endswith(tuple(START_WITH)))
+    items.sort(key=_turn)
     if config.getoption("--long"):
         return
     for item in items:
