@@ -9,20 +9,21 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "boxes.hpp"
 #include "bubblesim/simulation.hpp"
 #include "raw_lidar.hpp"
 
 namespace {
 
 using namespace bubblesim;
+using benchmarks::model_of;
 using benchmarks::RawLidar;
 
 constexpr int kMoving = 6;
-constexpr int kStill = 200;
+constexpr std::size_t kStill = 200;
 const Pose kSensor(0, 0, 0.5, 0, 0, 0.3);
 
 double median(std::vector<double> values) {
@@ -56,34 +57,6 @@ Times timed(const std::function<void()>& call) {
           used_time() - used};
 }
 
-ModelDescription model_of(const std::string& name, const Geometry& geometry, const Pose& pose, bool is_static) {
-  CollisionDescription shape;
-  shape.name = "shape";
-  shape.geometry = geometry;
-  LinkDescription link;
-  link.name = "link";
-  link.collisions.push_back(shape);
-  ModelDescription model;
-  model.name = name;
-  model.pose = pose;
-  model.is_static = is_static;
-  model.links.push_back(link);
-  return model;
-}
-
-std::vector<RawLidar::PlacedBox> boxes() {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-15, 15);
-  std::uniform_real_distribution<double> size(0.2, 1.5);
-  std::vector<RawLidar::PlacedBox> boxes;
-  while (boxes.size() < kStill) {
-    const Pose pose(place(random), place(random), 0.5, 0, 0, place(random));
-    if (std::hypot(pose.Pos().X(), pose.Pos().Y()) < 3) continue;
-    boxes.push_back({Box{{size(random), size(random), 1}}, pose});
-  }
-  return boxes;
-}
-
 Pose moved(int i, int turn) {
   return {2.0 * std::cos(i + 0.01 * turn), 2.0 * std::sin(i + 0.01 * turn), 0.6, 0, 0, 0.1 * turn};
 }
@@ -105,7 +78,7 @@ bool run(const Case& scans, bool housing, int rounds) {
   SceneDescription scene;
   scene.gravity = Vector3::Zero;
   scene.models.push_back(model_of("Ground", Plane{}, {}, true));
-  const std::vector<RawLidar::PlacedBox> still = boxes();
+  const std::vector<RawLidar::PlacedBox> still = benchmarks::boxes_around(Vector3::Zero, 3, kStill);
   for (std::size_t i = 0; i < still.size(); ++i) {
     scene.models.push_back(model_of("Box" + std::to_string(i), still[i].box, still[i].pose, true));
   }
