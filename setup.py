@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells catkin which Python packages to put on the path. Run by catkin, not by hand."""
+"""The Python packages that catkin puts on the path. Run by catkin, not by hand."""
 
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import find_packages, setup

@@ -11,7 +11,7 @@ def sysCall_init():
 
 
 def on_odometry(message):
-    self.heard = message['header']['stamp']
+    self.received = message['header']['stamp']
 
 
 def sysCall_sensing():

@@ -85,9 +85,9 @@ class Cost:
 def measure(rounds: int, seconds: float) -> None:
     """Measure both in turns, and print the medians."""
     ours, theirs = Cost(), Cost()
-    ready, told = multiprocessing.Pipe()
+    ready, sender = multiprocessing.Pipe()
     frames = multiprocessing.Value("i", 0)
-    peer = multiprocessing.Process(target=show, args=(told, frames), daemon=True)
+    peer = multiprocessing.Process(target=show, args=(sender, frames), daemon=True)
     peer.start()
     ready.recv()
     with tempfile.TemporaryDirectory() as name, window_of(boxes(Path(name)), Path(name)) as (node, address):

@@ -87,7 +87,7 @@ def _started_node(scene: list[str], options: argparse.Namespace) -> Iterator[tup
 
 
 def _port_of(output: IO[str]) -> int | None:
-    """Pass on the output of a node until it tells its port; return None if it ends before."""
+    """Copy the output of a node until it contains its port; return None if it ends before."""
     for line in output:
         if found := _ANSWER.search(line):
             return int(found[1])

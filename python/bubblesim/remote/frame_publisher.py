@@ -59,7 +59,7 @@ class FramePublisher:
         sent = 0.0
         while not self._ending.is_set():
             if self._socket.poll(0 if has_readers else int(1000 * _IDLE)):
-                has_readers = self._socket.recv()[:1] == b"\1"  # only the first and the last reader are told
+                has_readers = self._socket.recv()[:1] == b"\1"  # XPUB reports the first and the last reader
                 last = None
             if not has_readers:
                 continue

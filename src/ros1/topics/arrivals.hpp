@@ -10,7 +10,7 @@
 
 namespace bubblesim {
 
-/// Tells the simulation thread that input has arrived. Thread-safe.
+/// Notifies the simulation thread that input has arrived. Thread-safe.
 class Arrivals {
  public:
   explicit Arrivals(std::function<void()> on_arrival) : on_arrival_(std::move(on_arrival)) {}

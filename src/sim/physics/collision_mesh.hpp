@@ -41,8 +41,8 @@ enum class MeshUse {
   kTriangles,  // as it is
 };
 
-/// Each mesh is prepared once for each use and shared by its users. Very many triangles are simplified. `remark` tells
-/// about concave meshes that move as triangles, and about simplification.
+/// Each mesh is prepared once for each use and shared by its users. Very many triangles are simplified. `remark`
+/// reports concave meshes that move as triangles, and simplifications.
 std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const TriangleMesh>& mesh, MeshUse use);
 
 }  // namespace bubblesim

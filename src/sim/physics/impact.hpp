@@ -10,7 +10,7 @@ namespace bubblesim {
 
 struct Collider;
 
-/// The motion of a link in a substep, and the sizes that tell whether it is fast.
+/// The motion of a link in a substep, and the sizes that decide whether it is fast.
 struct Sweep {
   double half_size = kNoSize;  // m, half the smallest size of its shapes
   double spin_reach = 0;       // m, by which turning by one radian moves its surface at most
