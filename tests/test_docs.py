@@ -98,9 +98,9 @@ def test_lua_blocks_run(tmp_path: Path, page: Path, code: str) -> None:
 
 @pytest.mark.parametrize("page", [page for page in PAGES if SCRIPTS_RUN.search(page.read_text())], ids=name)
 def test_child_scripts_run(roscore: RosCore, tmp_path: Path, page: Path) -> None:
-    told = SCRIPTS_RUN.search(page.read_text())
-    assert told
-    scene, model = told[1] or "ball", told[2] or "/Ball"
+    reported = SCRIPTS_RUN.search(page.read_text())
+    assert reported
+    scene, model = reported[1] or "ball", reported[2] or "/Ball"
     scripts = [code for language, code in BLOCK.findall(page.read_text()) if language == "python"]
     scripts = [code for code in scripts if CHILD_SCRIPT in code]
     assert scripts

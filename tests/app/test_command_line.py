@@ -36,7 +36,7 @@ def test_scenes_are_listed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         ([], "SCENE"),
         (["ball", "--bogus"], "error: unknown option --bogus\n"),
@@ -66,14 +66,14 @@ def test_scenes_are_listed() -> None:
     ],
     ids=" ".join,
 )
-def test_bad_input_is_explained_with_exit_code_2(arguments: list[str], told: str) -> None:
+def test_bad_input_is_explained_with_exit_code_2(arguments: list[str], reported: str) -> None:
     run = run_sim(*arguments)
-    assert told in run.stderr
+    assert reported in run.stderr
     assert run.returncode == 2
     assert run.stdout == ""
 
 
-def test_a_bad_scene_tells_all_its_problems(tmp_path: Path) -> None:
+def test_a_bad_scene_reports_all_its_problems(tmp_path: Path) -> None:
     text = (REPOSITORY / "scenes" / "ball.sdf").read_text()
     text = text.replace("<mass>0.5</mass>", "<mass>-1</mass>").replace("<radius>0.1</radius>", "<radius>0</radius>")
     scene = tmp_path / "bad.sdf"

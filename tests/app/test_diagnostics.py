@@ -19,17 +19,17 @@ OK, WARN, ERROR = 0, 1, 2
 LISTENER = """
 import json, rospy
 from diagnostic_msgs.msg import DiagnosticArray
-def hear(message):
+def receive(message):
     for s in message.status:
         values = {v.key: v.value for v in s.values}
         print(json.dumps([s.name, s.level, s.message, s.hardware_id, values]), flush=True)
 rospy.init_node('listener')
-subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, hear)
+subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, receive)
 rospy.spin()
 """
 
 
-class Heard:
+class Diagnostics:
     def __init__(self, log: Path) -> None:
         self._log = log
 
@@ -44,26 +44,28 @@ class Heard:
 
 
 @pytest.fixture
-def heard(roscore: RosCore, tmp_path: Path) -> Iterator[Heard]:
-    log = tmp_path / "heard"
+def received(roscore: RosCore, tmp_path: Path) -> Iterator[Diagnostics]:
+    log = tmp_path / "received"
     with log.open("w") as file:
         process = start(["/usr/bin/python3", "-c", LISTENER], roscore.env, stdout=file, stderr=subprocess.DEVNULL)
         wait_until(lambda: "/diagnostics" in roscore.state()["subscribers"], "the listener")
-        yield Heard(log)
+        yield Diagnostics(log)
         stop(process)
 
 
 def test_a_simulation_that_runs_well_and_one_that_is_paused_are_fine(
-    roscore: RosCore, heard: Heard, tmp_path: Path
+    roscore: RosCore, received: Diagnostics, tmp_path: Path
 ) -> None:
     with Node(roscore.env, tmp_path / "log", "ball", "--speed", "0.2") as node:
-        heard.wait_for(SIMULATION, lambda level, text, _: level == OK and "running at real-time" in text, "a fine run")
+        received.wait_for(
+            SIMULATION, lambda level, text, _: level == OK and "running at real-time" in text, "a fine run"
+        )
         roscore.run("rosservice", "call", "/sim_ros_interface/pause")
-        heard.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
-        before = len(heard.all(SIMULATION))
-        wait_until(lambda: len(heard.all(SIMULATION)) > before + 1, "messages while paused")
+        received.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
+        before = len(received.all(SIMULATION))
+        wait_until(lambda: len(received.all(SIMULATION)) > before + 1, "messages while paused")
         assert node.end() == 0
-    status = next(s for s in heard.all(SIMULATION) if "running at real-time" in s[2])
+    status = next(s for s in received.all(SIMULATION) if "running at real-time" in s[2])
     assert status[3] == "bubblesim"
     assert status[4]["State"] == "running"
     assert int(status[4]["Steps"]) > 0
@@ -71,7 +73,7 @@ def test_a_simulation_that_runs_well_and_one_that_is_paused_are_fine(
     assert float(status[4]["Wanted real-time factor"]) == 0.2
 
 
-def test_slow_passes_and_a_failed_script_are_told(roscore: RosCore, heard: Heard, tmp_path: Path) -> None:
+def test_slow_passes_and_a_failed_script_are_reported(roscore: RosCore, received: Diagnostics, tmp_path: Path) -> None:
     code = """\
         import time
         def sysCall_init():
@@ -81,37 +83,37 @@ def test_slow_passes_and_a_failed_script_are_told(roscore: RosCore, heard: Heard
         """
     script = write(tmp_path / "script.py", code)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
-        heard.wait_for(SIMULATION, lambda level, text, _: level == WARN and text.endswith("wanted 1.00"), "slowness")
+        received.wait_for(SIMULATION, lambda level, text, _: level == WARN and text.endswith("wanted 1.00"), "slowness")
         roscore.run("rostopic", "pub", "-1", "/end", "std_msgs/Empty")
-        told = "child scripts disabled after an error: 1"
-        heard.wait_for(SIMULATION, lambda level, text, _: level == ERROR and told in text, "the failed script")
+        reported = "child scripts disabled after an error: 1"
+        received.wait_for(SIMULATION, lambda level, text, _: level == ERROR and reported in text, "the failed script")
         assert node.end() == 3  # a script failed
-    assert heard.all(SIMULATION)[-1][4]["Script errors"] == "1"
+    assert received.all(SIMULATION)[-1][4]["Script errors"] == "1"
 
 
-def test_messages_pushed_out_of_a_queue_are_counted(roscore: RosCore, heard: Heard, tmp_path: Path) -> None:
+def test_messages_pushed_out_of_a_queue_are_counted(roscore: RosCore, received: Diagnostics, tmp_path: Path) -> None:
     code = """\
         def sysCall_init():
             simROS.subscribe('/flood', 'std_msgs/Empty', lambda message: None, 1)
         """
     script = write(tmp_path / "script.py", code)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}"):
-        heard.wait_for(TOPICS, lambda level, text, _: (level, text) == (OK, "nothing dropped"), "no drops")
+        received.wait_for(TOPICS, lambda level, text, _: (level, text) == (OK, "nothing dropped"), "no drops")
         flood = start(
             ["rostopic", "pub", "-r", "200", "/flood", "std_msgs/Empty"], roscore.env, stdout=subprocess.DEVNULL
         )
         try:
-            heard.wait_for(TOPICS, lambda level, text, _: level == WARN and text.startswith("/flood: "), "the drops")
+            received.wait_for(TOPICS, lambda level, text, _: level == WARN and text.startswith("/flood: "), "the drops")
         finally:
             stop(flood)
-    values = heard.all(TOPICS)[-1][4]
+    values = received.all(TOPICS)[-1][4]
     assert 0 < int(values["Messages dropped"]) < int(values["Messages received"])
     assert int(values["Bytes sent"]) > int(values["Messages sent"]) > 0
 
 
-def test_a_simulation_that_diverges_says_so(roscore: RosCore, heard: Heard, tmp_path: Path) -> None:
+def test_a_simulation_that_diverges_says_so(roscore: RosCore, received: Diagnostics, tmp_path: Path) -> None:
     with Node(roscore.env, tmp_path / "log", endless_fall(tmp_path), "--paused") as node:
-        heard.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
+        received.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
         roscore.run("rosservice", "call", "/sim_ros_interface/unpause")
-        heard.wait_for(SIMULATION, lambda level, text, _: level == ERROR and "/Ball" in text, "the end")
+        received.wait_for(SIMULATION, lambda level, text, _: level == ERROR and "/Ball" in text, "the end")
         assert node.process.poll() is None, "paused: others may put the world back"

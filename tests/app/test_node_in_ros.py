@@ -12,12 +12,12 @@ import pytest
 from node_support import NAME, Node, endless_fall, processes_with, write
 from ros_support import RosCore, built, free_port, ros_environment, wait_until
 
-TELL = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
+REPORT = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signals_end_it_cleanly(roscore: RosCore, tmp_path: Path, number: signal.Signals) -> None:
-    script = write(tmp_path / "script.py", TELL)
+    script = write(tmp_path / "script.py", REPORT)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
         node.wait_until_listed(roscore)
         node.wait_for_output("init")
@@ -69,7 +69,7 @@ def test_signals_end_it_while_it_waits(roscore: RosCore, tmp_path: Path, options
 
 
 def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
-    script = write(tmp_path / "script.py", TELL)
+    script = write(tmp_path / "script.py", REPORT)
     options = ["--paused", "--until", 0.5, "--child-script", f"/Ball={script}"]
     with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
         wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the service")
@@ -81,7 +81,7 @@ def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
 
 def test_without_a_master_it_says_so_and_runs_on(tmp_path: Path) -> None:
     port = free_port()
-    script = write(tmp_path / "script.py", TELL)
+    script = write(tmp_path / "script.py", REPORT)
     options = ["--until", 0.5, "--child-script", f"/Ball={script}"]
     with Node(ros_environment(port, tmp_path), tmp_path / "log", "ball", *options) as node:
         assert node.process.wait(timeout=20) == 0
@@ -109,7 +109,7 @@ def test_remappings_are_taken(roscore: RosCore, tmp_path: Path) -> None:
 
 def test_diverging_physics_pause_the_node(roscore: RosCore, tmp_path: Path) -> None:
     code = """
-        def sysCall_init(): simROS.subscribe('/heard', 'std_msgs/Empty', lambda message: None)
+        def sysCall_init(): simROS.subscribe('/received', 'std_msgs/Empty', lambda message: None)
     """
     options = ["--paused", "--child-script", f"/Ball={write(tmp_path / 'script.py', code)}"]
     with Node(roscore.env, tmp_path / "log", endless_fall(tmp_path), *options) as node:

@@ -28,7 +28,7 @@ def written(folder: Path, text: str) -> str:
     return str(file)
 
 
-def test_all_that_is_wrong_is_told_with_its_line(tmp_path: Path) -> None:
+def test_all_that_is_wrong_is_reported_with_its_line(tmp_path: Path) -> None:
     file = written(tmp_path, BAD.replace("lnik", "link"))
     start = f"{file}:4: /Crate/link/box: the box's y size is -0.4 m"
     assert any(problem.startswith(start) for problem in problems_of(file))

@@ -138,7 +138,7 @@ def test_a_pendulum_at_rest_only_pulls(tmp_path: Path) -> None:
     np.testing.assert_allclose(reading.torque, [0, 0, 0], atol=0.05)
 
 
-def test_scripts_read_them_and_tell_kinds_apart(tmp_path: Path) -> None:
+def test_scripts_read_them_and_distinguish_kinds(tmp_path: Path) -> None:
     world(tmp_path, box(0.05) + arm("fixed"))
     run = run_script(
         tmp_path,

@@ -118,15 +118,15 @@ def test_a_half_brings_its_service_along(package: Package) -> None:
     assert codec.service_halves("unlisted_half/srv/Charge")[0] == "unlisted_half/ChargeRequest"
 
 
-def test_one_line_tells_where_a_type_is_from_and_how_to_list_it(
+def test_one_line_says_where_a_type_is_from_and_how_to_list_it(
     package: Package, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    folder = package("unlisted_told", {"msg/Outer.msg": "Inner inner\n", "msg/Inner.msg": "int8 a\n"})
-    codec.encode("unlisted_told/msg/Outer", {})
-    codec.encode("unlisted_told/Outer", {"inner": {"a": 1}})
+    folder = package("unlisted_reported", {"msg/Outer.msg": "Inner inner\n", "msg/Inner.msg": "int8 a\n"})
+    codec.encode("unlisted_reported/msg/Outer", {})
+    codec.encode("unlisted_reported/Outer", {"inner": {"a": 1}})
     assert capfd.readouterr().err == (
-        f"info: unlisted_told/Outer is not listed; using its definition from {folder}/msg/Outer.msg. "
-        "List it with: rosrun bubblesim add_message unlisted_told/Outer\n"
+        f"info: unlisted_reported/Outer is not listed; using its definition from {folder}/msg/Outer.msg. "
+        "List it with: rosrun bubblesim add_message unlisted_reported/Outer\n"
     )
 
 
@@ -136,14 +136,14 @@ def test_a_type_that_appears_later_is_found(package: Package) -> None:
     assert codec.encode("unlisted_late/Cell", {"a": 1}) == b"\1"
 
 
-def test_bad_lines_of_a_definition_are_told_with_their_place(package: Package) -> None:
+def test_bad_lines_of_a_definition_are_reported_with_their_place(package: Package) -> None:
     folder = package("unlisted_bad", {"msg/Cell.msg": "int8 a\nint8 b c\n"})
     assert error("unlisted_bad/Cell").startswith(
         f"unlisted_bad/Cell: {folder}/msg/Cell.msg:2: Invalid declaration: int8 b c"
     )
 
 
-def test_a_missing_nested_type_is_told_with_its_place(package: Package) -> None:
+def test_a_missing_nested_type_is_reported_with_its_place(package: Package) -> None:
     folder = package("unlisted_gap", {"msg/Cell.msg": "int8 a\nstd_msgs/Hedder[] b\n"})
     assert error("unlisted_gap/Cell") == (
         f"std_msgs/Hedder, used in unlisted_gap/Cell ({folder}/msg/Cell.msg:2), is not found; "

@@ -131,7 +131,7 @@ def test_a_sonar_reads_in_its_own_frame(tricycle: bubblesim.Simulation) -> None:
     assert reading.handle >= 0
 
 
-def test_collision_shapes_tell_where_they_are() -> None:
+def test_collision_shapes_return_their_poses() -> None:
     shapes = {shape.object_path: shape for shape in bubblesim.Simulation("ball").collisions}
     ball, board, floor = shapes["/Ball/link"], shapes["/Ramp/link"], shapes["/Floor/link"]
     assert (ball.kind, ball.size, ball.is_static) == ("sphere", [0.1], False)
@@ -176,7 +176,7 @@ def test_unknown_objects_are_named_with_similar_ones(tricycle: bubblesim.Simulat
     assert isinstance(caught.value, LookupError)
 
 
-def test_a_bad_scene_tells_all_its_problems(tmp_path: Path) -> None:
+def test_a_bad_scene_reports_all_its_problems(tmp_path: Path) -> None:
     text = (REPOSITORY / "scenes" / "ball.sdf").read_text()
     bad = tmp_path / "bad.sdf"
     text = text.replace("<mass>0.5</mass>", "<mass>-1</mass>").replace("<radius>0.1</radius>", "<radius>-2</radius>")

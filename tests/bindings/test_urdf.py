@@ -124,7 +124,7 @@ def test_links_whose_frames_are_not_at_their_joints_are_found_as_well() -> None:
     )
 
 
-def test_what_urdf_cannot_tell_is_an_error() -> None:
+def test_what_urdf_cannot_describe_is_an_error() -> None:
     simulation = bubblesim.Simulation("ball")
     simulation.add_model(ARM.replace('"prismatic"', '"ball"'))
     with pytest.raises(ValueError, match="/Arm/rail: URDF has no joints of type ball"):

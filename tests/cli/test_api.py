@@ -22,7 +22,7 @@ def test_a_module_lists_its_own() -> None:
 
 
 @pytest.mark.parametrize("name", ["sim.setObjectPosition", "setObjectPosition"])
-def test_a_function_tells_its_arguments_and_what_it_does(name: str) -> None:
+def test_a_function_documents_its_arguments_and_what_it_does(name: str) -> None:
     text = bubblesim("api", name).stdout
     assert text.startswith("sim.setObjectPosition(handle, position, relative_to=-1)\n")
     assert "position     3 numbers\n" in text

@@ -67,7 +67,7 @@ def on_a_terminal(changes: dict[str, str]) -> str:
         return terminal.read1().decode()
 
 
-def test_a_build_that_cannot_be_loaded_is_told_with_the_cure(tmp_path: Path) -> None:
+def test_a_build_that_cannot_be_loaded_is_reported_with_the_cure(tmp_path: Path) -> None:
     (tmp_path / "bubblesim").mkdir()
     (tmp_path / "bubblesim" / "__init__.py").write_text("import no_such_module\n")
     run = bubblesim("scenes", PYTHONPATH=str(tmp_path))

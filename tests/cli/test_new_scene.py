@@ -46,7 +46,7 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
     assert [file.read_text() for file in tmp_path.iterdir()] == ["precious"]
 
 
-def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_is_not_there_is_reported(tmp_path: Path) -> None:
     run = bubblesim("new-scene", "mine", "--folder", tmp_path / "none")
     assert run.returncode == 2
     assert "No such file or directory" in run.stderr

@@ -46,7 +46,7 @@ def test_a_roscore_and_a_controller_come_and_go_with_it_and_the_path_is_drawn(tm
     assert processes_with(f"-p {port}") == []
 
 
-def test_a_master_that_is_needed_and_missing_is_told(tmp_path: Path) -> None:
+def test_a_master_that_is_needed_and_missing_is_reported(tmp_path: Path) -> None:
     environment = ros_environment(free_port(), tmp_path)
     run = bubblesim("run", "tricycle", "--plot", tmp_path / "path.png", env=environment)
     assert run.returncode == 1
@@ -71,13 +71,13 @@ def test_signals_end_all_of_it(tmp_path: Path, number: signal.Signals) -> None:
     assert processes_with(f"-p {port}") == []
 
 
-def test_a_controller_that_ends_is_told_and_ends_the_run(roscore: RosCore) -> None:
+def test_a_controller_that_ends_is_reported_and_ends_the_run(roscore: RosCore) -> None:
     run = bubblesim("run", "ball", "--controller", "sh -c 'exit 3'", env={**os.environ, **roscore.env})
     assert run.returncode == 1
     assert "the controller ended with exit code 3" in run.stderr
 
 
-def test_a_controller_that_is_not_there_is_told(roscore: RosCore) -> None:
+def test_a_controller_that_is_not_there_is_reported(roscore: RosCore) -> None:
     run = bubblesim("run", "ball", "--controller", "no_such_program", env=roscore.env)
     assert run.returncode == 1
     assert "cannot start the controller: no_such_program: No such file" in run.stderr

@@ -54,7 +54,7 @@ def test_a_velocity_becomes_an_angle_and_a_speed_until_none_comes(
 
 
 @pytest.mark.parametrize("argument", ["_wheelbase:=0", "_wheel_radius:=wide", "_max_steering:=3"])
-def test_parameters_that_cannot_be_are_told(roscore: RosCore, argument: str) -> None:
+def test_parameters_that_cannot_be_are_reported(roscore: RosCore, argument: str) -> None:
     run = subprocess.run([*NODE, argument], env=roscore.env, capture_output=True, text=True, timeout=60, check=False)
     assert run.returncode == 2
     assert "invalid parameter of" in run.stdout + run.stderr

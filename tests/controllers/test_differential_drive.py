@@ -46,7 +46,7 @@ def test_drives_that_cannot_be_are_refused(bad: dict[str, float]) -> None:
         DifferentialDrive(**bad)
 
 
-def test_encoders_that_count_from_minus_pi_to_pi_tell_a_circle() -> None:
+def test_encoders_that_count_from_minus_pi_to_pi_measure_a_circle() -> None:
     odometry = WheelOdometry(DRIVE, Wheels(0.0, 0.0))
     # 0.8 m/s left and 1.2 m/s right give 1 m/s along a circle of radius 1 m, one turn in 2 pi seconds.
     steps = 628

@@ -26,15 +26,15 @@ class Stick:
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._pipe = folder / "js0"
         os.mkfifo(self._pipe)
-        self.heard = Velocities(core, folder / "heard")
+        self.received = Velocities(core, folder / "received")
         self._node = start([*NODE, f"_dev:={self._pipe}", *arguments], core.env)
         self.plug_in()
-        wait_until(lambda: self._hears(), "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
+        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
 
-    def _hears(self) -> bool:
+    def _has_received(self) -> bool:
         for value in (32767, 0):  # messages before the subscriber connects are lost
-            self.tell(event(BUTTON, 4, 1), event(AXIS, 3, value))
-        return bool(self.heard.all())
+            self.send(event(BUTTON, 4, 1), event(AXIS, 3, value))
+        return bool(self.received.all())
 
     def plug_in(self) -> None:
         self._end = os.open(self._pipe, os.O_WRONLY)  # waits for the node
@@ -42,12 +42,12 @@ class Stick:
     def unplug(self) -> None:
         os.close(self._end)
 
-    def tell(self, *events: bytes) -> None:
+    def send(self, *events: bytes) -> None:
         os.write(self._end, b"".join(events))
 
     def close(self) -> None:
         stop(self._node)
-        self.heard.close()
+        self.received.close()
 
 
 @pytest.fixture
@@ -58,22 +58,22 @@ def stick(roscore: RosCore, tmp_path: Path) -> Iterator[Stick]:
 
 
 def test_the_stick_drives_while_the_button_is_held_and_the_joystick_is_there(stick: Stick) -> None:
-    stick.tell(event(AXIS, 1, -32767), event(AXIS, 3, 0), event(BUTTON, 4, 1))
-    wait_until(lambda: stick.heard.last() == (0.5, 0.0), "the robot to drive")
-    stick.tell(event(AXIS, 3, 32767))
-    wait_until(lambda: stick.heard.last() == (0.5, -2.0), "the robot to turn right")
-    stick.tell(event(BUTTON, 4, 0))
-    wait_until(lambda: stick.heard.last() == (0.0, 0.0), "the robot to stop")
-    stick.tell(event(BUTTON, 4, 1))
-    wait_until(lambda: stick.heard.last() == (0.5, -2.0), "the robot to drive again")
+    stick.send(event(AXIS, 1, -32767), event(AXIS, 3, 0), event(BUTTON, 4, 1))
+    wait_until(lambda: stick.received.last() == (0.5, 0.0), "the robot to drive")
+    stick.send(event(AXIS, 3, 32767))
+    wait_until(lambda: stick.received.last() == (0.5, -2.0), "the robot to turn right")
+    stick.send(event(BUTTON, 4, 0))
+    wait_until(lambda: stick.received.last() == (0.0, 0.0), "the robot to stop")
+    stick.send(event(BUTTON, 4, 1))
+    wait_until(lambda: stick.received.last() == (0.5, -2.0), "the robot to drive again")
     stick.unplug()
-    wait_until(lambda: stick.heard.last() == (0.0, 0.0), "the robot to stop when the joystick is gone")
+    wait_until(lambda: stick.received.last() == (0.0, 0.0), "the robot to stop when the joystick is gone")
     stick.plug_in()
-    stick.tell(event(AXIS | INITIAL, 1, 32767), event(BUTTON | INITIAL, 4, 1))
-    wait_until(lambda: stick.heard.last() == (-0.5, 0.0), "the robot to drive back")
+    stick.send(event(AXIS | INITIAL, 1, 32767), event(BUTTON | INITIAL, 4, 1))
+    wait_until(lambda: stick.received.last() == (-0.5, 0.0), "the robot to drive back")
 
 
-def test_it_waits_for_a_joystick_and_tells(roscore: RosCore, tmp_path: Path) -> None:
+def test_it_waits_for_a_joystick_and_logs_so(roscore: RosCore, tmp_path: Path) -> None:
     log = tmp_path / "log"
     with log.open("w") as output:
         node = start([*NODE, "_dev:=/nowhere/js0"], roscore.env, stdout=output, stderr=subprocess.STDOUT)
@@ -83,7 +83,7 @@ def test_it_waits_for_a_joystick_and_tells(roscore: RosCore, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("argument", ["_rate:=0", "_speed:=fast", "_dead_zone:=2"])
-def test_parameters_that_cannot_be_are_told(roscore: RosCore, argument: str) -> None:
+def test_parameters_that_cannot_be_are_reported(roscore: RosCore, argument: str) -> None:
     run = subprocess.run(
         [*NODE, argument], env=roscore.env, capture_output=True, text=True, timeout=3 * DEADLINE, check=False
     )

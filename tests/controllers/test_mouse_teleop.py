@@ -22,26 +22,26 @@ def display(roscore: RosCore) -> Iterator[Display]:
 
 
 def test_dragging_drives_and_releasing_stops(display: Display, roscore: RosCore, tmp_path: Path) -> None:
-    heard = Velocities(roscore, tmp_path / "heard")
+    received = Velocities(roscore, tmp_path / "received")
     node = start(NODE, display.env)
     wait_until(lambda: bool(display.windows("mouse_teleop")), "the window")
     (window,) = display.windows("mouse_teleop")
 
-    def drag_until_heard() -> bool:  # messages before the subscriber connects are lost
+    def drag_until_received() -> bool:  # messages before the subscriber connects are lost
         display.xdotool("mousemove", "--window", window, 150, 140, "mousedown", 1, "mousemove_relative", 0, -10)
-        return bool(heard.all())
+        return bool(received.all())
 
-    wait_until(drag_until_heard, "a subscriber")
+    wait_until(drag_until_received, "a subscriber")
     display.xdotool("mousemove", "--window", window, 225, 75)
-    wait_until(lambda: heard.last() == pytest.approx((0.5, -1.0), abs=0.03), "half ahead, half to the right")
-    count = len(heard.all())
-    wait_until(lambda: len(heard.all()) > count + 3, "repeated commands")
+    wait_until(lambda: received.last() == pytest.approx((0.5, -1.0), abs=0.03), "half ahead, half to the right")
+    count = len(received.all())
+    wait_until(lambda: len(received.all()) > count + 3, "repeated commands")
     display.xdotool("mousemove", "--window", window, 150, 800)  # outside the window
-    wait_until(lambda: heard.last() == pytest.approx((-1.0, 0.0), abs=0.03), "full speed back")
+    wait_until(lambda: received.last() == pytest.approx((-1.0, 0.0), abs=0.03), "full speed back")
     display.xdotool("mouseup", 1)
-    wait_until(lambda: heard.last() == (0.0, 0.0), "the robot to stop")
+    wait_until(lambda: received.last() == (0.0, 0.0), "the robot to stop")
     stop(node)
-    heard.close()
+    received.close()
 
 
 def test_without_a_display_it_says_so(roscore: RosCore) -> None:

@@ -23,14 +23,14 @@ class Terminal:
 
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._keys, self.screen = pty.openpty()
-        self._heard = Velocities(core, folder / "heard")
+        self._received = Velocities(core, folder / "received")
         self._shown = folder / "shown"
         with self._shown.open("w") as output:
             self.process = start([*NODE, *arguments], core.env, stdin=self.screen, stdout=output)
         wait_until(lambda: "speed" in self.shown, "the speeds to be shown")
-        wait_until(lambda: self._hears(), "a subscriber")
+        wait_until(lambda: self._has_received(), "a subscriber")
 
-    def _hears(self) -> bool:
+    def _has_received(self) -> bool:
         self.press("k")  # messages before the subscriber connects are lost
         return self.last() is not None
 
@@ -43,11 +43,11 @@ class Terminal:
 
     def last(self) -> tuple[float, float] | None:
         """Return forward and turning velocity of the last command."""
-        return self._heard.last()
+        return self._received.last()
 
     def close(self) -> None:
         stop(self.process)
-        self._heard.close()
+        self._received.close()
         os.close(self._keys)
         os.close(self.screen)
 

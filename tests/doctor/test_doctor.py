@@ -62,7 +62,7 @@ def test_a_port_that_something_else_has_is_a_problem(terminal: dict[str, str]) -
     assert (level, f"sport = :{port}" in cure) == ("problem", True)
 
 
-def test_what_it_knows_nothing_about_is_told() -> None:
+def test_what_it_knows_nothing_about_is_reported() -> None:
     run = bubblesim("doctor", "weather")
     assert run.returncode == 2
     assert "unknown check 'weather'; the checks are build, messages, ros, ports" in run.stderr

@@ -36,6 +36,6 @@ def run(shared_core: RosCore, tmp_path_factory: pytest.TempPathFactory) -> Itera
         def begin(scene: Path | str, *options: str) -> Run:
             folder = tmp_path_factory.mktemp("run")
             node = ends.enter_context(Node(shared_core.env, folder / "log", scene, *options))
-            return Run(shared_core, node, ends.enter_context(Peer(shared_core, folder / "heard")))
+            return Run(shared_core, node, ends.enter_context(Peer(shared_core, folder / "received")))
 
         yield begin

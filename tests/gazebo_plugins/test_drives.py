@@ -216,7 +216,7 @@ def moving(peer: Peer, topic: str, name: str, least: float) -> Message:
         twist = message["twist"]["twist"]
         return abs(twist["linear"]["x"] if name == "x" else twist["angular"]["z"]) > least
 
-    peer.wait_for(topic, "nav_msgs/Odometry", fast, f"{topic} to tell of motion")
+    peer.wait_for(topic, "nav_msgs/Odometry", fast, f"{topic} to report motion")
     return peer.next(topic, count=5)
 
 
@@ -265,7 +265,7 @@ def test_gz_sims_drive_keeps_to_its_limits(peer: Peer) -> None:
     assert peer.next("/gz/joints", "sensor_msgs/JointState")["velocity"] == pytest.approx([0.4 / RADIUS], rel=0.02)
 
 
-def test_gz_sims_car_turns_as_fast_as_it_is_told(peer: Peer) -> None:
+def test_gz_sims_car_turns_at_the_commanded_rate(peer: Peer) -> None:
     peer.drive("/model/gz_car/cmd_vel", 0.5, 0.3)
     odom = moving(peer, "/model/gz_car/odometry", "yaw", 0.2)
     assert velocity(odom) == pytest.approx((0.5, 0.3), rel=0.07)
@@ -330,7 +330,7 @@ def test_ros_2s_drive_drives_each_pair_of_wheels_by_its_own_measures(running: An
 
 def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None:
     peer.drive("/plain/cmd_vel", 0.5, 0.5)
-    peer.heard("/gazebo/model_states", "gazebo_msgs/ModelStates")
+    peer.received("/gazebo/model_states", "gazebo_msgs/ModelStates")
 
     def twist() -> tuple[float, float]:
         states = peer.next("/gazebo/model_states")
@@ -383,7 +383,7 @@ def test_gazebos_pioneers_drive(peer: Peer, model: str) -> None:
     )
     assert response["success"], response["status_message"]
     peer.drive(f"/{model}/cmd_vel", 0.3, 0.0)
-    peer.heard("/gazebo/model_states", "gazebo_msgs/ModelStates")
+    peer.received("/gazebo/model_states", "gazebo_msgs/ModelStates")
 
     def ahead() -> float:
         states = peer.next("/gazebo/model_states")

@@ -99,7 +99,7 @@ def odometry(peer: Peer, holds: Callable[[Message, Message], bool], what: str) -
 
 
 def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: Peer) -> None:
-    peer.heard("/odom", "nav_msgs/Odometry")
+    peer.received("/odom", "nav_msgs/Odometry")
     peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
     odometry(peer, lambda _, twist: abs(twist["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
     stopped = odometry(peer, lambda _, twist: abs(twist["linear"]["x"]) < 0.001, "it to stop by itself")
@@ -112,7 +112,7 @@ def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: 
 
 
 def test_its_heading_is_that_of_its_gyroscope(peer: Peer) -> None:
-    peer.heard("/odom", "nav_msgs/Odometry")
+    peer.received("/odom", "nav_msgs/Odometry")
     peer.drive("/mobile_base/commands/velocity", 0.0, 1.0)
     turning = odometry(peer, lambda _, twist: twist["angular"]["z"] > 0.9, "1 rad/s to the left")
     assert turning["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.05)
@@ -122,7 +122,7 @@ def test_its_heading_is_that_of_its_gyroscope(peer: Peer) -> None:
 
 
 def test_motors_without_power_stand_still(peer: Peer) -> None:
-    peer.heard("/odom", "nav_msgs/Odometry")
+    peer.received("/odom", "nav_msgs/Odometry")
     peer.say("/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 0})
     peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
     assert peer.next("/odom", count=10)["twist"]["twist"]["linear"]["x"] == pytest.approx(0, abs=1e-3)
@@ -132,7 +132,7 @@ def test_motors_without_power_stand_still(peer: Peer) -> None:
 
 
 def test_a_wall_presses_and_releases_the_bumper_in_the_middle(peer: Peer) -> None:
-    peer.heard("/bumps/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
+    peer.received("/bumps/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
     peer.drive("/bumps/mobile_base/commands/velocity", 0.1, 0.0)
     pressed = peer.wait_for("/bumps/mobile_base/events/bumper", "", lambda event: event["state"] == 1, "a press")
     assert pressed["bumper"] == 1

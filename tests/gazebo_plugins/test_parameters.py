@@ -75,7 +75,7 @@ def test_deviations_are_one_or_three(parameters: Parameters) -> None:
         parameters.check()
 
 
-def test_all_that_is_wrong_is_told_at_once_with_its_line(parameters: Parameters) -> None:
+def test_all_that_is_wrong_is_reported_at_once_with_its_line(parameters: Parameters) -> None:
     assert parameters.number("often", 2.0) == 2.0
     assert parameters.length("none", 3.0) == 3.0
     assert parameters.choice("source", "world", {"world": 1, "encoder": 2}) == 1
@@ -99,7 +99,7 @@ def test_what_nobody_asked_for_is_named(parameters: Parameters) -> None:
     assert sorted(parameters.unused()) == ["enabled; did you mean enable?", "wheel_radius"]
 
 
-def test_a_least_value_is_told(parameters: Parameters) -> None:
+def test_a_least_value_is_reported(parameters: Parameters) -> None:
     assert parameters.number("none", math.inf, least=0.0) == math.inf
     with pytest.raises(ParameterError, match="must be a number of at least 0"):
         parameters.check()

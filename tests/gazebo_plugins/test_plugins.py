@@ -26,7 +26,7 @@ MODEL = """\
 
 
 @pytest.mark.parametrize(
-    ("plugin", "told"),
+    ("plugin", "reported"),
     [
         (
             '<plugin name="arm" filename="libmy_arm.so"/>',
@@ -59,21 +59,21 @@ MODEL = """\
         ),
     ],
 )
-def test_the_file_and_line_are_told_once_and_the_model_runs_on(
-    shared_core: RosCore, tmp_path: Path, plugin: str, told: str
+def test_the_file_and_line_are_reported_once_and_the_model_runs_on(
+    shared_core: RosCore, tmp_path: Path, plugin: str, reported: str
 ) -> None:
     file = write(tmp_path / "robot.sdf", MODEL.replace("{plugin}", plugin))
     with Node(shared_core.env, tmp_path / "log", file, "--until", "0.5", "--speed", "max") as node:
         assert node.process.wait(60) == 0
-    assert node.output.count(told.format(file=file)) == 1, node.output
+    assert node.output.count(reported.format(file=file)) == 1, node.output
 
 
-def test_plugins_without_a_device_are_told_without_ros_too(tmp_path: Path) -> None:
+def test_plugins_without_a_device_are_reported_without_ros_too(tmp_path: Path) -> None:
     plugins = (
         '<plugin name="arm" filename="libmy_arm.so"/><plugin name="drive" filename="libgazebo_ros_diff_drive.so"/>'
     )
     file = write(tmp_path / "robot.sdf", MODEL.format(plugin=plugins))
-    told = f"warning: {file}:10: plugin 'arm' (libmy_arm.so): plugin is not supported; the model runs without it"
+    reported = f"warning: {file}:10: plugin 'arm' (libmy_arm.so): plugin is not supported; the model runs without it"
     run = run_sim(file, "--no-ros", "--until", "0.1", "--speed", "max")
-    assert (run.returncode, run.stderr.splitlines()) == (0, [told])
-    assert command("check", file).stderr.splitlines() == [told]
+    assert (run.returncode, run.stderr.splitlines()) == (0, [reported])
+    assert command("check", file).stderr.splitlines() == [reported]

@@ -56,7 +56,7 @@ def test_a_velodyne_gives_points_with_their_rings(peer: Peer) -> None:
     assert set(points["intensity"]) == {7.0}
 
 
-def test_a_ray_sensor_of_ros_2_gives_what_it_is_told_where_it_is_told(peer: Peer) -> None:
+def test_a_ray_sensor_of_ros_2_publishes_its_type_on_its_topic(peer: Peer) -> None:
     scan = peer.next("/two/scan", "sensor_msgs/LaserScan")
     assert (scan["header"]["frame_id"], len(scan["ranges"])) == ("head", 15)
 
@@ -85,7 +85,7 @@ def test_a_kinect_gives_depths_points_and_pictures(peer: Peer) -> None:
     assert peer.next("/kinect/depth/camera_info", "sensor_msgs/CameraInfo")["width"] == 32
 
 
-def test_a_gps_tells_the_place_on_the_earth(peer: Peer) -> None:
+def test_a_gps_measures_the_place_on_the_earth(peer: Peer) -> None:
     fix = peer.next("/fix", "sensor_msgs/NavSatFix")
     assert (fix["latitude"], fix["longitude"], fix["altitude"]) == pytest.approx((52.0, 13.0, 31.0), abs=1e-9)
     assert fix["header"]["frame_id"] == "head"
@@ -104,7 +104,7 @@ def test_a_compass_feels_the_field_of_the_earth(peer: Peer) -> None:
     assert field["header"]["frame_id"] == "needle"
 
 
-def test_a_barometer_tells_its_height(peer: Peer) -> None:
+def test_a_barometer_measures_its_height(peer: Peer) -> None:
     assert peer.next("/pressure_height", "geometry_msgs/PointStamped")["point"]["z"] == pytest.approx(102)
 
 

@@ -63,14 +63,16 @@ def at_time(messages: list[Message], message: Message) -> Message:
 
 
 def test_it_drives_at_the_speed_that_a_twist_says(peer: Peer) -> None:
-    truths = peer.heard("/truth", "nav_msgs/Odometry")
-    peer.heard("/odom", "nav_msgs/Odometry")
+    truths = peer.received("/truth", "nav_msgs/Odometry")
+    peer.received("/odom", "nav_msgs/Odometry")
     peer.drive("/cmd_vel", 0.5, 0.0)
     rolling = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.3, "a start")
     odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 1.0, "1 m of driving")
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("odom", "base_link")
     assert odom["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.01)
-    wait_until(lambda: peer.heard("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that step")
+    wait_until(
+        lambda: peer.received("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that step"
+    )
     really = at_time(truths, odom)
     driven = position(really)[0] - position(at_time(truths, rolling))[0]  # the wheels slip when it starts
     assert driven == pytest.approx(position(odom)[0] - position(rolling)[0], rel=0.01)
@@ -85,14 +87,14 @@ def test_it_turns_to_the_left_for_a_positive_twist(peer: Peer) -> None:
 
 
 def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
-    peer.heard("/tf", "tf2_msgs/TFMessage")
+    peer.received("/tf", "tf2_msgs/TFMessage")
     odom = peer.next("/odom", "nav_msgs/Odometry", count=3)
 
     def of_that_pass(message: Message) -> bool:
         return bool(message["transforms"][0]["header"]["stamp"] == odom["header"]["stamp"])
 
-    wait_until(lambda: any(map(of_that_pass, peer.heard("/tf"))), "the transforms of that step")
-    (message,) = filter(of_that_pass, peer.heard("/tf"))
+    wait_until(lambda: any(map(of_that_pass, peer.received("/tf"))), "the transforms of that step")
+    (message,) = filter(of_that_pass, peer.received("/tf"))
     frames = {each["child_frame_id"]: each for each in message["transforms"]}
     base = frames["base_link"]
     assert base["header"]["frame_id"] == "odom"
@@ -103,7 +105,7 @@ def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
     assert wheel["transform"]["translation"] == pytest.approx({"x": 0.0, "y": 0.2, "z": 0.1}, abs=1e-3)
 
 
-def test_it_tells_how_its_wheels_stand(peer: Peer) -> None:
+def test_it_publishes_the_angles_of_its_wheels(peer: Peer) -> None:
     state = peer.next("/joint_states", "sensor_msgs/JointState")
     assert state["name"] == ["right_wheel_joint", "left_wheel_joint"]
     assert state["position"] == pytest.approx([0.0, 0.0], abs=0.01)
@@ -130,7 +132,7 @@ def test_its_camera_looks_at_the_wall(peer: Peer) -> None:
     assert red > 100 > max(green, blue)
 
 
-def test_its_camera_tells_of_its_optics(peer: Peer) -> None:
+def test_its_camera_publishes_its_optics(peer: Peer) -> None:
     info = peer.next("/front/camera_info", "sensor_msgs/CameraInfo")
     assert info["header"]["frame_id"] == "camera_link"
     # f = width / (2 tan(fov / 2)), the centre as in gazebo_ros_pkgs

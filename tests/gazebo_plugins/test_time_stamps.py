@@ -65,12 +65,12 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RosCore]:
 
 
 class Drive:
-    """What was heard of a drive; `at` is the time at which it began at the origin."""
+    """What was received of a drive; `at` is the time at which it began at the origin."""
 
     def __init__(self, peer: Peer, turning: float) -> None:
         def connected() -> bool:  # until then the mover stands; the periods of all rates are even numbers of steps
             assert peer.call(f"{NAME}/step", steps=2)["success"]
-            return all(peer.heard(*topic) for topic in TOPICS.items())
+            return all(peer.received(*topic) for topic in TOPICS.items())
 
         wait_until(connected, "all topics")
         twist = {"linear": {"x": SPEED}, "angular": {"z": turning}}
@@ -79,16 +79,16 @@ class Drive:
         assert peer.call("/gazebo/set_model_state", model_state=state)["success"]
         self.at = peer.call(f"{NAME}/step", steps=0)["time"]
         self.turning = turning
-        before = {topic: len(peer.heard(topic)) for topic in TOPICS}
+        before = {topic: len(peer.received(topic)) for topic in TOPICS}
         for _ in range(STEPS):
-            poked = len(self._frames(peer.heard("/tf"), "callback ahead"))
+            poked = len(self._frames(peer.received("/tf"), "callback ahead"))
             peer.say("/poke", "std_msgs/Empty", {})
-            wait_until(lambda n=poked: len(self._frames(peer.heard("/tf"), "callback ahead")) > n, "the callback")
+            wait_until(lambda n=poked: len(self._frames(peer.received("/tf"), "callback ahead")) > n, "the callback")
             assert peer.call(f"{NAME}/step", steps=1)["success"]
         end = self.at + STEPS * STEP - STEP / 2
-        wait_until(lambda: all(_stamp(peer.heard(topic)[-1]) > end for topic in TOPICS), "the last messages")
+        wait_until(lambda: all(_stamp(peer.received(topic)[-1]) > end for topic in TOPICS), "the last messages")
         self.messages: dict[str, list[Message]] = {
-            topic: [each for each in peer.heard(topic)[before[topic] :] if _stamp(each) > self.at + STEP / 2]
+            topic: [each for each in peer.received(topic)[before[topic] :] if _stamp(each) > self.at + STEP / 2]
             for topic in TOPICS
         }
 
@@ -128,7 +128,7 @@ def drive(request: pytest.FixtureRequest, core: RosCore, tmp_path_factory: pytes
     script = write(folder / "fast.py", SCRIPT)
     scene = Path(__file__).with_name("fast.sdf")
     options = ["--paused", "--gazebo-compat", "--strict", "--child-script", f"/mover={script}"]
-    with Node(core.env, folder / "log", scene, *options), Peer(core, folder / "heard") as peer:
+    with Node(core.env, folder / "log", scene, *options), Peer(core, folder / "received") as peer:
         yield Drive(peer, request.param)
 
 

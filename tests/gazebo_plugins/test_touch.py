@@ -56,7 +56,7 @@ def vector(message: Message) -> list[float]:
     return [message[axis] for axis in "xyz"]
 
 
-def test_a_bumper_tells_what_touches_it_in_its_frame(peer: Peer) -> None:
+def test_a_bumper_reports_what_touches_it_in_its_frame(peer: Peer) -> None:
     message = peer.next("/bumper", "gazebo_msgs/ContactsState", count=10)
     assert message["header"]["frame_id"] == "body"
     (state,) = message["states"]
@@ -76,7 +76,7 @@ def test_a_contact_sensor_publishes_itself_in_world_axes(peer: Peer) -> None:
     assert vector(state["contact_positions"][0])[2] == pytest.approx(0, abs=2e-3)
 
 
-def test_a_joint_tells_what_hangs_from_it(peer: Peer) -> None:
+def test_a_joint_returns_its_child(peer: Peer) -> None:
     message = peer.next("/rope_force", "geometry_msgs/WrenchStamped", count=5)
     assert message["header"]["frame_id"] == "weight"
     assert [abs(value) for value in vector(message["wrench"]["force"])] == pytest.approx([0, 0, 3 * GRAVITY], abs=0.2)

@@ -22,7 +22,7 @@ def test_other_types_are_messages_by_name() -> None:
     ("is_array", "length", "array", "count"),
     [(False, None, "kNone", 0), (True, None, "kVariable", 0), (True, 36, "kFixed", 36), (True, 0, "kFixed", 0)],
 )
-def test_arrays_are_told_apart(is_array: bool, length: int | None, array: str, count: int) -> None:
+def test_arrays_are_distinguished(is_array: bool, length: int | None, array: str, count: int) -> None:
     row = rules.field_row("x", "float64", is_array, length)
     assert (row.array, row.length) == (array, count)
 

@@ -83,7 +83,7 @@ def test_add_message_writes_nothing_when_a_type_is_wrong(unbuilt: Workspace) -> 
     assert (unbuilt.project / "meta" / "messages.txt").read_text() == "std_msgs/String\n"
 
 
-def test_add_message_tells_the_bad_lines_of_a_definition(tmp_path: Path, unbuilt: Workspace) -> None:
+def test_add_message_reports_the_bad_lines_of_a_definition(tmp_path: Path, unbuilt: Workspace) -> None:
     (tmp_path / ".catkin_workspace").touch()
     unbuilt.add_package("my_robot", {"Cell.msg": "float32 a b\n"})
     result = unbuilt.add_message("my_robot/Cell", "--no-build")

@@ -73,20 +73,20 @@ def test_colours_are_averaged_and_the_transparent_is_unknown_in_scale(tmp_path: 
         ({"negate": "perhaps"}, "perhaps"),
     ],
 )
-def test_what_is_no_map_is_told(tmp_path: Path, changes: dict[str, object], named: str) -> None:
+def test_what_is_no_map_is_reported(tmp_path: Path, changes: dict[str, object], named: str) -> None:
     with pytest.raises(MapFileError, match=named) as error:
         read_map(write(tmp_path, **changes))
     assert str(tmp_path / "room.yaml") in str(error.value)
 
 
 @pytest.mark.parametrize("text", ["[1, 2", "just a word", "\x00"])
-def test_what_is_no_yaml_is_told(tmp_path: Path, text: str) -> None:
+def test_what_is_no_yaml_is_reported(tmp_path: Path, text: str) -> None:
     file = tmp_path / "room.yaml"
     file.write_text(text)
     with pytest.raises(MapFileError, match=r"room\.yaml"):
         read_map(file)
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_a_file_that_is_not_there_is_reported(tmp_path: Path) -> None:
     with pytest.raises(MapFileError, match=r"nowhere\.yaml"):
         read_map(tmp_path / "nowhere.yaml")

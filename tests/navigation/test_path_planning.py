@@ -68,7 +68,7 @@ def test_a_robot_that_stands_too_close_to_a_wall_can_leave() -> None:
         ((0.25, 0.25), (0.75, 1.25), "walls"),
     ],
 )
-def test_why_there_is_no_path_is_told(start: tuple[float, float], goal: tuple[float, float], why: str) -> None:
+def test_why_there_is_no_path_is_reported(start: tuple[float, float], goal: tuple[float, float], why: str) -> None:
     with pytest.raises(NoPathError, match=why):
         plan(drawn("#  #\n####\n  #?"), start, goal, SLIM)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depth images of simple things, whose ranges geometry tells.
+// Depth images of simple things, whose ranges follow from geometry.
 #include <gtest/gtest.h>
 
 #include <cmath>

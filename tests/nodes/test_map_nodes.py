@@ -58,7 +58,7 @@ def test_what_is_served_can_be_saved_again(node: Start, room: Path, tmp_path: Pa
     np.testing.assert_array_equal(read_map(tmp_path / "copy.yaml").cells, read_map(room).cells)
 
 
-def test_a_map_that_cannot_be_served_is_told(node: Start, tmp_path: Path) -> None:
+def test_a_map_that_cannot_be_served_is_reported(node: Start, tmp_path: Path) -> None:
     server = node("map_server", tmp_path / "nowhere.yaml", stderr=subprocess.PIPE)
     _, errors = server.communicate(timeout=3 * DEADLINE)
     assert server.returncode == 2
@@ -67,7 +67,7 @@ def test_a_map_that_cannot_be_served_is_told(node: Start, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("arguments", [["--occ"], ["--occ", "high"], ["--free", "70"], ["-x", "1"], ["--occ", "101"]])
-def test_arguments_that_map_saver_cannot_take_are_told(node: Start, arguments: list[str]) -> None:
+def test_arguments_that_map_saver_cannot_take_are_reported(node: Start, arguments: list[str]) -> None:
     saver = node("map_saver", *arguments, stderr=subprocess.PIPE)
     _, errors = saver.communicate(timeout=3 * DEADLINE)
     assert saver.returncode == 2

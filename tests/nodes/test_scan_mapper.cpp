@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mapping a room of which geometry tells every range: how far poses and walls are from the truth.
+// Mapping a room where every range follows from geometry: how far poses and walls are from the truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>

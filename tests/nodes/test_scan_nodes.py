@@ -95,7 +95,7 @@ def test_clouds_are_only_listened_to_while_the_scan_is(node: Start, core: RosCor
         ("depthimage_to_laserscan", "_scan_height:=0", "scan_height"),
     ],
 )
-def test_parameters_that_cannot_be_are_told(node: Start, program: str, argument: str, named: str) -> None:
+def test_parameters_that_cannot_be_are_reported(node: Start, program: str, argument: str, named: str) -> None:
     run = node(program, argument, "__ns:=/wrong", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output, _ = run.communicate(timeout=60)
     assert run.returncode == 2

@@ -10,7 +10,7 @@ from door_support import Door
 from node_support import run_sim
 
 
-def test_the_end_of_the_node_is_told_to_those_who_wait(tmp_path: Path) -> None:
+def test_the_end_of_the_node_is_reported_to_those_who_wait(tmp_path: Path) -> None:
     with Door(tmp_path) as door:
         one, two = door.sim(), door.sim()
         one.startSimulation()

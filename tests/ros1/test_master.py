@@ -54,7 +54,7 @@ def make_endpoints(probe: Probe) -> tuple[str, str]:
 def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str, name: str) -> None:
     """Check that a node that is new to the master exchanges messages with `probe`."""
     with Probe(core.env, f"__name:={name}") as peer:
-        heard, latched = peer.ask("subscribe", "/out", "float"), peer.ask("subscribe", "/map", "float")
+        received, latched = peer.ask("subscribe", "/out", "float"), peer.ask("subscribe", "/map", "float")
         logged = peer.ask("subscribe", "/rosout", "log")
         said = peer.ask("advertise", "/in", "float")
         peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
@@ -62,7 +62,7 @@ def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str,
         before = len(probe.messages(subscriber))
         peer.ask("publish", said, 2.0)
         probe.ask("publish", publisher, 3.0)
-        peer.wait_for(lambda: peer.messages(heard) == ["3.000000"], "the bridge's message")
+        peer.wait_for(lambda: peer.messages(received) == ["3.000000"], "the bridge's message")
         peer.wait_for(lambda: peer.messages(latched) == ["4.000000"], "the latched message")
         probe.wait_for(lambda: len(probe.messages(subscriber)) == before + 1, "the peer's message")
 
@@ -95,7 +95,7 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
     ):
         publisher, subscriber = make_endpoints(probe)
         both = probe.ask("subscribe", "/out", "float")
-        heard, said = peer.ask("subscribe", "/out", "float"), peer.ask("advertise", "/in", "float")
+        received, said = peer.ask("subscribe", "/out", "float"), peer.ask("advertise", "/in", "float")
         peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
         wait_until(lambda: len(restartable.core.state()["subscribers"].get("/out", [])) == 2, "the subscribers")
         os.kill(peer.process.pid, signal.SIGSTOP)  # it must not register again by itself
@@ -108,7 +108,7 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
         probe.wait_for(lambda: probe.messages(subscriber) == ["1.000000"], "the peer's message")
         probe.ask("publish", publisher, 2.0)
         probe.wait_for(lambda: probe.messages(both) == ["2.000000"], "its own message")
-        peer.wait_for(lambda: peer.messages(heard) == ["2.000000"], "the bridge's message")
+        peer.wait_for(lambda: peer.messages(received) == ["2.000000"], "the bridge's message")
 
 
 def test_endpoints_of_a_time_without_master_end_up_right(tmp_path: Path) -> None:
@@ -185,7 +185,7 @@ def test_no_call_of_a_pass_waits_for_a_hanging_master(roscore: RosCore) -> None:
 def test_messages_flow_while_the_master_hangs(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe, Probe(roscore.env, "__name:=peer") as peer:
         publisher, gone = probe.ask("advertise", "/out", "float"), probe.ask("advertise", "/gone", "float")
-        heard = peer.ask("subscribe", "/out", "float")
+        received = peer.ask("subscribe", "/out", "float")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the peer to connect")
         wait_until(lambda: "/gone" in own(roscore, "publishers"), "the publisher")
         roscore.pause()
@@ -193,4 +193,4 @@ def test_messages_flow_while_the_master_hangs(roscore: RosCore) -> None:
         probe.ask("shutdown_publisher", gone)  # roscpp would hold the lock that delivery needs
         time.sleep(0.5)
         probe.ask("publish", publisher, 1.0)
-        peer.wait_for(lambda: peer.messages(heard) == ["1.000000"], "the message")
+        peer.wait_for(lambda: peer.messages(received) == ["1.000000"], "the message")

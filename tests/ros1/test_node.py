@@ -121,7 +121,7 @@ def test_now_is_simulation_time_under_use_sim_time(roscore: RosCore) -> None:
         assert probe.ask("now") == "12 50000000"
 
 
-def test_pause_services_tell_the_application(roscore: RosCore) -> None:
+def test_pause_services_notify_the_application(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         roscore.run("rosservice", "call", f"{NAME}/pause")
         probe.wait_for(lambda: "paused" in probe.events, "the call")

@@ -30,12 +30,12 @@ def rospy_node(core: RosCore, code: str, log: Path) -> Iterator[None]:
             stop(process)
 
 
-def told(probe: Probe) -> list[str]:
+def reported(probe: Probe) -> list[str]:
     """Return what the bridge and roscpp logged since the bridge connected."""
     return [line for line in probe.errors if "load succeeded" not in line]
 
 
-def test_subscriber_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+def test_subscriber_of_another_type_is_reported_once(roscore: RosCore, tmp_path: Path) -> None:
     def attempts() -> int:
         return sum(file.read_text().count("unable to create subscriber") for file in tmp_path.rglob("peer*.log"))
 
@@ -45,25 +45,25 @@ def test_subscriber_of_another_type_is_told_once(roscore: RosCore, tmp_path: Pat
         again = "s = rospy.Subscriber('/speed', std_msgs.msg.String); rospy.sleep(0.5); s.unregister()"
         with rospy_node(roscore, f"while not rospy.is_shutdown(): {again}", tmp_path / "peer"):
             wait_until(lambda: attempts() >= 2, "the peer to have tried twice")
-        assert told(probe) == [
+        assert reported(probe) == [
             f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to {STRING}, but this node publishes "
             f"{FLOAT}, so no messages are sent to it; use the same type in both"
         ]
 
 
-def test_publisher_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+def test_publisher_of_another_type_is_reported_once(roscore: RosCore, tmp_path: Path) -> None:
     with Probe(roscore.env) as probe:
         probe.ask("subscribe", "/speed", "float")
         node = (
             "p = rospy.Publisher('/speed', std_msgs.msg.String, queue_size=1, latch=True); p.publish('x'); rospy.spin()"
         )
         with rospy_node(roscore, node, tmp_path / "peer"):
-            probe.wait_for(lambda: bool(told(probe)), "the line")
+            probe.wait_for(lambda: bool(reported(probe)), "the line")
             # A second publisher shows that two more checks have passed.
             with Probe(roscore.env, "__name:=second") as second:
                 second.ask("advertise", "/speed", "other_float")
-                probe.wait_for(lambda: len(told(probe)) > 1, "the second publisher's line")
-        assert told(probe) == [
+                probe.wait_for(lambda: len(reported(probe)) > 1, "the second publisher's line")
+        assert reported(probe) == [
             f"plugin 'ROSInterface': topic '/speed': node /peer publishes {STRING}, but this node subscribes to "
             f"{FLOAT}, so no messages arrive from it; use the same type in both",
             f"plugin 'ROSInterface': topic '/speed': node /second publishes {OTHER_FLOAT}, but this node "
@@ -71,20 +71,20 @@ def test_publisher_of_another_type_is_told_once(roscore: RosCore, tmp_path: Path
         ]
 
 
-def test_subscriber_with_another_version_of_the_type_is_told_to_rebuild(roscore: RosCore) -> None:
+def test_subscriber_with_another_version_of_the_type_is_advised_to_rebuild(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe, Probe(roscore.env, "__name:=other") as other:
         probe.ask("advertise", "/speed", "float")
         other.ask("subscribe", "/speed", "other_float")
-        probe.wait_for(lambda: bool(told(probe)), "the line")
-        assert told(probe) == [
+        probe.wait_for(lambda: bool(reported(probe)), "the line")
+        assert reported(probe) == [
             f"plugin 'ROSInterface': topic '/speed': node /other subscribes to {OTHER_FLOAT}, but this node "
             f"publishes {FLOAT}, so no messages are sent to it; {REBUILD}"
         ]
-        other.wait_for(lambda: bool(told(other)), "the other's line")
-        assert f"node /sim_ros_interface publishes {FLOAT}, but this node subscribes to" in told(other)[0]
+        other.wait_for(lambda: bool(reported(other)), "the other's line")
+        assert f"node /sim_ros_interface publishes {FLOAT}, but this node subscribes to" in reported(other)[0]
 
 
-def test_client_of_another_service_type_is_told_once(roscore: RosCore, tmp_path: Path) -> None:
+def test_client_of_another_service_type_is_reported_once(roscore: RosCore, tmp_path: Path) -> None:
     call = "rospy.ServiceProxy('/paint', std_srvs.srv.Trigger)()"
     code = f"for i in range(2):\n try: {call}\n except rospy.ServiceException: print('refused')"
     log = tmp_path / "peer"
@@ -93,7 +93,7 @@ def test_client_of_another_service_type_is_told_once(roscore: RosCore, tmp_path:
         wait_until(lambda: "/paint" in roscore.state()["services"], "the service")
         with rospy_node(roscore, code, log):
             wait_until(lambda: log.read_text().count("refused") == 2, "both calls")
-        assert told(probe) == [
+        assert reported(probe) == [
             "plugin 'ROSInterface': service '/paint': a client calls a type with md5 "
             "937c9679a518e3a18d831e57125ea522, but this node provides std_srvs/SetBool (md5 "
             "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; use the same type in both, built from the same "

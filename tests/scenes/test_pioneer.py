@@ -47,7 +47,7 @@ def test_it_has_the_parts_by_which_scripts_know_it() -> None:
     assert all(any(name.startswith(thing) for name in names) for thing in FURNITURE)
 
 
-def test_it_drives_straight_as_fast_as_told() -> None:
+def test_it_drives_straight_at_the_commanded_speed() -> None:
     pioneer = Pioneer()
     pioneer.command(0.5, 0.0)
     places = pioneer.places(60)
@@ -112,7 +112,7 @@ print(json.dumps({'odom': place(odom), 'truth': place(truth), 'frames': [odom.he
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.2])
-def test_it_follows_velocities_and_tells_where_it_is(roscore: RosCore, tmp_path: Path, noise: float) -> None:
+def test_it_follows_velocities_and_publishes_its_pose(roscore: RosCore, tmp_path: Path, noise: float) -> None:
     roscore.set_param("/use_sim_time", True)
     roscore.set_param("/sim_ros_interface/odometry_noise", noise)
     with Node(roscore.env, tmp_path / "log", "pioneer", "--speed", "2") as node:

@@ -46,7 +46,7 @@ def test_it_follows_goals_and_velocities_and_stays_in_the_wind(roscore: RosCore,
     odometry = "nav_msgs/Odometry"
     with (
         Node(roscore.env, tmp_path / "log", "quadcopter", "--speed", "4") as node,
-        Peer(roscore, tmp_path / "heard") as peer,
+        Peer(roscore, tmp_path / "received") as peer,
     ):
         node.wait_until_listed(roscore)
         peer.wait_for("/odom", odometry, is_at(0.0, 0.0, 1.0), "the take-off")
@@ -73,7 +73,7 @@ def test_actuator_messages_command_the_propellers(roscore: RosCore, tmp_path: Pa
         <motorSpeedPubTopic>motor_speed/1</motorSpeedPubTopic></plugin></model></world></sdf>"""
     with (
         Node(roscore.env, tmp_path / "log", write(tmp_path / "twin.sdf", robot)) as node,
-        Peer(roscore, tmp_path / "heard") as peer,
+        Peer(roscore, tmp_path / "received") as peer,
     ):
         node.wait_until_listed(roscore)
         topic = "/Twin/command/motor_speed"

@@ -161,7 +161,7 @@ def test_bubblerob_notifies(roscore: RosCore, node: StartNode) -> None:
     assert echo(roscore, "/notifications") == 'messages: "ok"\n---\n'
 
 
-def test_ball_tells_time_and_place(roscore: RosCore, node: StartNode) -> None:
+def test_ball_publishes_time_and_place(roscore: RosCore, node: StartNode) -> None:
     node("ball")
     first = number(echo(roscore, "/simulationTime"))
     assert number(echo(roscore, "/simulationTime")) > first

@@ -135,9 +135,9 @@ def test_goals_end_as_the_serving_script_says(script: Script, roscore: RosCore) 
         assert end(send(1)) == ('ABORTED', 43)
         assert end(send(2)) == ('REJECTED', 0)
         assert end(send(10)) == ('SUCCEEDED', 42)  # was pending first
-        heard = []
-        goal = send(5, feedback_cb=lambda handle, feedback: heard.append(feedback.feedback))
-        wait(lambda: 7 in heard)
+        received = []
+        goal = send(5, feedback_cb=lambda handle, feedback: received.append(feedback.feedback))
+        wait(lambda: 7 in received)
         goal.cancel()
         assert end(goal) == ('SUCCEEDED', 45)  # finished before it could be cancelled
         """,
@@ -202,7 +202,7 @@ def test_goals_that_are_over_leave_the_status_after_a_while(script: Script, rosc
     )
 
 
-def test_a_script_sends_goals_and_is_told_what_becomes_of_them(script: Script, roscore: RosCore) -> None:
+def test_a_script_sends_goals_and_receives_their_results(script: Script, roscore: RosCore) -> None:
     node = script(CLIENT_SCRIPT)  # sends before there is a server
     with actionlib_server(roscore):
         for line in (
@@ -251,31 +251,31 @@ def test_a_script_can_be_client_of_its_own_server(script: Script) -> None:
     node.wait_for_output("sum 4 42")
 
 
-def test_wrong_calls_are_told_and_change_nothing(script: Script) -> None:
+def test_wrong_calls_are_reported_and_change_nothing(script: Script) -> None:
     node = script("""\
-        def tell(function, *arguments):
+        def report(function, *arguments):
             try:
                 function(*arguments)
             except Exception as error:
-                print('told:', type(error).__name__, error, flush=True)
+                print('reported:', type(error).__name__, error, flush=True)
         def sysCall_init():
-            tell(simROS2.createActionServer, '/t', 'actionlib/Tset', print, print, print)
-            tell(simROS2.createActionClient, '/a b', 'actionlib/Test', print, print, print)
+            report(simROS2.createActionServer, '/t', 'actionlib/Tset', print, print, print)
+            report(simROS2.createActionClient, '/a b', 'actionlib/Test', print, print, print)
             server = simROS2.createActionServer('/t', 'actionlib/Test', print, print, print)
-            tell(simROS2.actionServerActionSucceed, server, 'nobody', {})
+            report(simROS2.actionServerActionSucceed, server, 'nobody', {})
             client = simROS2.createActionClient('/t', 'actionlib/Test', print, print, print)
-            tell(simROS2.sendGoal, client, {'gaol': 1})
+            report(simROS2.sendGoal, client, {'gaol': 1})
             print('cancelled', simROS2.cancelLastGoal(client))
             simROS2.shutdownActionServer(server)
-            tell(simROS2.actionServerActionIsActive, server, 'nobody')
+            report(simROS2.actionServerActionIsActive, server, 'nobody')
             simROS2.shutdownActionClient(client)
-            tell(simROS2.sendGoal, client, {})
+            report(simROS2.sendGoal, client, {})
             print('done', flush=True)
         """)
     node.wait_for_output("done")
-    told = [line.removeprefix("told: ") for line in node.output.splitlines() if line.startswith("told: ")]
+    reported = [line.removeprefix("reported: ") for line in node.output.splitlines() if line.startswith("reported: ")]
     for line, parts in zip(
-        told,
+        reported,
         (
             ("MessageError 'actionlib/Tset' is not an action type", "did you mean actionlib/Test?"),
             ("ValueError invalid topic name '/a b/",),
@@ -291,14 +291,14 @@ def test_wrong_calls_are_told_and_change_nothing(script: Script) -> None:
 
 
 @pytest.mark.parametrize(
-    ("accept", "succeed", "told"),
+    ("accept", "succeed", "reported"),
     [
         ("None", "pass", "the goal callback must return True, False or one of"),
         ("2", "simROS2.actionServerActionSucceed(self.server, goal_id, {})", "is PENDING and cannot succeed; call"),
         ("True", "simROS2.actionServerActionSucceed(self.server, goal_id, {'rsult': 1})", "rsult"),
     ],
 )
-def test_a_server_that_fails_ends_its_script_alone(script: Script, accept: str, succeed: str, told: str) -> None:
+def test_a_server_that_fails_ends_its_script_alone(script: Script, accept: str, succeed: str, reported: str) -> None:
     node = script(f"""\
         def sysCall_init():
             self.server = simROS2.createActionServer(
@@ -307,6 +307,6 @@ def test_a_server_that_fails_ends_its_script_alone(script: Script, accept: str, 
         def execute(goal_id, goal):
             {succeed}
         """)
-    node.wait_for_output(told)
+    node.wait_for_output(reported)
     assert "and is disabled" in node.output
     assert node.process.poll() is None

@@ -8,7 +8,7 @@ from node_support import Node
 Script = Callable[[str], Node]
 
 
-def test_stale_handles_are_told_by_kind(script: Script) -> None:
+def test_stale_handles_are_reported_by_kind(script: Script) -> None:
     node = script("""\
         A, B = simROS, simROS2
         def quiet(*arguments):
@@ -39,14 +39,14 @@ def test_stale_handles_are_told_by_kind(script: Script) -> None:
                 for again in (shut_down, use):
                     try:
                         again(handle)
-                        print('not told:', number)
+                        print('accepted:', number)
                     except ValueError as error:
                         text = str(error)
                         known = text.startswith(f'invalid object handle {handle}: no such ')
-                        print('told:' if known and text.endswith(', or it was shut down') else 'badly told:', error)
+                        print('clear:' if known and text.endswith(', or it was shut down') else 'not clear:', error)
             print('done')
         """)
     node.wait_for_output("done")
-    assert "not told" not in node.output
-    assert "badly told" not in node.output
-    assert node.output.count("told: ") == 24
+    assert "accepted" not in node.output
+    assert "not clear" not in node.output
+    assert node.output.count("clear: ") == 24

@@ -111,18 +111,18 @@ def test_the_quality_of_jpeg_is_that_of_the_parameter_and_arrays_are_images(scri
         def sysCall_init():
             self.cameras = [simROS2.imageTransportCreatePublisher(topic) for topic in ('/fine', '/coarse')]
             for topic in ('/fine', '/coarse'):
-                simROS.subscribe(topic + '/compressed', 'sensor_msgs/CompressedImage', hear_size(topic))
-            simROS2.imageTransportCreateSubscription('/fine', hear, 1, 'compressed')
+                simROS.subscribe(topic + '/compressed', 'sensor_msgs/CompressedImage', receive_size(topic))
+            simROS2.imageTransportCreateSubscription('/fine', receive, 1, 'compressed')
         def sysCall_sensing():
             for camera in self.cameras:
                 simROS2.imageTransportPublish(camera, NOISE, 64, 32, 'lens')
-        def hear_size(topic):
+        def receive_size(topic):
             return lambda message: print(topic, len(message['data']))
-        def hear(data, width, height):
+        def receive(data, width, height):
             error = np.abs(np.frombuffer(data, np.uint8).reshape(32, 64, 3).mean() - NOISE.mean())
-            print('heard', width, height, error < 5)
+            print('received', width, height, error < 5)
         """)
-    node.wait_for_output("heard 64 32 True")
+    node.wait_for_output("received 64 32 True")
     sizes: dict[str, int] = {}
     for topic in ("/fine", "/coarse"):
         node.wait_for_output(f"\n{topic} ")
@@ -132,19 +132,19 @@ def test_the_quality_of_jpeg_is_that_of_the_parameter_and_arrays_are_images(scri
 
 def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script: Script, roscore: RosCore) -> None:
     node = script("""\
-        def hear(name):
-            return lambda data, width, height: print('heard', name, width, height, data.hex())
+        def receive(name):
+            return lambda data, width, height: print('received', name, width, height, data.hex())
         def sysCall_init():
             for name in ('rgb8', 'bgr8', 'rgba8', 'bgra8', 'mono8', 'deep', 'short'):
-                simROS.imageTransportSubscribe('/' + name, hear(name))
+                simROS.imageTransportSubscribe('/' + name, receive(name))
             for name in ('png', 'broken'):
-                simROS.imageTransportSubscribe('/' + name, hear(name), 1, 'compressed')
+                simROS.imageTransportSubscribe('/' + name, receive(name), 1, 'compressed')
         """)
     camera = start(["/usr/bin/python3", "-c", SEND], roscore.env)
     try:
         for name in ("rgb8", "bgr8", "rgba8", "bgra8", "png"):
-            node.wait_for_output(f"heard {name} 2 2 " + "0000ff" + "ffffff" + "ff0000" + "00ff00")
-        node.wait_for_output("heard mono8 2 2 " + "030303" + "040404" + "010101" + "020202")
+            node.wait_for_output(f"received {name} 2 2 " + "0000ff" + "ffffff" + "ff0000" + "00ff00")
+        node.wait_for_output("received mono8 2 2 " + "030303" + "040404" + "010101" + "020202")
         node.wait_for_output("'/deep' is ignored: unsupported encoding '16UC1'; supported: rgb8, bgr8, rgba8")
         node.wait_for_output("'/short' is ignored: 2 x 2 pixels of rgb8 need")
         node.wait_for_output("'/broken/compressed' is ignored: OpenCV cannot decode 2 bytes of format 'jpeg'")
@@ -152,26 +152,26 @@ def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script
         stop(camera)
 
 
-def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
+def test_wrong_images_and_stale_handles_are_reported(script: Script) -> None:
     node = script("""\
         import numpy as np
-        def told(call, *arguments):
+        def reported(call, *arguments):
             try:
                 call(*arguments)
             except (TypeError, ValueError) as error:
-                print('told:', error)
+                print('reported:', error)
         def sysCall_init():
             camera = simROS.imageTransportAdvertise('/camera')
-            told(simROS.imageTransportPublish, camera, bytes(11), 2, 2, 'lens')
-            told(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 5)
-            told(simROS.imageTransportPublish, camera, np.zeros(12), 2, 2, 'lens')
-            told(simROS.imageTransportSubscribe, '/camera', print, 1, 'theora')
+            reported(simROS.imageTransportPublish, camera, bytes(11), 2, 2, 'lens')
+            reported(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 5)
+            reported(simROS.imageTransportPublish, camera, np.zeros(12), 2, 2, 'lens')
+            reported(simROS.imageTransportSubscribe, '/camera', print, 1, 'theora')
             simROS.imageTransportShutdownPublisher(camera)
-            told(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 'lens')
-            told(simROS.imageTransportShutdownPublisher, camera)
+            reported(simROS.imageTransportPublish, camera, bytes(12), 2, 2, 'lens')
+            reported(simROS.imageTransportShutdownPublisher, camera)
             listener = simROS.imageTransportSubscribe('/camera', print)
             simROS.imageTransportShutdownSubscriber(listener)
-            told(simROS.imageTransportShutdownSubscriber, listener)
+            reported(simROS.imageTransportShutdownSubscriber, listener)
             print('done')
         """)
     node.wait_for_output("done")
@@ -179,7 +179,7 @@ def test_wrong_images_and_stale_handles_are_told(script: Script) -> None:
     assert "argument 5, frame_id: expected a text, found int 5" in node.output
     assert "argument 2, data: expected bytes or a numpy array of uint8, found an array of float64" in node.output
     assert "transport must be 'raw' or 'compressed', found 'theora'" in node.output
-    assert node.output.count("told: invalid object handle") == 3
+    assert node.output.count("reported: invalid object handle") == 3
 
 
 def test_image_topics_end_with_their_script(script: Script, roscore: RosCore) -> None:

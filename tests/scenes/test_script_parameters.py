@@ -83,7 +83,7 @@ def test_a_master_that_hangs_holds_a_script_up_once(script: Script, roscore: Ros
     assert node.output.count("does not answer: no parameter exists") == 1
 
 
-def test_wrong_values_are_told(script: Script) -> None:
+def test_wrong_values_are_reported(script: Script) -> None:
     node = script("""\
         def sysCall_init():
             for wrong in (lambda: simROS.setParamInt('/x', 2**31), lambda: simROS.setParamString('/x', 5),
@@ -91,11 +91,11 @@ def test_wrong_values_are_told(script: Script) -> None:
                 try:
                     wrong()
                 except (TypeError, ValueError) as error:
-                    print('told:', error)
+                    print('reported:', error)
             print('done')
         """)
     node.wait_for_output("done")
-    assert node.output.count("told: ") == 4
+    assert node.output.count("reported: ") == 4
     assert "invalid parameter name 'a b'" in node.output
 
 

@@ -64,7 +64,7 @@ def test_a_call_that_nobody_answers_is_an_error_that_a_script_can_catch(script: 
     assert "/nobody" in node.output
 
 
-def test_a_failing_service_ends_its_script_and_tells_the_caller(script: Script, roscore: RosCore) -> None:
+def test_a_failing_service_ends_its_script_and_reports_the_caller(script: Script, roscore: RosCore) -> None:
     node = script("""\
         def answer(request):
             return {'sucess': True}
@@ -76,10 +76,10 @@ def test_a_failing_service_ends_its_script_and_tells_the_caller(script: Script, 
     failed = subprocess.run(call, env=roscore.env, text=True, capture_output=True, timeout=30, check=False)
     assert failed.returncode != 0
     # rosservice's text, then the reason.
-    told = failed.stderr.partition("responded with an error: b")[2].strip("'\"\n")
-    assert told.startswith("bubblesim.MessageError: std_srvs/TriggerResponse"), failed.stderr
-    assert "sucess" in told
-    assert told.endswith("; the child script of /Ball failed or ended")
+    reported = failed.stderr.partition("responded with an error: b")[2].strip("'\"\n")
+    assert reported.startswith("bubblesim.MessageError: std_srvs/TriggerResponse"), failed.stderr
+    assert "sucess" in reported
+    assert reported.endswith("; the child script of /Ball failed or ended")
     node.wait_for_output("sucess")
     assert "the callback answer" in node.output
     assert node.process.poll() is None
@@ -96,11 +96,11 @@ def test_handles_after_shutdown_are_errors(script: Script) -> None:
                     try:
                         again()
                     except ValueError as error:
-                        print('told:', error)
+                        print('reported:', error)
             print('done')
         """)
     node.wait_for_output("done")
-    assert node.output.count("told: invalid object handle") == 4
+    assert node.output.count("reported: invalid object handle") == 4
 
 
 def test_interfaces_can_be_asked_for(script: Script) -> None:

@@ -12,15 +12,15 @@ Script = Callable[..., Node]
 
 
 @pytest.mark.parametrize(
-    ("message", "told"),
+    ("message", "reported"),
     [
         ("{'dta': 1.0}", "dta"),
         ("{'data': 'much'}", "std_msgs/Float32: data: expected"),
         ("5", "std_msgs/Float32: expected dict"),
     ],
 )
-def test_a_wrong_first_message_is_told_at_once_with_type_field_and_line(
-    script: Script, message: str, told: str
+def test_a_wrong_first_message_is_reported_at_once_with_type_field_and_line(
+    script: Script, message: str, reported: str
 ) -> None:
     node = script(f"""\
         def sysCall_init():
@@ -32,11 +32,11 @@ def test_a_wrong_first_message_is_told_at_once_with_type_field_and_line(
     assert "failed in sysCall_actuation" in node.output
     assert "script.py:4) and is disabled" in node.output
     assert "std_msgs/Float32" in node.output
-    assert told in node.output.splitlines()[-1]
+    assert reported in node.output.splitlines()[-1]
     assert "bubblesim/scripting" not in node.output
 
 
-def test_an_unlisted_type_is_told_with_the_list_to_add_it_to(script: Script) -> None:
+def test_an_unlisted_type_is_reported_with_the_list_to_add_it_to(script: Script) -> None:
     node = script("def sysCall_init(): simROS.advertise('/t', 'std_msgs/Flaot32')\n")
     node.wait_for_output("and is disabled")
     node.wait_for_output("std_msgs/Flaot32")
@@ -50,7 +50,7 @@ def test_a_type_without_fields_is_nothing_to_warn_of(script: Script, roscore: Ro
     assert "empty message definition" not in node.output
 
 
-def test_an_unusable_topic_name_is_told(script: Script) -> None:
+def test_an_unusable_topic_name_is_reported(script: Script) -> None:
     node = script("def sysCall_init(): simROS.advertise('/a b', 'std_msgs/Float32')\n")
     node.wait_for_output("ValueError: invalid topic name '/a b'")
 
@@ -58,12 +58,12 @@ def test_an_unusable_topic_name_is_told(script: Script) -> None:
 def test_callbacks_are_callables_or_names(script: Script, roscore: RosCore) -> None:
     node = script("""\
         class Listener:
-            def hear(self, message): print('method', message['data'])
-        def hear(message): print('function', message['data'])
+            def receive(self, message): print('method', message['data'])
+        def receive(message): print('function', message['data'])
         def sysCall_init():
-            simROS.subscribe('/in', 'std_msgs/String', hear)
-            simROS.subscribe('/in', 'std_msgs/msg/String', 'hear')
-            simROS.subscribe('/in', 'std_msgs/String', Listener().hear)
+            simROS.subscribe('/in', 'std_msgs/String', receive)
+            simROS.subscribe('/in', 'std_msgs/msg/String', 'receive')
+            simROS.subscribe('/in', 'std_msgs/String', Listener().receive)
         """)
     wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscribers")
     roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/String", "data: 'grüezi'")
@@ -71,7 +71,7 @@ def test_callbacks_are_callables_or_names(script: Script, roscore: RosCore) -> N
     assert node.output.count("function grüezi") == 2
 
 
-def test_an_unknown_callback_is_told(script: Script) -> None:
+def test_an_unknown_callback_is_reported(script: Script) -> None:
     script("def sysCall_init(): simROS.subscribe('/in', 'std_msgs/Empty', 'nobody')\n").wait_for_output(
         "ValueError: the callback 'nobody' is not a function of the script"
     )
@@ -114,7 +114,7 @@ def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
             assert simROS2.getTime()['sec'] > 1e9 and simROS2.getSystemTime()['sec'] > 1e9
             assert simROS.getTime() > 1e9
         def on_time(message):
-            print('heard', message)
+            print('received', message)
             simROS2.shutdownSubscription(self.listener)
         """)
     wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscriber")
@@ -122,7 +122,7 @@ def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
     assert "secs: 5" in text
     assert text.split()[text.split().index("nsecs:") + 1] == "6"
     roscore.run("rostopic", "pub", "-1", "/in", "std_msgs/Time", "{data: {secs: 7, nsecs: 8}}")
-    node.wait_for_output("heard {'data': {'sec': 7, 'nanosec': 8}}")
+    node.wait_for_output("received {'data': {'sec': 7, 'nanosec': 8}}")
     wait_until(lambda: "/in" not in roscore.state()["subscribers"], "the subscriber to go")
 
 

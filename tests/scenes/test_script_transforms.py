@@ -43,36 +43,38 @@ def test_tf2_looks_up_dynamic_and_static_transforms(script: Script, roscore: Ros
 
 
 @pytest.mark.parametrize(
-    ("transform", "told"),
+    ("transform", "reported"),
     [
         ("{'rotation': {'w': 2}}", "is not a unit quaternion (x, y, z, w), its norm is 2; the identity is 0, 0, 0, 1"),
         ("{}", "its norm is 0"),
         ("{'translation': {'y': float('nan')}, 'rotation': {'w': 1}}", "translation [0.0, nan, 0.0] is not finite"),
     ],
 )
-def test_a_transform_that_tf2_would_refuse_is_told_with_its_frame(script: Script, transform: str, told: str) -> None:
+def test_a_transform_that_tf2_would_refuse_is_reported_with_its_frame(
+    script: Script, transform: str, reported: str
+) -> None:
     node = script(f"""\
         def sysCall_init():
             for send in (simROS.sendTransform, simROS.sendStaticTransform):
                 try:
                     send({{'header': {{'frame_id': 'a'}}, 'child_frame_id': 'b', 'transform': {transform}}})
                 except ValueError as error:
-                    print('told:', error)
+                    print('reported:', error)
             print('done')
         """)
     node.wait_for_output("done")
-    assert node.output.count("told: the transform of 'b'") == 2
-    assert node.output.count(told) == 2
+    assert node.output.count("reported: the transform of 'b'") == 2
+    assert node.output.count(reported) == 2
 
 
-def test_a_transform_of_wrong_fields_is_told_as_any_message(script: Script) -> None:
+def test_a_transform_of_wrong_fields_is_reported_as_any_message(script: Script) -> None:
     node = script("def sysCall_init(): simROS.sendTransform({'transform': {'rotaton': {}, 'rotation': {'w': 1}}})\n")
     node.wait_for_output("MessageError")
     assert "rotaton" in node.output
 
 
 @pytest.mark.parametrize(("module", "stamp"), [("simROS", "5.0"), ("simROS2", "{'sec': 5, 'nanosec': 0}")])
-def test_stamps_of_another_clock_are_told_once_a_publisher(script: Script, module: str, stamp: str) -> None:
+def test_stamps_of_another_clock_are_reported_once_a_publisher(script: Script, module: str, stamp: str) -> None:
     make = "simROS.advertise" if module == "simROS" else "simROS2.createPublisher"
     node = script(f"""\
         def sysCall_init():

@@ -16,10 +16,10 @@ TALKER = """
 import rospy, std_msgs.msg
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 as_before = TCPROSHandler.topic_connection_handler
-def tell(self, sock, address, header):
+def report(self, sock, address, header):
     print(header['topic'], header.get('tcp_nodelay'))
     return as_before(self, sock, address, header)
-TCPROSHandler.topic_connection_handler = tell
+TCPROSHandler.topic_connection_handler = report
 rospy.init_node('talker')
 publishers = [rospy.Publisher(t, std_msgs.msg.String, queue_size=1, latch=True) for t in ('/fast', '/slow', '/either')]
 for publisher in publishers:
@@ -41,23 +41,23 @@ def talker(core: RosCore, log: Path) -> Iterator[None]:
 def test_publishers_are_asked_for_what_the_script_wants(script: Script, roscore: RosCore, tmp_path: Path) -> None:
     log = tmp_path / "talker"
     node = script("""\
-        def hear(topic):
-            return lambda message: print('heard', topic, message['data'])
+        def receive(topic):
+            return lambda message: print('received', topic, message['data'])
         def sysCall_init():
             wanted = {'/fast': {'tcpNoDelay': True}, '/slow': {'tcpNoDelay': False},
                       '/either': {'transports': ['unreliable', 'reliable'], 'maxDatagramSize': 1000}}
             for topic, hints in wanted.items():
-                simROS.subscribe(topic, 'std_msgs/String', hear(topic), 1, hints)
+                simROS.subscribe(topic, 'std_msgs/String', receive(topic), 1, hints)
             try:
                 simROS.subscribe('/fast', 'std_msgs/String', print, 1, {'transports': ['smoke']})
             except ValueError as error:
-                print('told:', error)
+                print('reported:', error)
         """)
     with talker(roscore, log):
         for topic in ("/fast", "/slow", "/either"):
-            node.wait_for_output(f"heard {topic} hello")
+            node.wait_for_output(f"received {topic} hello")
         wanted = {"/either 1", "/fast 1", "/slow 0"}
         wait_until(lambda: set(log.read_text().splitlines()) - {"/rosout 1", "/rosout 0"} == wanted, "the headers")
-    node.wait_for_output("told: ")
+    node.wait_for_output("reported: ")
     assert "'/either' is subscribed over TCP: UDP is not supported" in node.output
-    assert "told: transports must hold 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output
+    assert "reported: transports must hold 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output

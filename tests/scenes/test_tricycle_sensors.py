@@ -42,7 +42,7 @@ print(json.dumps({
 """
 
 
-def test_what_they_tell_agrees(roscore: RosCore, tmp_path: Path) -> None:
+def test_their_readings_agree(roscore: RosCore, tmp_path: Path) -> None:
     roscore.set_param("/use_sim_time", True)
     with Node(roscore.env, tmp_path / "log", "tricycle", "--speed", "2") as node:
         found = findings_of(PROBE, roscore.env, tmp_path)

@@ -161,7 +161,7 @@ def test_clients_that_vanish_or_never_read_disturb_nobody(server: Server, client
     silent.close()
 
 
-def test_too_many_clients_are_told_so(server: Server) -> None:
+def test_too_many_clients_are_refused(server: Server) -> None:
     clients = [Client(server.port) for _ in range(200)]
     try:
         for client in clients:
@@ -216,7 +216,7 @@ def test_the_port_is_free_again_at_once(tmp_path: Path) -> None:
     client.close()
 
 
-def test_a_port_in_use_is_told(tmp_path: Path, server: Server) -> None:
+def test_a_port_in_use_is_reported(tmp_path: Path, server: Server) -> None:
     arguments = ["tricycle_socket", "--no-ros", "--child-script", f"/Tricycle={server.script}", "--strict"]
     with Node(dict(os.environ), tmp_path / "log", *arguments) as second:
         wait_until(lambda: second.process.poll() is not None, "the second simulation to end")

@@ -75,22 +75,22 @@ def refusal(function: Callable[[Any], object], value: object) -> str | None:
 @example(b"0")
 @example("0")
 def test_numbers_and_only_they_are_taken_for_numbers(value: object) -> None:
-    told = refusal(Sample().number, value)
+    reported = refusal(Sample().number, value)
     if isinstance(value, int | float) and abs(value) < 1e308:
-        assert told is None
+        assert reported is None
     elif isinstance(value, str | bytes | list | dict | None):
-        assert told is not None
-        assert told.startswith("sample.number: argument 1, value: expected a number, found ")
+        assert reported is not None
+        assert reported.startswith("sample.number: argument 1, value: expected a number, found ")
 
 
 @given(st.lists(st.floats() | st.text() | st.none(), max_size=5))
 def test_lists_of_three_numbers_are_taken_for_vectors(values: list[object]) -> None:
-    told = refusal(Sample().vector, values)
+    reported = refusal(Sample().vector, values)
     if [type(value) for value in values] == [float] * 3:
-        assert told is None
+        assert reported is None
     else:
-        assert told is not None
-        assert told.startswith("sample.vector: argument 1, value: expected 3 numbers, found ")
+        assert reported is not None
+        assert reported.startswith("sample.vector: argument 1, value: expected 3 numbers, found ")
 
 
 def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
@@ -101,7 +101,7 @@ def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         ((), "sample.text(value, count): missing a required argument: 'value'"),
         (("a", 1, 2), "sample.text(value, count): too many positional arguments"),
@@ -109,10 +109,10 @@ def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
         ((None,), "sample.text: argument 1, value: expected a text, found nothing (None)"),
     ],
 )
-def test_a_call_that_does_not_fit_is_told(arguments: tuple[object, ...], told: str) -> None:
+def test_a_call_that_does_not_fit_is_reported(arguments: tuple[object, ...], reported: str) -> None:
     with pytest.raises(ArgumentError) as error:
         Sample().text(*arguments)  # type: ignore[arg-type]
-    assert str(error.value) == told
+    assert str(error.value) == reported
 
 
 def test_arguments_may_be_named() -> None:
@@ -168,7 +168,7 @@ def test_no_function_of_simros_falls_over_odd_arguments(tmp_path: Path) -> None:
     assert run.stdout.endswith("swept\n")
 
 
-def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
+def test_a_function_that_is_checked_on_failure_reports_as_the_others() -> None:
     assert Sample().next(1.5) == 2.5
     with pytest.raises(ArgumentError, match=r"sample\.next: argument 1, value: expected a number, found str 'one'"):
         Sample().next("one")  # type: ignore[arg-type]
@@ -179,7 +179,7 @@ def test_a_function_that_is_checked_on_failure_tells_as_the_others() -> None:
     assert Sample().next(value=1.5) == 2.5
 
 
-def test_names_that_there_are_not_are_told_with_those_that_come_near() -> None:
+def test_names_that_there_are_not_are_reported_with_those_that_come_near() -> None:
     with pytest.raises(AttributeError, match=r"sample has no numbr; did you mean sample\.number\?$"):
         Sample().numbr  # type: ignore[attr-defined]  # noqa: B018
     assert not hasattr(Sample(), "createCollection")

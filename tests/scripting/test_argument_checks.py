@@ -111,8 +111,8 @@ def calls_in_lua() -> Iterator[tuple[str, str]]:
                 for text, value in LUA_VALUES:
                     if not takes(kind, value):
                         assert kind is not None
-                        told = f"{name}: argument {number}, {parameter}: expected {kind.words}, found "
-                        yield f"{name}({', '.join([*before, text, *after])})", told
+                        reported = f"{name}: argument {number}, {parameter}: expected {kind.words}, found "
+                        yield f"{name}({', '.join([*before, text, *after])})", reported
                 if hasattr(getattr(module, function.name), "checked_on_failure"):
                     break
                 before.append(fitting(kind))
@@ -140,5 +140,5 @@ def test_lua(tmp_path: Path) -> None:
     code += [f"  (function() try(function() {call} end) end)()" for call, _ in calls]
     printed = run(tmp_path, "script.lua", "\n".join([*code, "end"]).replace("\n  (", "\n  ;("))
     printed = [line for line in printed if not line.startswith("plugin ")]
-    for number, ((call, told), line) in enumerate(zip(calls, printed, strict=True), start=3):
-        assert line.startswith(f"{tmp_path}/script.lua:{number}: {told}"), f"{call}\n{line}"
+    for number, ((call, reported), line) in enumerate(zip(calls, printed, strict=True), start=3):
+        assert line.startswith(f"{tmp_path}/script.lua:{number}: {reported}"), f"{call}\n{line}"

@@ -135,7 +135,7 @@ def test_exit_ends_only_the_script_and_is_no_failure(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "code", "told"),
+    ("name", "code", "reported"),
     [
         ("bad.py", "def deep(): return deep()\ndef sysCall_init(): deep()\n", "RecursionError"),
         ("bad.py", "def sysCall_init(): bytes(1 << 62)\n", "MemoryError"),
@@ -143,13 +143,13 @@ def test_exit_ends_only_the_script_and_is_no_failure(tmp_path: Path) -> None:
         ("bad.lua", "function sysCall_init() string.rep('x', (1 << 31) - 1) end\n", "not enough memory"),
     ],
 )
-def test_what_exhausts_the_machine_ends_only_the_script(tmp_path: Path, name: str, code: str, told: str) -> None:
+def test_what_exhausts_the_machine_ends_only_the_script(tmp_path: Path, name: str, code: str, reported: str) -> None:
     bad = write(tmp_path / name, code)
     good = "def sysCall_init(): pass\ndef sysCall_cleanup(): print('ran on')\n"
     run = run_script(tmp_path, good, "--child-script", f"/Ramp={bad}")
     assert (run.stdout, run.returncode) == ("ran on\n", 3)
     assert "child script of /Ramp failed in sysCall_init" in run.stderr
-    assert told in run.stderr
+    assert reported in run.stderr
     assert len(run.stderr) < 5000
 
 

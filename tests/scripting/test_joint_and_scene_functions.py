@@ -17,7 +17,7 @@ def check(folder: Path, code: str, name: str = "script.py", scene: str = "tricyc
     return run.stdout
 
 
-def test_joints_tell_their_type_mode_and_limits(tmp_path: Path) -> None:
+def test_joints_have_their_type_mode_and_limits(tmp_path: Path) -> None:
     code = """
         import math
         def sysCall_init():
@@ -132,7 +132,7 @@ def test_time_steps_that_are_none_are_refused(tmp_path: Path, seconds: str) -> N
     assert "is not usable: it must be from 1e-4 to 10 s" in run.stderr
 
 
-def test_pauses_are_told_to_scripts_that_ask(roscore: RosCore, tmp_path: Path) -> None:
+def test_pauses_are_reported_to_scripts_that_ask(roscore: RosCore, tmp_path: Path) -> None:
     code = """
         def sysCall_init(): print('init')
         def sysCall_suspend(): print('suspend')
@@ -150,7 +150,7 @@ def test_pauses_are_told_to_scripts_that_ask(roscore: RosCore, tmp_path: Path) -
         assert [line.split()[0] for line in node.output.splitlines()[-3:]] == ["init", "suspend", "resume"]
 
 
-def test_a_pause_of_a_scripts_own_is_told_in_lua(tmp_path: Path) -> None:
+def test_a_pause_of_a_scripts_own_is_reported_in_lua(tmp_path: Path) -> None:
     code = """
         function sysCall_init() sim.pauseSimulation() end
         function sysCall_suspend() print('suspend') sim.startSimulation() end

@@ -15,11 +15,11 @@ def lines(folder: Path, code: str, *arguments: object, until: float = 0.2) -> li
 
 def test_callbacks_come_in_order_under_one_time_a_pass(tmp_path: Path) -> None:
     code = """
-        def tell(what): print(what, f'{sim.getSimulationTime():.3f}')
-        def sysCall_init(): tell('init')
-        def sysCall_actuation(): tell('actuation')
-        def sysCall_sensing(): tell('sensing')
-        def sysCall_cleanup(): tell('cleanup')
+        def report(what): print(what, f'{sim.getSimulationTime():.3f}')
+        def sysCall_init(): report('init')
+        def sysCall_actuation(): report('actuation')
+        def sysCall_sensing(): report('sensing')
+        def sysCall_cleanup(): report('cleanup')
     """
     assert lines(tmp_path, code, until=0.1) == [
         "init 0.000",
@@ -66,13 +66,13 @@ def test_self_and_globals_persist(tmp_path: Path) -> None:
 
 def test_a_stop_request_gives_one_more_whole_pass(tmp_path: Path) -> None:
     code = """
-        def tell(what): print(what, f'{sim.getSimulationTime():.2f}', hex(sim.getSimulationState()))
+        def report(what): print(what, f'{sim.getSimulationTime():.2f}', hex(sim.getSimulationState()))
         def sysCall_init(): pass
         def sysCall_actuation():
-            tell('actuation')
+            report('actuation')
             sim.stopSimulation()
-        def sysCall_sensing(): tell('sensing')
-        def sysCall_cleanup(): tell('cleanup')
+        def sysCall_sensing(): report('sensing')
+        def sysCall_cleanup(): report('cleanup')
     """
     assert lines(tmp_path, code, until=10) == [
         "actuation 0.00 0x11",

@@ -117,10 +117,10 @@ def failure(folder: Path, code: str) -> str:
 
 
 def test_there_are_no_finalizers(tmp_path: Path) -> None:
-    told = failure(
+    reported = failure(
         tmp_path, "function sysCall_init()\n  setmetatable({}, {__gc = function() while true do end end})\nend"
     )
-    assert f"{tmp_path}/script.lua:2: setmetatable: finalizers (__gc) are not allowed in child scripts" in told
+    assert f"{tmp_path}/script.lua:2: setmetatable: finalizers (__gc) are not allowed in child scripts" in reported
 
 
 def test_a_finalizer_that_comes_later_is_never_called(tmp_path: Path) -> None:
@@ -138,8 +138,8 @@ def test_a_finalizer_that_comes_later_is_never_called(tmp_path: Path) -> None:
 
 
 def test_the_text_of_an_error_object_is_made_without_its_metatable(tmp_path: Path) -> None:
-    told = failure(tmp_path, "error(setmetatable({}, {__tostring = function() while true do end end}))")
-    assert "an error that is not a text: a table" in told
+    reported = failure(tmp_path, "error(setmetatable({}, {__tostring = function() while true do end end}))")
+    assert "an error that is not a text: a table" in reported
 
 
 def test_texts_keep_their_metatable(tmp_path: Path) -> None:
@@ -149,10 +149,10 @@ def test_texts_keep_their_metatable(tmp_path: Path) -> None:
 
 
 def test_an_error_within_a_wait_keeps_its_text(tmp_path: Path) -> None:
-    told = failure(tmp_path, "function sysCall_init()\n  sim.wait(1)\nend")
-    assert f"{tmp_path}/script.lua:2: sim.wait is only allowed in sysCall_thread" in told
-    told = failure(tmp_path, "function sysCall_thread()\n  sim.wait('long')\nend")
-    assert f"{tmp_path}/script.lua:2: sim.wait: argument 1, seconds: expected a number" in told
+    reported = failure(tmp_path, "function sysCall_init()\n  sim.wait(1)\nend")
+    assert f"{tmp_path}/script.lua:2: sim.wait is only allowed in sysCall_thread" in reported
+    reported = failure(tmp_path, "function sysCall_thread()\n  sim.wait('long')\nend")
+    assert f"{tmp_path}/script.lua:2: sim.wait: argument 1, seconds: expected a number" in reported
 
 
 @pytest.mark.parametrize("kind", ["init", "thread"])
@@ -166,9 +166,9 @@ def test_an_error_in_a_coroutine_keeps_its_text(tmp_path: Path, kind: str) -> No
           if not succeeded then error(debug.traceback(waiting, problem), 2) end
         end
     """
-    told = failure(tmp_path, code)
-    assert f"{tmp_path}/script.lua:4: sim.wait is only allowed in sysCall_thread" in told
-    assert "sandbox" not in told
+    reported = failure(tmp_path, code)
+    assert f"{tmp_path}/script.lua:4: sim.wait is only allowed in sysCall_thread" in reported
+    assert "sandbox" not in reported
 
 
 def test_print_shows_the_contents_of_tables(tmp_path: Path) -> None:
@@ -206,14 +206,14 @@ def test_files_are_named_whole(tmp_path: Path, file: str) -> None:
     assert run.stderr.count(file) == run.stderr.count(whole)
 
 
-def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:
+def test_files_of_one_name_are_distinguished(tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.mkdir()
     write(other / "script.lua", "return function()\n  error('in the other')\nend\n")
     code = "local fail = require('other.script')\nfunction sysCall_init()\n  fail()\nend\n"
-    told = failure(tmp_path, code)
-    assert f"{other}/script.lua:2: in the other" in told
-    assert f"{tmp_path}/script.lua:3: in function" in told
+    reported = failure(tmp_path, code)
+    assert f"{other}/script.lua:2: in the other" in reported
+    assert f"{tmp_path}/script.lua:3: in function" in reported
 
 
 def test_the_programs_of_this_test_exist() -> None:

@@ -26,11 +26,11 @@ def lines(folder: Path, code: str, *arguments: object, until: float = 0.2) -> li
 
 def test_callbacks_come_in_order_under_one_time_a_pass(tmp_path: Path) -> None:
     code = """
-        local function tell(what) print(what, string.format('%.3f', sim.getSimulationTime())) end
-        function sysCall_init() tell('init') end
-        function sysCall_actuation() tell('actuation') end
-        function sysCall_sensing() tell('sensing') end
-        function sysCall_cleanup() tell('cleanup') end
+        local function report(what) print(what, string.format('%.3f', sim.getSimulationTime())) end
+        function sysCall_init() report('init') end
+        function sysCall_actuation() report('actuation') end
+        function sysCall_sensing() report('sensing') end
+        function sysCall_cleanup() report('cleanup') end
     """
     assert lines(tmp_path, code, until=0.1) == [
         "init\t0.000",
@@ -205,11 +205,11 @@ def test_a_thread_sees_that_it_is_to_end(tmp_path: Path) -> None:
     code = """
         function sysCall_thread()
             while not sim.getThreadExitRequest() do sim.step() end
-            print('told')
+            print('reported')
         end
         function sysCall_cleanup() print('cleanup') end
     """
-    assert lines(tmp_path, code) == ["told", "cleanup"]
+    assert lines(tmp_path, code) == ["reported", "cleanup"]
 
 
 def test_a_thread_that_steps_for_ever_is_left(tmp_path: Path) -> None:
@@ -260,8 +260,8 @@ def test_who_asks_for_it_may_reach_outside(tmp_path: Path) -> None:
 def test_messages_services_and_named_callbacks_work(roscore: RosCore, tmp_path: Path) -> None:
     code = """
         function sysCall_init()
-            simROS.subscribe('/heard', 'sensor_msgs/LaserScan', 'on_scan')
-            publisher = simROS.advertise('/heard', 'sensor_msgs/LaserScan')
+            simROS.subscribe('/received', 'sensor_msgs/LaserScan', 'on_scan')
+            publisher = simROS.advertise('/received', 'sensor_msgs/LaserScan')
             simROS.advertiseService('/add', 'std_srvs/SetBool', function(request)
                 return {success = request.data, message = 'from Lua'}
             end)

@@ -21,10 +21,10 @@ def failure(folder: Path, code: str, name: str = "script.py") -> str:
 
 
 def test_without_ros_the_first_use_of_simros_says_why(tmp_path: Path) -> None:
-    told = failure(tmp_path, "def sysCall_init():\n    simROS.advertise('/t', 'std_msgs/Float32')\n")
-    assert f"simROS.advertise: {NO_ROS}" in told
-    assert "script.py:2" in told
-    assert "NoneType" not in told
+    reported = failure(tmp_path, "def sysCall_init():\n    simROS.advertise('/t', 'std_msgs/Float32')\n")
+    assert f"simROS.advertise: {NO_ROS}" in reported
+    assert "script.py:2" in reported
+    assert "NoneType" not in reported
 
 
 def test_without_ros_simros_is_false(tmp_path: Path) -> None:
@@ -39,8 +39,8 @@ def test_without_ros_simros_is_false(tmp_path: Path) -> None:
 @pytest.mark.parametrize("begin", ["", "simROS = require 'simROS'\n", "local simROS = require 'simROS'\n"])
 def test_without_ros_the_first_use_of_simros_in_lua_says_why(tmp_path: Path, begin: str) -> None:
     code = begin + "function sysCall_init()\n  simROS.advertise('/t', 'std_msgs/Float32')\nend\n"
-    told = failure(tmp_path, code, "script.lua")
-    assert f"script.lua:{2 + begin.count(chr(10))}: {NO_ROS}" in told
+    reported = failure(tmp_path, code, "script.lua")
+    assert f"script.lua:{2 + begin.count(chr(10))}: {NO_ROS}" in reported
 
 
 def test_without_ros_simros_is_false_in_lua(tmp_path: Path) -> None:
@@ -49,7 +49,7 @@ def test_without_ros_simros_is_false_in_lua(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("call", "told"),
+    ("call", "reported"),
     [
         ("sim.setObjectPos", "sim has no setObjectPos; did you mean sim.setObjectPose or sim.setObjectPosition?"),
         ("sim.wantsMessages", "sim has no wantsMessages; did you mean simROS.wantsMessages or simROS2.wantsMessages?"),
@@ -57,11 +57,11 @@ def test_without_ros_simros_is_false_in_lua(tmp_path: Path) -> None:
     ],
 )
 def test_a_misspelt_function_is_reported_with_what_was_meant_in_both_languages(
-    tmp_path: Path, call: str, told: str
+    tmp_path: Path, call: str, reported: str
 ) -> None:
-    assert told in failure(tmp_path, f"def sysCall_init():\n    {call}(1)\n")
+    assert reported in failure(tmp_path, f"def sysCall_init():\n    {call}(1)\n")
     in_lua = failure(tmp_path, f"function sysCall_init()\n  {call}(1)\nend\n", "script.lua")
-    assert f"{tmp_path}/script.lua:2: {told}" in in_lua
+    assert f"{tmp_path}/script.lua:2: {reported}" in in_lua
 
 
 @pytest.mark.parametrize(
@@ -105,7 +105,7 @@ def test_a_function_that_lua_does_not_find_is_nil_and_its_call_can_be_caught(tmp
 
 
 @pytest.mark.parametrize(
-    ("call", "told"),
+    ("call", "reported"),
     [
         ("sim.getObjectPosition(-1)", "sim.getObjectPosition: argument 1, handle: -1 is not a handle of an object"),
         ("sim.setObjectPosition(-1, [0, 0, 0])", "sim.setObjectPosition: argument 1, handle: -1 is not a handle"),
@@ -116,16 +116,18 @@ def test_a_function_that_lua_does_not_find_is_nil_and_its_call_can_be_caught(tmp
         ("sim.getVisionSensorCharImage(-1)", "sim.getVisionSensorCharImage: argument 1, sensor: -1 is not a handle"),
     ],
 )
-def test_what_is_no_handle_is_reported_with_function_argument_and_line(tmp_path: Path, call: str, told: str) -> None:
+def test_what_is_no_handle_is_reported_with_function_argument_and_line(
+    tmp_path: Path, call: str, reported: str
+) -> None:
     report = failure(tmp_path, f"def sysCall_init():\n    {call}\n")
-    assert told in report
+    assert reported in report
     assert "script.py:2" in report
     in_lua = call.replace("[", "{").replace("]", "}")
-    assert told in failure(tmp_path, f"function sysCall_init()\n  {in_lua}\nend\n", "script.lua")
+    assert reported in failure(tmp_path, f"function sysCall_init()\n  {in_lua}\nend\n", "script.lua")
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "reported"),
     [
         ("sysCall_actuaton", "sysCall_actuaton is never called; did you mean sysCall_actuation?"),
         ("sysCall_clenup", "sysCall_clenup is never called; did you mean sysCall_cleanup?"),
@@ -133,13 +135,15 @@ def test_what_is_no_handle_is_reported_with_function_argument_and_line(tmp_path:
         ("sysCall_mesage", "sysCall_mesage is never called; the callbacks are sysCall_init, sysCall_thread,"),
     ],
 )
-def test_a_callback_that_is_never_called_is_one_warning_with_what_is_near(tmp_path: Path, name: str, told: str) -> None:
+def test_a_callback_that_is_never_called_is_one_warning_with_what_is_near(
+    tmp_path: Path, name: str, reported: str
+) -> None:
     for file, code in {
         "script.py": f"def sysCall_init(): pass\ndef {name}(): pass\n",
         "script.lua": f"function sysCall_init() end\nfunction {name}() end\n",
     }.items():
         run = run_script(tmp_path, code, name=file)
-        assert run.stderr.startswith(f"warning: child script of /Ball: {tmp_path}/{file}:2: {told}")
+        assert run.stderr.startswith(f"warning: child script of /Ball: {tmp_path}/{file}:2: {reported}")
         assert run.stderr.count("\n") == 1
 
 
@@ -150,9 +154,9 @@ def test_other_functions_are_nothing_to_warn_of(tmp_path: Path) -> None:
 
 
 def test_a_misspelt_init_is_named(tmp_path: Path) -> None:
-    told = failure(tmp_path, "def sysCall_int(): pass\n")
-    assert "did you mean sysCall_init?" in told
-    assert "it defines neither sysCall_init" in told
+    reported = failure(tmp_path, "def sysCall_int(): pass\n")
+    assert "did you mean sysCall_init?" in reported
+    assert "it defines neither sysCall_init" in reported
 
 
 def test_time_counts_from_the_start_of_the_node(tmp_path: Path) -> None:

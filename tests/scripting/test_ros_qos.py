@@ -24,7 +24,7 @@ def test_depth_is_the_queue_and_transient_local_latches(given: Any, read: Qos) -
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "reported"),
     [
         ({"dept": 5}, "QoS has no 'dept'; valid keys: depth, "),
         ({"durability": "latched"}, "one of volatile, transient_local, "),
@@ -32,6 +32,6 @@ def test_depth_is_the_queue_and_transient_local_latches(given: Any, read: Qos) -
         ("many", "an integer"),
     ],
 )
-def test_what_is_no_qos_is_told_with_what_is(given: Any, told: str) -> None:
-    with pytest.raises((TypeError, ValueError), match=told):
+def test_what_is_no_qos_is_reported_with_what_is(given: Any, reported: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=reported):
         read_qos(given)

@@ -22,7 +22,7 @@ def test_hints_are_read(given: Any, read: TransportHints) -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "reported"),
     [
         ("tcp", "transport hints must be a table, found str 'tcp'"),
         ({"tcpNodelay": True}, "have no 'tcpNodelay'; valid keys: transports, tcpNoDelay, maxDatagramSize"),
@@ -38,7 +38,7 @@ def test_hints_are_read(given: Any, read: TransportHints) -> None:
         ({"maxDatagramSize": 10**30}, "maxDatagramSize must be 0 to 65507 bytes"),
     ],
 )
-def test_what_is_no_hint_is_told_with_what_is(given: Any, told: str) -> None:
+def test_what_is_no_hint_is_reported_with_what_is(given: Any, reported: str) -> None:
     with pytest.raises((TypeError, ValueError)) as error:
         read_transport_hints(given)
-    assert told in str(error.value)
+    assert reported in str(error.value)

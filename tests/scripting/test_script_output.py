@@ -57,14 +57,14 @@ def test_an_unfinished_line_ends_where_another_script_begins(tmp_path: Path) -> 
 
 
 def test_threads_and_modules_of_a_script_print_as_it(tmp_path: Path) -> None:
-    write(tmp_path / "helper.py", "def tell(): print('helper')\n")
+    write(tmp_path / "helper.py", "def report(): print('helper')\n")
     code = f"""
         import sys, threading
         sys.path.insert(0, {str(tmp_path)!r})
         import helper
         def in_thread(): print('thread')
         def sysCall_init():
-            helper.tell()
+            helper.report()
             thread = threading.Thread(target=in_thread)
             thread.start()
             thread.join()

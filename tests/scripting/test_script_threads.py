@@ -17,17 +17,17 @@ def lines(folder: Path, code: str, until: float = 0.2) -> list[str]:
 
 def test_with_stepping_it_runs_once_a_pass_before_the_actuation(tmp_path: Path) -> None:
     code = """
-        def tell(what): print(what, f'{sim.getSimulationTime():.2f}')
-        def sysCall_init(): tell('init')
+        def report(what): print(what, f'{sim.getSimulationTime():.2f}')
+        def sysCall_init(): report('init')
         def sysCall_thread():
             assert sim.setStepping(True) == 0
-            tell('begins')
+            report('begins')
             sim.step()
-            tell('thread')
+            report('thread')
             sim.switchThread()
-            tell('ends')
-        def sysCall_actuation(): tell('actuation')
-        def sysCall_cleanup(): tell('cleanup')
+            report('ends')
+        def sysCall_actuation(): report('actuation')
+        def sysCall_cleanup(): report('cleanup')
     """
     assert lines(tmp_path, code) == [
         *("init 0.00", "begins 0.00", "actuation 0.00", "thread 0.05", "actuation 0.05"),

@@ -19,7 +19,7 @@ def test_a_proximity_sensor_is_asked_for_one_object(tmp_path: Path) -> None:
     assert (run.stderr, run.returncode) == ("", 0)
 
 
-def test_types_of_sensors_are_told_apart(tmp_path: Path) -> None:
+def test_types_of_sensors_are_distinguished(tmp_path: Path) -> None:
     code = """\
         def sysCall_init():
             kinds = {'/Sonar': sim.object_proximitysensor_type, '/Camera': sim.object_visionsensor_type,

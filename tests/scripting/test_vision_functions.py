@@ -45,7 +45,7 @@ assert sim.getVisionSensorImg(camera, 0, 0, [600, 400], [0, 0])[1] == [40, 80]
     assert run(tmp_path, body) == ""
 
 
-def test_images_may_be_grey_or_tell_what_is_near(tmp_path: Path) -> None:
+def test_images_may_be_grey_or_show_depth(tmp_path: Path) -> None:
     body = """
 picture = sim.getVisionSensorArray(camera)[::-1]
 grey = np.frombuffer(sim.getVisionSensorImg(camera, 1)[0], np.uint8).reshape(480, 640)

@@ -19,7 +19,7 @@ PLACES = {"script.py": "[45]", "sleeping.py": "3", "script.lua": "[34]"}
 
 
 @pytest.mark.parametrize("name", STUCK)
-def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: str) -> None:
+def test_the_place_is_reported_and_the_node_ends_on_a_signal(tmp_path: Path, name: str) -> None:
     script = write(tmp_path / name, STUCK[name])
     environment = ros_environment(free_port(), tmp_path)
     with Node(environment, tmp_path / "log", "ball", "--no-ros", "--child-script", f"/Ball={script}") as node:
@@ -38,13 +38,13 @@ def test_the_place_is_told_and_the_node_ends_on_a_signal(tmp_path: Path, name: s
         assert "was interrupted in sysCall_" in node.output
 
 
-def test_a_callback_is_told_once(tmp_path: Path) -> None:
+def test_a_callback_is_reported_once(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): time.sleep(4.5)\n"
     run = run_script(tmp_path, code, slowness=True)
     assert run.returncode == 0
     assert run.stderr.count("the simulation is waiting") == 1
 
 
-def test_callbacks_that_return_are_not_told(tmp_path: Path) -> None:
+def test_callbacks_that_return_are_not_reported(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): pass\ndef sysCall_actuation(): time.sleep(0.5)\n"
     assert run_script(tmp_path, code, until=0.3, slowness=True).stderr == ""

@@ -121,7 +121,7 @@ rospy.spin()
 """
 
 
-def test_they_are_published_when_heard_in_the_frame_of_the_scene(roscore: RosCore, tmp_path: Path) -> None:
+def test_they_are_published_to_subscribers_in_the_frame_of_the_scene(roscore: RosCore, tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", SCRIPT)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}"):
         shown = findings_of(PROBE, roscore.env, tmp_path)["shown"]

@@ -89,7 +89,7 @@ def at_the_start(gazebo: Gazebo) -> None:
     gazebo("reset_simulation")
 
 
-def test_the_world_tells_its_models_and_time(gazebo: Gazebo) -> None:
+def test_the_world_returns_its_models_and_time(gazebo: Gazebo) -> None:
     answer = gazebo("get_world_properties")
     assert answer == {
         "sim_time": 0,
@@ -277,7 +277,7 @@ def test_forces_end_with_a_reset(gazebo: Gazebo) -> None:
     assert link_velocity(gazebo, "Arm::tip")[0] == [0, 0, 0]
 
 
-def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
+def test_topics_have_the_poses_of_all_objects(gazebo: Gazebo) -> None:
     state = {"model_name": "Arm", "pose": {"position": {"x": 7.0}}, "twist": {"angular": {"y": 0.5}}}
     assert gazebo("set_model_state", model_state=state)["success"]
     topics: dict[str, Any] = {}
@@ -289,11 +289,11 @@ def test_topics_tell_where_everything_is(gazebo: Gazebo) -> None:
         lambda: all(f"/gazebo/{topic}" in gazebo.core.state()["subscribers"] for topic in listeners), "listeners"
     )
 
-    def told() -> bool:
+    def reported() -> bool:
         gazebo.own(f"{NAME}/step", steps=1)
         return all(listener.poll() is not None for listener in listeners.values())
 
-    wait_until(told, "both topics")
+    wait_until(reported, "both topics")
     for topic, listener in listeners.items():
         topics[topic] = next(yaml.safe_load_all(listener.communicate()[0]))
     assert topics["model_states"]["name"] == ["Platform", "Arm", "Rock", "Wheel"]

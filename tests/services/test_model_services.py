@@ -150,10 +150,10 @@ def test_a_script_cannot_remove_its_own_model(simulator: Simulator, tmp_path: Pa
             simROS.publish(self.publisher, {{}})
         def on_tick(message):
             answer = simROS.call(self.client, {{'object': '/Own'}})
-            print('told:', answer['status_message'])
+            print('reported:', answer['status_message'])
         """,
     )
     own = BALL.replace("<link", f"<bubblesim:child_script>{script}</bubblesim:child_script><link", 1)
     assert simulator.call("spawn_sdf", sdf=own, name="Own", pose=AHEAD)["success"]
-    simulator.node.wait_for_output("told: a child script cannot remove its own model")
+    simulator.node.wait_for_output("reported: a child script cannot remove its own model")
     assert simulator.call("delete_object", object="/Own")["success"]

@@ -75,7 +75,7 @@ def test_poses_may_be_relative_to_an_object(call: Caller) -> None:
     assert position(call("get_object_state", object="/Box")) == pytest.approx([1, 5, 0])
 
 
-def test_what_is_wrong_is_told_and_changes_nothing(call: Caller) -> None:
+def test_what_is_wrong_is_reported_and_changes_nothing(call: Caller) -> None:
     before = call("get_object_state", object="/Box")
     good = {"position": {"x": 1.0}, "orientation": {"w": 1.0}}
     for request, hint in (

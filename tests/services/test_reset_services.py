@@ -98,23 +98,23 @@ def test_reset_simulation_starts_scripts_and_time_afresh(start: Start, roscore: 
 def test_after_a_reset_stamps_start_at_0_at_once(start: Start, roscore: RosCore) -> None:
     roscore.set_param("/use_sim_time", True)
     node = start("""\
-        def tell(phase): print('stamp in', phase, simROS.getTime())
-        def sysCall_init(): tell('init')
+        def report(phase): print('stamp in', phase, simROS.getTime())
+        def sysCall_init(): report('init')
         def sysCall_actuation():
-            if sim.getSimulationTime() == 0: tell('actuation')
+            if sim.getSimulationTime() == 0: report('actuation')
         def sysCall_sensing():
-            if sim.getSimulationTime() == 0: tell('sensing')
+            if sim.getSimulationTime() == 0: report('sensing')
         """)
     expected = ["stamp in init 0.0", "stamp in actuation 0.0", "stamp in sensing 0.05"]
     for starts in (1, 2):
         wait_until(lambda starts=starts: node.output.count("stamp in sensing") == starts, "the first step")
         if starts == 1:
             roscore.run("rosservice", "call", f"{NAME}/reset_simulation")
-    told = [line for line in PREFIX.sub("", node.output).splitlines() if line.startswith("stamp")]
-    assert told == 2 * expected
+    reported = [line for line in PREFIX.sub("", node.output).splitlines() if line.startswith("stamp")]
+    assert reported == 2 * expected
 
 
-def test_a_script_that_asks_in_the_middle_of_itself_is_told_so(start: Start) -> None:
+def test_a_script_that_asks_in_the_middle_of_itself_is_refused(start: Start) -> None:
     node = start(f"""\
         def sysCall_init():
             client = simROS.serviceClient('{NAME}/reset_simulation', 'std_srvs/Empty')

@@ -6,7 +6,7 @@ from remote_control import Remote, Run
 from ros_support import RosCore, wait_until
 
 STATE, TIME, DONE = "/simulationState", "/simulationTime", "/simulationStepDone"
-HEAR = [f"{STATE}=Int32", f"{TIME}=Float32", f"{DONE}=Bool"]
+SUBSCRIBE = [f"{STATE}=Int32", f"{TIME}=Float32", f"{DONE}=Bool"]
 COUNTING = """
     def sysCall_init(): pass
     def sysCall_sensing(): print(f'pass {sim.getSimulationTime():.2f}')
@@ -22,50 +22,50 @@ def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
     remote.send("/enableSyncMode", value=True)
 
     def nothing_goes_on() -> bool:
-        before = passes(node), len(remote.heard(TIME)), len(remote.heard(DONE))
+        before = passes(node), len(remote.received(TIME)), len(remote.received(DONE))
         core.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")
-        return (passes(node), len(remote.heard(TIME)), len(remote.heard(DONE))) == before
+        return (passes(node), len(remote.received(TIME)), len(remote.received(DONE))) == before
 
     wait_until(nothing_goes_on, "the steps to wait for triggers")
     return passes(node)
 
 
 def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run, roscore: RosCore) -> None:
-    node, remote = run(COUNTING, "--speed", "5", hear=HEAR)
+    node, remote = run(COUNTING, "--speed", "5", subscribe=SUBSCRIBE)
     free = enter_synchronous_mode(roscore, node, remote)
-    before = len(remote.heard(DONE))
+    before = len(remote.received(DONE))
     remote.send("/triggerNextStep", value=False, count=100)
-    wait_until(lambda: len(remote.heard(DONE)) == before + 100, "all to be done")
+    wait_until(lambda: len(remote.received(DONE)) == before + 100, "all to be done")
     for _ in range(3):  # one by one, like a controller
-        done = len(remote.heard(DONE))
+        done = len(remote.received(DONE))
         remote.send("/triggerNextStep", value=True)
-        wait_until(lambda goal=done + 1: len(remote.heard(DONE)) == goal, "the step to be done")
+        wait_until(lambda goal=done + 1: len(remote.received(DONE)) == goal, "the step to be done")
     assert passes(node) == free + 103
-    assert set(remote.heard(DONE)) == {"True"}
-    told = [f"{float(time):.2f}" for time in remote.heard(TIME)[-103:]]
-    assert told == [f"{0.05 * number:.2f}" for number in range(free, free + 103)]
+    assert set(remote.received(DONE)) == {"True"}
+    reported = [f"{float(time):.2f}" for time in remote.received(TIME)[-103:]]
+    assert reported == [f"{0.05 * number:.2f}" for number in range(free, free + 103)]
 
     remote.send("/enableSyncMode", value=False)
     wait_until(lambda: passes(node) > free + 200, "the steps to wait no more")
 
 
 def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
-    node, remote = run(COUNTING, "--speed", "5", hear=HEAR)
+    node, remote = run(COUNTING, "--speed", "5", subscribe=SUBSCRIBE)
     free = enter_synchronous_mode(roscore, node, remote)
     remote.press("pause")
-    wait_until(lambda: remote.heard(STATE)[-1:] == ["2"], "the pause")
+    wait_until(lambda: remote.received(STATE)[-1:] == ["2"], "the pause")
     remote.send("/triggerNextStep", value=True, count=5)
     remote.press("start")
     wait_until(lambda: passes(node) == free + 5, "the steps")
 
 
-def test_the_state_is_told_in_all_states(run: Run) -> None:
-    _, remote = run(COUNTING, "--paused", hear=HEAR)
+def test_the_state_is_reported_in_all_states(run: Run) -> None:
+    _, remote = run(COUNTING, "--paused", subscribe=SUBSCRIBE)
     for button, state in ((None, "2"), ("start", "1"), ("stop", "0"), ("start", "1"), ("pause", "2"), ("stop", "0")):
         if button:
             remote.press(button)
-        wait_until(lambda state=state: remote.heard(STATE)[-1:] == [state], f"state {state} after {button}")
-    assert remote.heard(TIME)[0] == "0.0"
+        wait_until(lambda state=state: remote.received(STATE)[-1:] == [state], f"state {state} after {button}")
+    assert remote.received(TIME)[0] == "0.0"
 
 
 OWN_TIME = """
@@ -79,22 +79,22 @@ OWN_TIME = """
 
 
 def test_a_script_that_advertises_a_topic_has_it_for_itself(run: Run) -> None:
-    node, remote = run(OWN_TIME.format(begin=0), "--paused", hear=HEAR)
+    node, remote = run(OWN_TIME.format(begin=0), "--paused", subscribe=SUBSCRIBE)
     for starts in (1, 2):
-        begin = len(remote.heard(TIME))
+        begin = len(remote.received(TIME))
         remote.press("start")
-        wait_until(lambda goal=begin + 20: len(remote.heard(TIME)) > goal, "the times of the script")
+        wait_until(lambda goal=begin + 20: len(remote.received(TIME)) > goal, "the times of the script")
         remote.press("stop")
-        wait_until(lambda: remote.heard(STATE)[-1:] == ["0"], f"stop {starts}")
-    times = [float(time) for time in remote.heard(TIME)]
+        wait_until(lambda: remote.received(STATE)[-1:] == ["0"], f"stop {starts}")
+    times = [float(time) for time in remote.received(TIME)]
     assert all(time <= -1 for time in times)
     assert "error" not in node.output
 
 
 def test_a_script_may_take_a_topic_later(run: Run) -> None:
-    _, remote = run(OWN_TIME.format(begin=1), hear=HEAR)
-    wait_until(lambda: "-2.5" in remote.heard(TIME), "the times of the script")
-    times = [float(time) for time in remote.heard(TIME)]
+    _, remote = run(OWN_TIME.format(begin=1), subscribe=SUBSCRIBE)
+    wait_until(lambda: "-2.5" in remote.received(TIME), "the times of the script")
+    times = [float(time) for time in remote.received(TIME)]
     first = next(number for number, time in enumerate(times) if time < 0)
     assert all(0 <= time < 1 for time in times[:first])
     assert all(time <= -2 for time in times[first:])
@@ -114,16 +114,16 @@ def test_a_script_may_use_a_topic_as_another_type(run: Run, roscore: RosCore) ->
 def test_a_script_that_subscribes_to_a_topic_has_it_for_itself(run: Run, roscore: RosCore) -> None:
     node, remote = run("""
         def sysCall_init():
-            self.stop = simROS.subscribe('/stopSimulation', 'std_msgs/Bool', 'hear')
+            self.stop = simROS.subscribe('/stopSimulation', 'std_msgs/Bool', 'subscribe')
             print('init')
-        def hear(message):
-            print('heard')
+        def subscribe(message):
+            print('received')
             simROS.shutdownSubscriber(self.stop)
         def sysCall_cleanup(): print('cleanup')
     """)
     node.wait_for_output("init")
     remote.press("stop")
-    node.wait_for_output("heard")
+    node.wait_for_output("received")
     roscore.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")  # the answer takes some steps
     assert "cleanup" not in node.output
     remote.press("stop")

@@ -40,22 +40,24 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
             sim.setInt32Signal('left over', 1)
             sim.setObjectPosition(sim.getObject('.'), [5, 5, 5])
             self.files = [tempfile.TemporaryFile() for _ in range(5)]
-            self.heard_at = simROS.advertise('/of_the_script', 'std_msgs/Float32')
-            simROS.subscribe('/clock', 'rosgraph_msgs/Clock', lambda message: print('heard'))
+            self.received_at = simROS.advertise('/of_the_script', 'std_msgs/Float32')
+            simROS.subscribe('/clock', 'rosgraph_msgs/Clock', lambda message: print('received'))
         def sysCall_actuation():
-            simROS.publish(self.heard_at, {{'data': sim.getSimulationTime()}})
+            simROS.publish(self.received_at, {{'data': sim.getSimulationTime()}})
         def sysCall_cleanup(): print('cleanup', sim.getSimulationState())
     """
-    node, remote = run(code, "--paused", hear=["/of_the_script=Float32"])
+    node, remote = run(code, "--paused", subscribe=["/of_the_script=Float32"])
     assert node.output.count("init") == 0
     baseline = descriptors(node)
     for starts in range(1, RESTARTS + 1):
-        heard = count(node, "heard"), len(remote.heard("/of_the_script"))
+        received = count(node, "received"), len(remote.received("/of_the_script"))
         remote.press("start")
         wait_until(lambda starts=starts: count(node, "init") == starts, "the script to start")
         socket.create_connection(("127.0.0.1", port), timeout=20).close()
-        wait_until(lambda heard=heard: count(node, "heard") > heard[0], "the script's subscriber")
-        wait_until(lambda heard=heard: len(remote.heard("/of_the_script")) > heard[1], "the script's publisher")
+        wait_until(lambda received=received: count(node, "received") > received[0], "the script's subscriber")
+        wait_until(
+            lambda received=received: len(remote.received("/of_the_script")) > received[1], "the script's publisher"
+        )
         remote.press("stop")
         wait_until(lambda starts=starts: count(node, "cleanup") == starts, "the script to end")
         wait_until(lambda: "/of_the_script" not in roscore.state()["publishers"], "its topics to be gone")
@@ -132,7 +134,7 @@ def test_a_pause_lets_scripts_and_time_stand_still(run: Run) -> None:
     assert count(node, "init") == 1
 
 
-def test_a_slow_simulation_hears_a_stop_between_its_passes(run: Run) -> None:
+def test_a_slow_simulation_receives_a_stop_between_its_steps(run: Run) -> None:
     node, remote = run(
         "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n", "--speed", "0.0001"
     )

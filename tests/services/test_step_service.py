@@ -47,18 +47,18 @@ def test_so_many_passes_are_done_when_it_answers(paused: Paused, roscore: RosCor
     assert step(roscore, 0) == {"success": True, "status_message": "", "time": pytest.approx(0.2)}
 
 
-def test_scripts_hear_messages_in_the_passes(paused: Paused, roscore: RosCore) -> None:
+def test_scripts_receive_messages_in_the_steps(paused: Paused, roscore: RosCore) -> None:
     node = paused("""\
         def sysCall_init():
-            simROS.subscribe('/in', 'std_msgs/Float32', hear)
-        def hear(message):
-            print('heard at', sim.getSimulationTime())
+            simROS.subscribe('/in', 'std_msgs/Float32', receive)
+        def receive(message):
+            print('received at', sim.getSimulationTime())
         """)
     step(roscore, 1)  # the script subscribes
     wait_until(lambda: "/in" in roscore.state()["subscribers"], "the script's subscriber")
     command = [sys.executable, "-c", PUBLISH_WHILE_STEPPING.format(service=f"{NAME}/step")]
     subprocess.run(command, env=roscore.env, check=True, timeout=60)
-    assert "heard at" in node.output
+    assert "received at" in node.output
 
 
 # The message is sent while the service runs: an earlier message would prove nothing.

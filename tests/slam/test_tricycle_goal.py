@@ -57,8 +57,8 @@ def test_a_tricycle_comes_to_a_goal_behind_it(arrivals: Path, roscore: RosCore, 
     subprocess.run(goal, env=roscore.env, check=True, timeout=3 * DEADLINE, stdout=subprocess.DEVNULL)
     wait_until(lambda: "data" in arrivals.read_text(), "the end of the drive", 6 * DEADLINE)
     assert "data: True" in arrivals.read_text()
-    told = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
-    place = yaml.safe_load(told)["pose"]["position"]
+    reported = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
+    place = yaml.safe_load(reported)["pose"]["position"]
     assert (place["x"], place["y"]) == pytest.approx((-3.0, -2.0), abs=0.5)  # it coasts a little
 
 

@@ -133,14 +133,14 @@ class Node(Background):
 
 def findings_of(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
     """Return the JSON object that a probe, code of a Python node, prints at its end."""
-    told = folder / "told"
-    with told.open("w") as output:
+    reported = folder / "reported"
+    with reported.open("w") as output:
         process = start(["/usr/bin/python3", str(write(folder / "probe.py", probe))], env, stdout=output)
     try:
-        wait_until(lambda: told.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
+        wait_until(lambda: reported.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
     finally:
         stop(process)
-    found: dict[str, Any] = json.loads(told.read_text())
+    found: dict[str, Any] = json.loads(reported.read_text())
     return found
 
 

@@ -15,10 +15,10 @@ from ros_support import start, stop, wait_until
 class Remote:
     """Sends Start, Pause and Stop, and records received values; connected once it is constructed."""
 
-    def __init__(self, env: dict[str, str], log: Path, *hears: str) -> None:
-        """`hears` are topics with their types in std_msgs, such as /simulationTime=Float32."""
+    def __init__(self, env: dict[str, str], log: Path, *topics: str) -> None:
+        """`topics` are topics with their types in std_msgs, such as /simulationTime=Float32."""
         self._log = log
-        command = [sys.executable, "-u", str(Path(__file__).with_name("remote_control_node.py")), *hears]
+        command = [sys.executable, "-u", str(Path(__file__).with_name("remote_control_node.py")), *topics]
         with log.open("w") as output:
             self._process = start(command, env, stdin=subprocess.PIPE, stdout=output)
         wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
@@ -32,7 +32,7 @@ class Remote:
         self._process.stdin.write(f"{topic} {value} {count}\n")
         self._process.stdin.flush()
 
-    def heard(self, topic: str) -> list[str]:
+    def received(self, topic: str) -> list[str]:
         """Return the values received so far, as printed."""
         return re.findall(rf"^{topic} (\S+)$", self._log.read_text(), re.MULTILINE)
 
@@ -48,4 +48,4 @@ class Remote:
 
 
 Run = Callable[..., tuple[Node, Remote]]
-"""The fixture `run`: a script's code, options of the node, and `hear`, as for Remote."""
+"""The fixture `run`: a script's code, options of the node, and `subscribe`, as for Remote."""

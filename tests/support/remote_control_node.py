@@ -13,11 +13,11 @@ COMMANDS = ("/startSimulation", "/pauseSimulation", "/stopSimulation", "/enableS
 rospy.init_node("remote_control")
 publishers = {topic: rospy.Publisher(topic, std_msgs.msg.Bool, queue_size=1000) for topic in COMMANDS}
 for argument in sys.argv[1:]:
-    heard, _, type_name = argument.partition("=")
+    received, _, type_name = argument.partition("=")
     rospy.Subscriber(
-        heard,
+        received,
         getattr(std_msgs.msg, type_name),
-        lambda message, topic=heard: sys.stdout.write(f"{topic} {message.data}\n"),
+        lambda message, topic=received: sys.stdout.write(f"{topic} {message.data}\n"),
     )
 while not all(publisher.get_num_connections() for publisher in publishers.values()):
     time.sleep(0.01)

@@ -21,7 +21,7 @@ class Peer:
     def __init__(self, core: RosCore, log: Path) -> None:
         self._log = log
         self._read = 0
-        self._heard: dict[str, list[Message]] = {}
+        self._received: dict[str, list[Message]] = {}
         self._subscribed = {"response"}
         with log.open("w") as output:
             self._process = start(
@@ -38,27 +38,27 @@ class Peer:
     def drive(self, topic: str, forward: float, turning: float) -> None:
         self.say(topic, "geometry_msgs/Twist", {"linear": {"x": forward}, "angular": {"z": turning}})
 
-    def heard(self, topic: str, message_type: str = "") -> list[Message]:
+    def received(self, topic: str, message_type: str = "") -> list[Message]:
         """Return all messages since the first call for the topic, which must give its type."""
         if topic not in self._subscribed:
             self._subscribed.add(topic)
-            self._send(do="hear", topic=topic, type=message_type)
+            self._send(do="subscribe", topic=topic, type=message_type)
         self._take_in()
-        return self._heard.setdefault(topic, [])
+        return self._received.setdefault(topic, [])
 
     def next(self, topic: str, message_type: str = "", *, count: int = 1) -> Message:
         """Return the count-th message after those received so far."""
-        before = len(self.heard(topic, message_type))
-        wait_until(lambda: len(self.heard(topic)) >= before + count, f"{topic}, {count} times")
-        return self.heard(topic)[-1]
+        before = len(self.received(topic, message_type))
+        wait_until(lambda: len(self.received(topic)) >= before + count, f"{topic}, {count} times")
+        return self.received(topic)[-1]
 
     def wait_for(self, topic: str, message_type: str, holds: Callable[[Message], bool], what: str) -> Message:
         """Return the first message from now on for which `holds` is true."""
-        before = len(self.heard(topic, message_type))
+        before = len(self.received(topic, message_type))
         found: list[Message] = []
 
         def look() -> bool:
-            found.extend(message for message in self.heard(topic)[before:] if holds(message))
+            found.extend(message for message in self.received(topic)[before:] if holds(message))
             return bool(found)
 
         wait_until(look, what, 3 * DEADLINE)
@@ -66,10 +66,10 @@ class Peer:
 
     def call(self, service: str, **request: Any) -> Message:
         """Return the response of a service, once it is available."""
-        number = len(self._heard.setdefault("response", []))
+        number = len(self._received.setdefault("response", []))
         self._send(do="call", topic=service, request=request)
-        wait_until(lambda: len(self.heard("response")) > number, f"a response of {service}")
-        return self._heard["response"][number]
+        wait_until(lambda: len(self.received("response")) > number, f"a response of {service}")
+        return self._received["response"][number]
 
     def _send(self, **command: Any) -> None:
         assert self._process.stdin is not None
@@ -84,7 +84,7 @@ class Peer:
                     break  # not written completely yet
                 self._read += len(line)
                 topic, message = json.loads(line, object_hook=_with_bytes)
-                self._heard.setdefault(topic, []).append(message)
+                self._received.setdefault(topic, []).append(message)
 
     def __enter__(self) -> "Peer":
         return self

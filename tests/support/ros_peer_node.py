@@ -29,15 +29,15 @@ def plain(value: Any) -> Any:
     return value
 
 
-def tell(topic: str, message: genpy.Message) -> None:
+def report(topic: str, message: genpy.Message) -> None:
     line = json.dumps([topic, plain(message)])
     with LOCK:
         sys.stdout.write(line + "\n")
         sys.stdout.flush()
 
 
-def hear(topic: str, kind: type) -> None:
-    rospy.Subscriber(topic, kind, lambda message: tell(topic, message))
+def subscribe(topic: str, kind: type) -> None:
+    rospy.Subscriber(topic, kind, lambda message: report(topic, message))
 
 
 def say(topic: str, kind: type, values: dict[str, Any]) -> None:
@@ -55,7 +55,7 @@ def call(service: str, values: dict[str, Any]) -> None:
     kind = rosservice.get_service_class_by_name(service)
     request = kind._request_class()
     fill_message_args(request, [values] if values else [])
-    tell("response", rospy.ServiceProxy(service, kind)(request))
+    report("response", rospy.ServiceProxy(service, kind)(request))
 
 
 def main() -> None:
@@ -66,8 +66,8 @@ def main() -> None:
             call(command["topic"], command["request"])
             continue
         kind = roslib.message.get_message_class(command["type"])
-        if command["do"] == "hear":
-            hear(command["topic"], kind)
+        if command["do"] == "subscribe":
+            subscribe(command["topic"], kind)
         else:
             say(command["topic"], kind, command["message"])
 

@@ -51,13 +51,13 @@ TAKES_THE_WALL_CLOCK = """\
     rospy.spin()
 """
 WITHOUT_CLOCK = 'rospy.Subscriber("/front_sonar", Float32, lambda message: speed.publish(1.0))'
-CLOCK_LATER = """heard = threading.Event()
+CLOCK_LATER = """received = threading.Event()
     def answer(message):
-        if heard.wait(4.0):
+        if received.wait(4.0):
             speed.publish(1.0)
     rospy.Subscriber("/front_sonar", Float32, answer)
     time.sleep(1.0)
-    rospy.Subscriber("/clock", Clock, lambda message: heard.set())"""
+    rospy.Subscriber("/clock", Clock, lambda message: received.set())"""
 
 BY_THE_CLOCK = """\
     import rospy
@@ -164,14 +164,14 @@ def test_a_controller_gets_no_message_of_the_first_step_however_early_it_subscri
     tmp_path: Path, controller: StartController, sim: StartSimulator
 ) -> None:
     controller(f"/usr/bin/python3 {write(tmp_path / 'echoes.py', ECHOES)}")
-    script = write(tmp_path / "starts_when_heard.py", STARTS_WHEN_HEARD)
+    script = write(tmp_path / "starts_when_received.py", STARTS_WHEN_HEARD)
     tricycle = sim("tricycle", lockstep=["/speed"], options=["--child-script", f"/Tricycle={script}"])
     tricycle.run(0.2)
     assert [message.data for _, message in tricycle.messages("/speed")] == [2.0, 3.0]
 
 
 @pytest.mark.parametrize("answer", [WITHOUT_CLOCK, CLOCK_LATER], ids=["never", "later than the rest"])
-def test_a_controller_may_hear_the_clock(
+def test_a_controller_may_subscribe_to_the_clock(
     tmp_path: Path, controller: StartController, sim: StartSimulator, answer: str
 ) -> None:
     code = write(tmp_path / "mine.py", TAKES_THE_WALL_CLOCK.format(answer=answer))
@@ -193,7 +193,7 @@ def test_a_controller_with_a_rate_answers_each_time_of_the_clock(
     assert [message.data for _, message in speeds] == pytest.approx([time for time, _ in speeds], abs=1e-5)
 
 
-def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartController, sim: StartSimulator) -> None:
+def test_a_controller_that_falls_silent_is_reported(ten: str, controller: StartController, sim: StartSimulator) -> None:
     controller(ten)
     tricycle = sim("tricycle", lockstep=["/speed"])
     with pytest.raises(RunError, match=r"no message on /speed for 5 s: its publisher does not publish"):
@@ -201,7 +201,7 @@ def test_a_controller_that_falls_silent_is_told(ten: str, controller: StartContr
     assert tricycle.time == pytest.approx(0.6)
 
 
-def test_a_controller_that_ends_is_told_with_its_last_words(
+def test_a_controller_that_ends_is_reported_with_its_last_words(
     tmp_path: Path, controller: StartController, sim: StartSimulator
 ) -> None:
     code = ANSWERS_TEN.format(then="rospy.signal_shutdown('enough')")
@@ -213,26 +213,26 @@ def test_a_controller_that_ends_is_told_with_its_last_words(
         tricycle.run(5.0)
 
 
-def test_a_topic_that_no_script_hears_is_told(sim: StartSimulator) -> None:
+def test_a_topic_without_a_subscriber_is_reported(sim: StartSimulator) -> None:
     tricycle = sim("tricycle", lockstep=["/spede"])
     with pytest.raises(RunError, match=r"lockstep waits: no script subscribes to /spede, given by --lockstep"):
         tricycle.run(1.0)
 
 
-def test_a_missing_controller_is_told(sim: StartSimulator) -> None:
+def test_a_missing_controller_is_reported(sim: StartSimulator) -> None:
     tricycle = sim("tricycle", lockstep=TOPICS)
     with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)
 
 
-def test_a_scene_that_is_not_there_is_told(sim: StartSimulator) -> None:
+def test_a_scene_that_is_not_there_is_reported(sim: StartSimulator) -> None:
     with pytest.raises(
         RunError, match=r"the simulator ended with exit code 2; its last output:\n.*did you mean tricycle\?"
     ):
         sim("tricycel")
 
 
-def test_a_controller_that_is_not_there_is_told(controller: StartController) -> None:
+def test_a_controller_that_is_not_there_is_reported(controller: StartController) -> None:
     with pytest.raises(RunError, match="cannot start the controller no_such_program"):
         controller("no_such_program")
 

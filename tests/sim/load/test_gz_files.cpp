@@ -54,8 +54,8 @@ TEST(Sensor, SaysWhereGzSimPublishesIt) {
                "<collision>c</collision><topic>bumps</topic></contact></sensor><collision name='c'><geometry><sphere>"
                "<radius>1</radius></sphere></geometry></collision></link></model>"),
       &warnings);
-  const std::string told = lines_of(warnings);
-  EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
+  const std::string reported = lines_of(warnings);
+  EXPECT_EQ(reported.find("ignored"), std::string::npos) << reported;
   const std::vector<SensorDescription>& sensors = scene.models.at(0).links.at(0).sensors;
   ASSERT_EQ(sensors.size(), 3U);
   EXPECT_EQ(sensors[0].type, "depth_camera");
@@ -78,9 +78,9 @@ TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
                  joint("one", "b", "") + joint("two", "c", "<mimic joint='one'><multiplier>2</multiplier></mimic>") +
                  "</model></world></sdf>",
              &warnings);
-  const std::string told = lines_of(warnings);
+  const std::string reported = lines_of(warnings);
   EXPECT_EQ(scene.models.at(0).joints.at(1).axes.at(0).mimic->multiplier, 2);
-  EXPECT_EQ(told.find("ignored"), std::string::npos) << told;
+  EXPECT_EQ(reported.find("ignored"), std::string::npos) << reported;
 }
 
 TEST(Lights, OfOneNameAreOne) {

@@ -53,16 +53,16 @@ class HostileFiles : public ::testing::Test {
 
 TEST_F(HostileFiles, AModelThatIncludesItselfIsAnError) {
   write_model("self", included("self") + "<link name='l'/>");
-  const std::string told = complaint(in_world(included("self")));
-  EXPECT_TRUE(holds(told, "self/model.sdf:2: the file includes itself")) << told;
+  const std::string reported = complaint(in_world(included("self")));
+  EXPECT_TRUE(holds(reported, "self/model.sdf:2: the file includes itself")) << reported;
 }
 
 TEST_F(HostileFiles, ModelsThatIncludeEachOtherAreAnError) {
   write_model("a", included("b") + "<link name='l'/>");
   write_model("b", included("a") + "<link name='l'/>");
-  const std::string told = complaint(in_world(included("a")));
-  EXPECT_TRUE(holds(told, "b/model.sdf:2: includes ")) << told;
-  EXPECT_TRUE(holds(told, "a/model.sdf, which includes this file")) << told;
+  const std::string reported = complaint(in_world(included("a")));
+  EXPECT_TRUE(holds(reported, "b/model.sdf:2: includes ")) << reported;
+  EXPECT_TRUE(holds(reported, "a/model.sdf, which includes this file")) << reported;
 }
 
 TEST_F(HostileFiles, IncludesThatMultiplyAreAnError) {
@@ -72,29 +72,29 @@ TEST_F(HostileFiles, IncludesThatMultiplyAreAnError) {
     for (int n = 0; n < 10; ++n) ten += included("m" + std::to_string(i - 1));
     write_model("m" + std::to_string(i), ten);
   }
-  const std::string told = complaint(in_world(included("m10")));
-  EXPECT_TRUE(holds(told, "more than 1000000,")) << told;
+  const std::string reported = complaint(in_world(included("m10")));
+  EXPECT_TRUE(holds(reported, "more than 1000000,")) << reported;
 }
 
 TEST_F(HostileFiles, AnIncludedFifoIsAnError) {
   fs::create_directories(folder_ / "pipe");
   ASSERT_EQ(::mkfifo((folder_ / "pipe/model.config").c_str(), 0600), 0);
-  const std::string told = complaint(in_world(included("pipe")));
-  EXPECT_TRUE(holds(told, "pipe/model.config, which is not a regular file")) << told;
+  const std::string reported = complaint(in_world(included("pipe")));
+  EXPECT_TRUE(holds(reported, "pipe/model.config, which is not a regular file")) << reported;
 }
 
 TEST_F(HostileFiles, ADeviceAsAHeightmapIsAnError) {
-  const std::string told =
+  const std::string reported =
       complaint(in_world("<model name='m'><link name='l'><collision name='c'><geometry><heightmap><uri>/dev/zero"
                          "</uri></heightmap></geometry></collision></link></model>"));
-  EXPECT_TRUE(holds(told, "/m/l/c: /dev/zero is not a regular file")) << told;
+  EXPECT_TRUE(holds(reported, "/m/l/c: /dev/zero is not a regular file")) << reported;
 }
 
 TEST_F(HostileFiles, AModelConfigWithoutANameIsAnError) {
   write_model("nameless", "<link name='l'/>");
   write("nameless/model.config", "<model><description/></model>");
-  const std::string told = complaint(in_world(included("nameless")));
-  EXPECT_TRUE(holds(told, "nameless/model.config:1: has no <name>")) << told;
+  const std::string reported = complaint(in_world(included("nameless")));
+  EXPECT_TRUE(holds(reported, "nameless/model.config:1: has no <name>")) << reported;
 }
 
 TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
@@ -113,8 +113,9 @@ const char* const kAsserted =
     "</model></world></sdf>";
 
 TEST_F(HostileFiles, WhatSdformatAssertsIsAnErrorOfTheFile) {
-  const std::string told = complaint(kAsserted);
-  EXPECT_TRUE(holds(told, "scene.sdf: SDFormat cannot read it: Joint's <parent> value does not start with")) << told;
+  const std::string reported = complaint(kAsserted);
+  EXPECT_TRUE(holds(reported, "scene.sdf: SDFormat cannot read it: Joint's <parent> value does not start with"))
+      << reported;
   const std::string added = complaint_of([&] { load_model(kAsserted, folder_); });
   EXPECT_TRUE(holds(added, "SDFormat cannot read it: Joint's <parent> value does not start with")) << added;
 }
@@ -123,8 +124,8 @@ TEST_F(HostileFiles, WhatSdformatAssertsOfAnIncludedFileNamesThatFile) {
   write_model("fine", "<link name='l'/>");
   write_model("odd", "");
   write("odd/model.sdf", kAsserted);
-  const std::string told = complaint(in_world(included("fine") + included("odd")));
-  EXPECT_TRUE(holds(told, "odd/model.sdf: SDFormat cannot read it: Joint's")) << told;
+  const std::string reported = complaint(in_world(included("fine") + included("odd")));
+  EXPECT_TRUE(holds(reported, "odd/model.sdf: SDFormat cannot read it: Joint's")) << reported;
 }
 
 // SDFormat takes a megabyte for each of these models.
@@ -145,8 +146,8 @@ TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
 TEST_F(HostileFiles, MoreLinksThanCanBePlacedAreAnError) {
   std::string links;
   for (int i = 0; i < 20'000; ++i) links += "<link name='l" + std::to_string(i) + "'/>";
-  const std::string told = complaint(in_world("<model name='m'>" + links + "</model>"));
-  EXPECT_TRUE(holds(told, "scene.sdf:1: has 20000 links, joints and frames, too many")) << told;
+  const std::string reported = complaint(in_world("<model name='m'>" + links + "</model>"));
+  EXPECT_TRUE(holds(reported, "scene.sdf:1: has 20000 links, joints and frames, too many")) << reported;
 }
 
 TEST_F(HostileFiles, AChainOfThousandsOfFramesIsAnError) {
@@ -155,15 +156,15 @@ TEST_F(HostileFiles, AChainOfThousandsOfFramesIsAnError) {
     links += "<link name='l" + std::to_string(i) + "'><pose relative_to='l" + std::to_string(i - 1) +
              "'>0 0 1 0 0 0</pose></link>";
   }
-  const std::string told = complaint(in_world("<model name='m'>" + links + "</model>"));
-  EXPECT_TRUE(holds(told, "has 3000 links, joints and frames, too many")) << told;
+  const std::string reported = complaint(in_world("<model name='m'>" + links + "</model>"));
+  EXPECT_TRUE(holds(reported, "has 3000 links, joints and frames, too many")) << reported;
 }
 
 TEST_F(HostileFiles, XacroThatDoesNotEndIsEnded) {
   ::setenv("BUBBLESIM_XACRO_SECONDS", "1", 1);
-  const std::string told = complaint("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
+  const std::string reported = complaint("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
   ::unsetenv("BUBBLESIM_XACRO_SECONDS");
-  EXPECT_TRUE(holds(told, "endless.xacro: xacro did not end within 1.00 s and was killed")) << told;
+  EXPECT_TRUE(holds(reported, "endless.xacro: xacro did not end within 1.00 s and was killed")) << reported;
 }
 
 TEST(SharedDescriptions, AreThoseOfTheElementThatIsCloned) {

@@ -103,19 +103,19 @@ TEST_F(ModelIncludes, MayGiveAnotherScriptBesideTheScene) {
 
 TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
   write_model("scene/near");
-  const std::string told =
+  const std::string reported =
       complaint("\n<include><uri>near</uri><bubblesim:child_script>none.py</bubblesim:child_script></include>");
-  EXPECT_NE(told.find("scene.sdf:2"), std::string::npos) << told;
-  EXPECT_NE(told.find("none.py does not exist"), std::string::npos) << told;
+  EXPECT_NE(reported.find("scene.sdf:2"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("none.py does not exist"), std::string::npos) << reported;
 }
 
 TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndTellWhereWasSearched) {
   std::vector<Problem> warnings;
   EXPECT_TRUE(load("\n<include><uri>model://nothing</uri></include>", &warnings).models.empty());
-  const std::string told = lines_of(warnings);
-  EXPECT_NE(told.find("scene.sdf:2: model not found: 'model://nothing', ignored"), std::string::npos) << told;
-  EXPECT_NE(told.find((folder_ / "scene" / "models").string()), std::string::npos) << told;
-  EXPECT_NE(told.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << told;
+  const std::string reported = lines_of(warnings);
+  EXPECT_NE(reported.find("scene.sdf:2: model not found: 'model://nothing', ignored"), std::string::npos) << reported;
+  EXPECT_NE(reported.find((folder_ / "scene" / "models").string()), std::string::npos) << reported;
+  EXPECT_NE(reported.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << reported;
 }
 
 TEST_F(ModelIncludes, ProblemsInsideAModelAreToldInItsFile) {

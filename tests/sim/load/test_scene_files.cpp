@@ -81,9 +81,9 @@ TEST_F(SceneFiles, OfAPackageAreFoundFromWithinIt) {
 
 TEST_F(SceneFiles, BrokenMeshIsAnErrorOfACollisionAndAWarningOfAVisual) {
   write("a.stl", "this is no mesh");
-  const std::string told = complaint(write("s.sdf", model_with(mesh("a.stl"))));
-  EXPECT_NE(told.find("s.sdf:1: /m/l/s: "), std::string::npos) << told;
-  EXPECT_NE(told.find("a.stl cannot be read as a mesh"), std::string::npos) << told;
+  const std::string reported = complaint(write("s.sdf", model_with(mesh("a.stl"))));
+  EXPECT_NE(reported.find("s.sdf:1: /m/l/s: "), std::string::npos) << reported;
+  EXPECT_NE(reported.find("a.stl cannot be read as a mesh"), std::string::npos) << reported;
   const std::string sphere = "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>";
   std::vector<Problem> warnings;
   const SceneDescription scene =
@@ -180,8 +180,8 @@ TEST_F(SceneFiles, OfXacroAreExpanded) {
 <collision><geometry><sphere radius="${r}"/></geometry></collision></link></robot>)");
   const SceneDescription scene = read_scene(file);
   EXPECT_EQ(std::get<Sphere>(scene.models.at(1).links.at(0).collisions.at(0).geometry).radius, 0.5);
-  const std::string told = complaint(write("bad.xacro", "<robot name='b'><link name='${nothing}'/></robot>"));
-  EXPECT_NE(told.find("bad.xacro: xacro failed: "), std::string::npos) << told;
+  const std::string reported = complaint(write("bad.xacro", "<robot name='b'><link name='${nothing}'/></robot>"));
+  EXPECT_NE(reported.find("bad.xacro: xacro failed: "), std::string::npos) << reported;
 }
 
 TEST_F(SceneFiles, WorldsIncludeTheSunAndTheGroundWithoutAnyFolder) {

@@ -213,8 +213,8 @@ TEST(MeshFile, ThatItsReaderDoesNotSurviveIsAnErrorAndTheNextOneIsRead) {
   const TemporaryFile fine("corner.stl", kStl);
   MeshReader reader;
   for (const std::string& file : {runs_away.path(), crashes.path()}) {
-    const std::string told = complaint([&] { load_mesh({file}, reader); });
-    EXPECT_EQ(told.find("cannot be read as a mesh"), 0U) << told;
+    const std::string reported = complaint([&] { load_mesh({file}, reader); });
+    EXPECT_EQ(reported.find("cannot be read as a mesh"), 0U) << reported;
     EXPECT_EQ(load_mesh({fine.path()}, reader)->triangles.size(), 4U);
   }
 }

@@ -38,16 +38,16 @@ struct Witness : System {
 
 TEST(Divergence, ThrowsAndTellsWhereTheLastStatesAre) {
   Leaving leaving(OnDivergence::kPause);
-  std::string told;
+  std::string reported;
   try {
     leaving.simulation.step();
     FAIL();
   } catch (const Diverged& error) {
-    told = error.what();
+    reported = error.what();
   }
-  EXPECT_NE(told.find("/Ball"), std::string::npos);
+  EXPECT_NE(reported.find("/Ball"), std::string::npos);
   const std::string before = "the last states are in ";
-  const std::string file = told.substr(told.find(before) + before.size());
+  const std::string file = reported.substr(reported.find(before) + before.size());
   std::ifstream in(file);
   std::string text((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(text.find("/Ball/link,999999,"), std::string::npos) << text;

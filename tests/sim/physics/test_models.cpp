@@ -258,16 +258,16 @@ struct Watcher : System {
   void actuate(World&, double) override {
     if (on_actuate) on_actuate();
   }
-  void model_added(World& world, ObjectId model) override { told.push_back("+" + world.tree().path(model)); }
+  void model_added(World& world, ObjectId model) override { reported.push_back("+" + world.tree().path(model)); }
   void model_removing(World& world, ObjectId model) override {
-    told.push_back("-" + world.tree().path(model));
+    reported.push_back("-" + world.tree().path(model));
     world.pose(model);  // still exists
   }
 
   Simulation& simulation;
   std::function<void()> on_drain;
   std::function<void()> on_actuate;
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
 };
 
 TEST(Systems, AreToldOfModelsThatComeAndGo) {
@@ -276,7 +276,7 @@ TEST(Systems, AreToldOfModelsThatComeAndGo) {
   simulation.remove_model(simulation.add_model(robot({})));
   EXPECT_THROW(simulation.add_model(box("Box0", {})), SceneError);
   EXPECT_THROW(simulation.remove_model(simulation.world().tree().find("/Box0/link")), InvalidInput);
-  EXPECT_EQ(watcher.told, (std::vector<std::string>{"+/Robot", "-/Robot"}));
+  EXPECT_EQ(watcher.reported, (std::vector<std::string>{"+/Robot", "-/Robot"}));
 }
 
 TEST(Models, ComeAndGoWhileDrainingButNotInTheMiddleOfAPass) {

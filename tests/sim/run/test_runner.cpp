@@ -375,12 +375,12 @@ struct Leaving {
 
 TEST(RunnerOfADivergingSimulation, PausesAndAStopPutsTheWorldBack) {
   Leaving leaving;
-  std::promise<std::string> told;
+  std::promise<std::string> reported;
   RunnerOptions options = fast(RunState::kRunning);
-  options.on_divergence = [&](const std::string& why) { told.set_value(why); };
+  options.on_divergence = [&](const std::string& why) { reported.set_value(why); };
   Runner runner(leaving.simulation, options);
   runner.run_in_background();
-  EXPECT_NE(told.get_future().get().find("/Ball"), std::string::npos);
+  EXPECT_NE(reported.get_future().get().find("/Ball"), std::string::npos);
   EXPECT_NE(reason(runner.step()).find("diverged"), std::string::npos) << "also to who asks for steps";
   EXPECT_EQ(runner.state(), RunState::kPaused);
   EXPECT_EQ(runner.stop().get(), RunState::kStopped);

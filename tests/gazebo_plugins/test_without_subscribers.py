@@ -38,7 +38,7 @@ CAMERA = """
 
 @pytest.fixture(scope="module")
 def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Peer:
-    file: Path = write(tmp_path_factory.mktemp("unheard") / "robot.sdf", ROBOT.replace("{camera}", CAMERA))
+    file: Path = write(tmp_path_factory.mktemp("before") / "robot.sdf", ROBOT.replace("{camera}", CAMERA))
     peer: Peer = run(file).peer
     return peer
 
@@ -54,12 +54,12 @@ def measurements(peer: Peer) -> tuple[float, int]:
 
 
 def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
-    time, unheard = measurements(peer)
-    later, still_unheard = measurements(peer)
+    time, before = measurements(peer)
+    later, still = measurements(peer)
     assert later > time, "the simulation runs"
-    assert still_unheard == unheard
+    assert still == before
     peer.next("/scan", "sensor_msgs/LaserScan")
-    wait_until(lambda: measurements(peer)[1] > unheard, "the lidar's measurements")
+    wait_until(lambda: measurements(peer)[1] > before, "the lidar's measurements")
     time, before = measurements(peer)
     later, after = measurements(peer)
     # 20 steps per second, of the lidar only: two cameras with it would give three times as many.
@@ -78,7 +78,7 @@ def test_the_optics_of_a_camera_alone_do_not_have_it_measure(
 ) -> None:
     """`others`: measurements of other sensors per simulated second."""
     file = write(tmp_path / "robot.sdf", ROBOT.replace("{camera}", CAMERA)) if scene == "robot" else scene
-    with Node(roscore.env, tmp_path / "log", file), Peer(roscore, tmp_path / "heard") as peer:
+    with Node(roscore.env, tmp_path / "log", file), Peer(roscore, tmp_path / "received") as peer:
         for info in infos:
             peer.next(info, "sensor_msgs/CameraInfo")
         measurements(peer)
