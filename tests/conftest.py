@@ -19,6 +19,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 # The tests start with these, in this order: files that take minutes, so that no process waits for another one at the
 # end, then pages that are drawn without a GPU.
 START_WITH = [
+    "tests/test_workspaces.py",
     "meta/test_workspace.py",
     "test_benchmarks.py",
     "test_docs.py",
