@@ -22,25 +22,21 @@ class Node:
 
     def __init__(self, folder: Path, scene: str, *options: str) -> None:
         """Start it, and wait for the address of the window."""
-        self._errors = (folder / "node.err").open("w+")
+        self._log = folder / "node.err"
+        self._errors = self._log.open("w")
         command = [str(built("sim")), scene, "--no-ros", "--web", *options]
         self._output = (folder / "node.out").open("w")
         self.process = start(command, dict(os.environ), stdout=self._output, stderr=self._errors)
-        self.address = self._find(r"the window is at (\S+)")
+        self.address = self.find(r"the window is at (\S+)\s")
         self.origin = self.address.partition("/?")[0]
 
-    def _find(self, pattern: str) -> str:
-        found: list[str] = []
-
-        def look() -> bool:
-            self._errors.seek(0)
-            match = re.search(pattern, self._errors.read())
-            if match:
-                found.append(match[1])
-            return match is not None
-
-        wait_until(look, f"{pattern} in the node's output")
-        return found[0]
+    def find(self, pattern: str) -> str:
+        """Return the first group of the pattern as soon as the node's errors have it."""
+        # Not through the handle that the node writes to: it has one position for both.
+        wait_until(lambda: re.search(pattern, self._log.read_text()) is not None, f"{pattern} in the node's output")
+        match = re.search(pattern, self._log.read_text())
+        assert match
+        return match[1]
 
     def __enter__(self) -> Self:
         return self

@@ -2,7 +2,6 @@
 """The page of the window in a real browser."""
 
 import os
-import re
 import signal
 import subprocess
 from collections.abc import Callable
@@ -11,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from node_support import run_sim
-from ros_support import start, stop, wait_until
+from ros_support import free_port, start, stop, wait_until
 from web_support import Node, Window
 
 Show = Callable[..., Window]
@@ -144,11 +143,9 @@ def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -
 
 
 def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) -> None:
-    with Node(tmp_path, "tricycle", "--remote=0"):
-        errors = (tmp_path / "node.err").read_text()
-        door = re.search(r"tcp://127.0.0.1:(\d+)", errors)
-        assert door
-        command = ["bubblesim", "view", "--door", door[1], "--port", "8091", "--token", "t"]
+    with Node(tmp_path, "tricycle", "--remote=0") as node:
+        door, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
+        command = ["bubblesim", "view", "--door", door, "--port", str(port), "--token", "t"]
 
         def start_server() -> "subprocess.Popen[str]":
             with (tmp_path / "view.err").open("w") as log:
@@ -157,7 +154,7 @@ def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) ->
             return server
 
         server = start_server()
-        page = show("http://127.0.0.1:8091/?token=t")
+        page = show(f"http://127.0.0.1:{port}/?token=t")
         os.kill(server.pid, signal.SIGKILL)
         server.wait()
         page.wait("!bubblesim.link.connected")
