@@ -3,27 +3,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from bubblesim.remote.remote_client import RemoteClient
 from bubblesim.remote.window import editing, objects, running, saving, scene, sensors
 from bubblesim.remote.window.window import window_of
 
-# A file for each subject; its FUNCTIONS are what clients may call.
-_SUBJECTS = (scene, running, sensors, objects, editing, saving)
 
+def by_name(subjects: Iterable[Any]) -> dict[str, Callable[..., Any]]:
+    """Return the FUNCTIONS of some modules by their names.
 
-def _by_name() -> dict[str, Callable[..., Any]]:
+    :raises TypeError: if two of them have one name.
+    """
     functions: dict[str, Callable[..., Any]] = {}
-    for function in (each for subject in _SUBJECTS for each in subject.FUNCTIONS):
+    for function in (each for subject in subjects for each in subject.FUNCTIONS):
         other = functions.setdefault(function.__name__, function)
         if other is not function:
             raise TypeError(f"two functions 'window.{function.__name__}': in {other.__module__}, {function.__module__}")
     return functions
 
 
-FUNCTIONS = _by_name()
+# A file for each subject; its FUNCTIONS are what clients may call.
+FUNCTIONS = by_name((scene, running, sensors, objects, editing, saving))
 
 
 def call(client: RemoteClient, name: str, arguments: list[Any]) -> Any:
