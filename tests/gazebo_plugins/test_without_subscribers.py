@@ -38,7 +38,7 @@ CAMERA = """
 
 @pytest.fixture(scope="module")
 def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Peer:
-    file: Path = write(tmp_path_factory.mktemp("before") / "robot.sdf", ROBOT.replace("{camera}", CAMERA))
+    file: Path = write(tmp_path_factory.mktemp("robot") / "robot.sdf", ROBOT.replace("{camera}", CAMERA))
     peer: Peer = run(file).peer
     return peer
 

@@ -32,11 +32,15 @@ class Node:
 
     def find(self, pattern: str) -> str:
         """Return the first group of the pattern as soon as the node's errors have it."""
-        # Not through the handle that the node writes to: it has one position for both.
-        wait_until(lambda: re.search(pattern, self._log.read_text()) is not None, f"{pattern} in the node's output")
-        match = re.search(pattern, self._log.read_text())
-        assert match
-        return match[1]
+        found: list[str] = []
+
+        def look() -> bool:
+            # Not through the handle that the node writes to: it has one position for both.
+            found[:] = re.findall(pattern, self._log.read_text())
+            return bool(found)
+
+        wait_until(look, f"{pattern} in the node's output")
+        return found[0]
 
     def __enter__(self) -> Self:
         return self

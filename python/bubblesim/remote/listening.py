@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import ipaddress
 import sys
 
 import zmq
 
+from bubblesim.addresses import is_loopback
 from bubblesim.output import write_line
 from bubblesim.remote import protocol
 
@@ -35,13 +35,6 @@ def listen(context: zmq.Context[zmq.Socket[bytes]], address: str, port: int) -> 
         ) from None
     where = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
     write_line(sys.stderr, f"info: remote clients can connect to {where}")
-    if not _is_loopback(address):
+    if not is_loopback(address):
         write_line(sys.stderr, f"warning: all who reach {address} can control the simulation: there is no password")
     return socket
-
-
-def _is_loopback(address: str) -> bool:
-    try:
-        return address == "localhost" or ipaddress.ip_address(address).is_loopback
-    except ValueError:
-        return False

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-import ipaddress
 import re
 import secrets
 from collections.abc import Awaitable, Callable
 from urllib.parse import urlsplit
 
 from aiohttp import web
+
+from bubblesim.addresses import is_loopback
 
 _LOOKING = re.compile(r"sim\.(get|read|is|check)[A-Z]\w*|window\.(share|events|models|mesh|texture|get\w+|read\w*)")
 _NOT_LOOKING = {"sim.getRandom"}  # draws from the scene's random numbers
@@ -34,14 +35,6 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 def is_looking(function: str) -> bool:
     """Return whether a function of the door changes nothing."""
     return bool(_LOOKING.fullmatch(function)) and function not in _NOT_LOOKING
-
-
-def is_loopback(address: str) -> bool:
-    """Return whether an address can be reached from this machine only."""
-    try:
-        return address == "localhost" or ipaddress.ip_address(address).is_loopback
-    except ValueError:
-        return False
 
 
 class Access:

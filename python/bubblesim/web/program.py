@@ -13,9 +13,10 @@ from pathlib import Path
 
 from aiohttp import web
 
+from bubblesim.addresses import is_loopback
 from bubblesim.output import write_line
 from bubblesim.running.places import page_folder
-from bubblesim.web.access import Access, is_loopback
+from bubblesim.web.access import Access
 from bubblesim.web.bag_recording import recording
 from bubblesim.web.hub import Hub
 from bubblesim.web.page import Page
