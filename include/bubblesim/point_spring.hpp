@@ -10,8 +10,8 @@ namespace bubblesim {
 /// that mass, in N per kg. Add it to a world without a rate.
 class PointSpring final : public Device {
  public:
-  /// Pulls the point of a link that is at `point` now; m, in the world. Throws WrongObject for other objects than links
-  /// of moving models.
+  /// Pulls this point of a link, m in its frame, to where it is now. Throws WrongObject for other objects than links of
+  /// moving models, InvalidInput for a point that is not finite.
   void grip(const World& world, ObjectId link, const Vector3& point);
   /// Pulls to this place from now on; m, in the world. Throws InvalidInput when it is not finite.
   void pull_to(const Vector3& target);

@@ -22,12 +22,13 @@ void PointSpring::grip(const World& world, ObjectId link, const Vector3& point) 
   if (tree.at(link).kind != ObjectKind::kLink || model.is_static) {
     throw WrongObject(tree.short_path(link) + " is not a link of a moving model");
   }
+  if (!point.IsFinite()) throw InvalidInput("the point that a spring pulls must be finite");
   mass_ = 0;
   for (const LinkDescription& each : model.links) mass_ += each.mass;
   link_mass_ = model.links[tree.at(link).index].mass;
   const Pose pose = world.pose(link);
-  point_ = pose.Rot().RotateVectorReverse(point - pose.Pos());
-  target_ = point;
+  point_ = point;
+  target_ = pose.Pos() + pose.Rot().RotateVector(point);
   link_ = link;
 }
 

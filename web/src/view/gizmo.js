@@ -127,7 +127,7 @@ export class Gizmo {
           target: hit.point.clone(),
         };
         this.#dragging = true;
-        this.#app.attempt("window.grip", [hit.link.handle, hit.point.toArray()]);
+        this.#app.attempt("window.grip", [hit.link.handle, pull.local.toArray()]);
       },
       { capture: true },
     );

@@ -100,7 +100,7 @@ def add_model(window: Window, name: str, position: list[float]) -> int:
 
 
 def grip(window: Window, link: int, point: list[float]) -> None:
-    """Pull a link by a spring at this point (m, in the world), until the client calls ``let_go`` or leaves."""
+    """Pull a link by a spring at this point (m, in its frame), until the client calls ``let_go`` or leaves."""
     client = window.client
     spring = window.springs.get(client)
     if spring is None:
