@@ -13,10 +13,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from node_support import Node
 from ros_support import free_port, ros_environment, start, stop, wait_until
-
-_BROWSER = "/usr/bin/chromium"
-_SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox")
-_TIMEOUT = 40_000  # ms
+from web_support import PATIENCE, launch_browser, new_page
 
 
 class ToolsPage:
@@ -43,10 +40,9 @@ class ToolsPage:
 
     def __enter__(self) -> Self:
         playwright = self._ends.enter_context(sync_playwright())
-        browser = playwright.chromium.launch(executable_path=_BROWSER, args=list(_SOFTWARE_GL))
+        browser = launch_browser(playwright)
         self._ends.callback(browser.close)
-        self.page = browser.new_page(viewport={"width": 1400, "height": 900})
-        self.page.set_default_timeout(_TIMEOUT)
+        self.page = new_page(browser, 1400, 900)
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.goto(f"http://127.0.0.1:{self.port}/?token=t")
@@ -68,4 +64,4 @@ class ToolsPage:
 
     def wait_for(self, condition: str) -> None:
         """Wait until an expression of JavaScript is true. The page's policy forbids Playwright's own way to wait."""
-        wait_until(lambda: bool(self.page.evaluate(f"Boolean({condition})")), condition, timeout=_TIMEOUT / 1000)
+        wait_until(lambda: bool(self.page.evaluate(f"Boolean({condition})")), condition, timeout=PATIENCE / 1000)

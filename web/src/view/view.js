@@ -28,6 +28,7 @@ import { Bodies } from "./bodies.js";
 import { Gizmo } from "./gizmo.js";
 import { Lights } from "./lights.js";
 import { overlays } from "./overlays/index.js";
+import { Pace } from "./pace.js";
 import { Poses } from "./poses.js";
 
 // Colours are those of the simulator's cameras, which do not convert them.
@@ -43,6 +44,7 @@ export class View extends Emitter {
   shadows = localStorage.getItem("shadows") !== "no";
   #app;
   #dirty = true;
+  #pace;
   #pressed = null;
   #ready = false;
 
@@ -56,6 +58,7 @@ export class View extends Emitter {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.element.append(this.renderer.domElement);
+    this.#pace = new Pace(this.renderer.getContext());
     this.scene3d = new Scene3d();
     this.camera = new PerspectiveCamera(50, 1, 0.02, 3000);
     this.camera.position.set(3.2, -4.2, 2.8);
@@ -335,7 +338,7 @@ export class View extends Emitter {
       this.#dirty = true;
     }
     if (this.poses.advance()) this.#dirty = true;
-    if (!this.#dirty || document.hidden) return;
+    if (!this.#dirty || document.hidden || !this.#pace.mayDraw) return;
     this.#draw();
   }
 
@@ -358,6 +361,7 @@ export class View extends Emitter {
     this.lights.follow(this.controls.target, this.camera.position.distanceTo(this.controls.target));
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene3d, this.camera);
+    this.#pace.drawn();
     this.emit("drawn");
   }
 
