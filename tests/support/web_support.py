@@ -64,6 +64,12 @@ class Node:
         self._output.close()
 
 
+_IS_LOOKED_AT = """((object) => {
+  const { camera, controls } = bubblesim.view;
+  const { centre, radius } = bubblesim.view.extent(object);
+  const distance = camera.position.distanceTo(controls.target) / Math.max(2.6 * radius, 0.3);
+  return controls.target.distanceTo(centre) < 1e-3 && Math.abs(distance - 1) < 1e-3;
+})(bubblesim.scene.byPath(x))"""
 _DIFFERENT_PIXELS = """(async () => {
   const a = bubblesim;
   await a.view.settled();
@@ -114,6 +120,37 @@ class Window:
     def select(self, path: str) -> None:
         """Select an object."""
         self.js("bubblesim.selection.select(bubblesim.scene.byPath(x))", path)
+
+    def middle(self) -> list[float]:
+        """Return the middle of the 3D view on the screen."""
+        box = self.page.locator(".view canvas").bounding_box()
+        assert box
+        return [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2]
+
+    def is_near(self, path: str) -> None:
+        """Wait until the camera shows an object from near."""
+        self.wait(_IS_LOOKED_AT, path)
+
+    def look_at(self, path: str) -> None:
+        """Show an object from near."""
+        self.js("bubblesim.view.look(bubblesim.scene.byPath(x))", path)
+        self.is_near(path)
+
+    def zoom_out(self, factor: float) -> None:
+        """Turn the wheel in the middle until the camera is at least this many times as far away."""
+        distance = "bubblesim.view.camera.position.distanceTo(bubblesim.view.controls.target)"
+        end = factor * self.js(distance)
+        self.page.mouse.move(*self.middle())
+        while self.js(distance) < end:
+            self.page.mouse.wheel(0, 400)
+            self.page.wait_for_timeout(50)
+
+    def look_from_above(self) -> None:
+        """Look down at what is in the middle."""
+        self.js("bubblesim.view.lookFrom('top')")
+        self.wait(
+            "((view) => view.camera.position.clone().sub(view.controls.target).normalize().z > 0.9999999)(bubblesim.view)"
+        )
 
     def button(self, title: str) -> Any:
         """Return the button whose title begins so."""

@@ -28,6 +28,44 @@ def test_cameras_are_live(tmp_path: Path) -> None:
         assert window.errors == []
 
 
+def test_a_script_in_lua_is_checked_while_it_is_typed(tmp_path: Path) -> None:
+    script = write(tmp_path / "ball.lua", "function sysCall_init()\n    print('from Lua')\nend\n")
+    with ToolsPage(tmp_path, "ball", "--child-script", f"/Ball={script}") as window:
+        window.page.wait_for_selector(".entryrow:has-text('from Lua')")
+        window.show("scripts")
+        window.page.wait_for_selector(".cm-content:has-text('sysCall_init')")
+        window.page.click(".cm-content")
+        window.page.keyboard.press("Control+End")
+        window.page.keyboard.type("function broken(")
+        window.page.wait_for_selector(".cm-lint-marker-error")
+        assert window.errors == []
+
+
+SCENE_WITH_A_MISTAKE = """\
+<sdf version="1.9">
+  <world name="mistake">
+    <model name="box"><static>true</static>
+      <link name="link">
+        <collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>
+        <colour>red</colour>
+      </link>
+    </model>
+  </world>
+</sdf>
+"""
+
+
+def test_a_warning_of_the_scene_leads_to_its_object(tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, str(write(tmp_path / "mistake.sdf", SCENE_WITH_A_MISTAKE))) as window:
+        window.show("problems")
+        row = window.page.locator(".problem", has_text="colour")
+        row.wait_for()
+        assert row.locator(".where").inner_text() == "mistake.sdf:6"
+        row.click()
+        window.wait_for("bubblesim.selection.object?.path === '/box/link'")
+        assert window.errors == []
+
+
 PROBE = """
 import json
 import rospy
@@ -62,6 +100,31 @@ def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, 
     received = result["received"]
     assert [0.5, 0.0] in received
     assert received[-1] == [0.0, 0.0]
+
+
+def test_the_stick_drives_a_robot_and_a_page_without_focus_stops_it(roscore: RosCore, tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "pioneer", env=roscore.env) as window:
+        wait_until(lambda: "/cmd_vel" in str(roscore.state()["subscribers"]), "the robot")
+        window.show("driving")
+        window.page.click(".drive")
+        robot = window.call("sim.getObject", "/Pioneer_p3dx")
+
+        def speed() -> float:
+            return float(np.linalg.norm(window.call("sim.getObjectVelocity", robot)[0]))
+
+        stick = window.page.locator(".stick").bounding_box()
+        assert stick
+        x, y = stick["x"] + stick["width"] / 2, stick["y"] + stick["height"] / 2
+        for stopped_by in ("mouse up", "blur"):
+            window.page.mouse.move(x, y)
+            window.page.mouse.down()
+            window.page.mouse.move(x, y - 0.4 * stick["height"], steps=3)
+            wait_until(lambda: speed() > 0.2, "the robot to drive")
+            if stopped_by == "blur":
+                window.page.evaluate("window.dispatchEvent(new Event('blur'))")
+            window.page.mouse.up()
+            wait_until(lambda: speed() < 0.02, f"the robot to stop after {stopped_by}")
+        assert window.errors == []
 
 
 def test_a_field_of_a_topic_is_plotted_and_a_bag_recorded(roscore: RosCore, tmp_path: Path) -> None:

@@ -35,9 +35,9 @@ def test_the_page_shows_the_scene_and_follows_its_state(tmp_path: Path, show: Sh
 def test_a_click_selects_and_properties_follow(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle") as node:
         page = show(node)
-        page.js("bubblesim.view.look(bubblesim.scene.byPath('/Tricycle'))")
-        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", middle(page))
-        page.page.mouse.click(*middle(page))
+        page.look_at("/Tricycle")
+        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
+        page.page.mouse.click(*page.middle())
         page.wait("bubblesim.selection.object?.path === '/Tricycle'")
         page.wait("document.querySelector('.properties h2').textContent === 'Tricycle'")
         page.wait("document.querySelector('.properties input[title=\"x, m\"]').value !== ''")
@@ -46,12 +46,6 @@ def test_a_click_selects_and_properties_follow(tmp_path: Path, show: Show) -> No
         page.page.locator(".treerow", has_text="FrontMotor").first.click()
         page.wait("bubblesim.selection.object.path.endsWith('FrontMotor')")
         page.wait("document.querySelector('.properties').textContent.includes('Motor effort')")
-
-
-def middle(page: Window) -> list[float]:
-    box = page.page.locator(".view canvas").bounding_box()
-    assert box
-    return [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2]
 
 
 def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -> None:

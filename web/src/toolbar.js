@@ -55,10 +55,11 @@ export class Toolbar {
       this.title.textContent = info.scene;
       this.#factors = [];
       app.link.call("window.speed").then(
-        (speed) => (this.speed.value = SPEEDS.some(([value]) => value === speed) ? String(speed) : "1"),
+        (speed) => this.#showSpeed(speed),
         () => {},
       );
     });
+    app.link.on("speed", (speed) => this.#showSpeed(speed));
     app.link.on("hello", ({ edit }) => {
       for (const each of [this.play, this.pause, this.stop, this.step, this.speed]) each.disabled = !edit;
     });
@@ -83,6 +84,12 @@ export class Toolbar {
     const [first] = samples;
     const factor = written > first[0] + 0.3 ? (time - first[1]) / (written - first[0]) : null;
     this.#set(this.factor, state === "running" && factor !== null ? `${factor.toFixed(factor < 9.95 ? 2 : 0)}x` : "");
+  }
+
+  #showSpeed(speed) {
+    const known = [...this.speed.options].some(({ value }) => Number(value) === speed);
+    if (!known) this.speed.append(h("option", { value: speed }, `${speed}x`));
+    this.speed.value = String(speed);
   }
 
   #set(element, text) {
@@ -206,7 +213,5 @@ export class Toolbar {
 
 /// The link whose motion an object has.
 function followable(scene, object) {
-  if (object.kind === "link") return object;
-  if (object.kind === "model") return scene.children(object.handle).map((each) => followable(scene, each)).find(Boolean) ?? null;
-  return followable(scene, scene.objects.get(object.parent));
+  return object.kind === "link" ? object : (scene.objects.get(object.carrier) ?? null);
 }

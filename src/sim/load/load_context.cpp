@@ -65,6 +65,7 @@ void LoadContext::take(const sdf::Errors& errors, const std::string& object) {
       continue;
     }
     if (const auto unknown = about_unknown_element(problem.message)) {
+      if (problem.object.empty()) problem.object = xml_.object_at(problem.file, problem.line);
       warn({problem.file, problem.line}, problem.object, *unknown);
       continue;
     }

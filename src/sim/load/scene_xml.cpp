@@ -134,6 +134,15 @@ Source SceneXml::place_of(const std::string& element, const std::string& text) c
   return source;
 }
 
+std::string SceneXml::object_at(const std::string& file, int line) const {
+  std::string path;
+  if (file != file_) return path;
+  visit(*document_.RootElement(), [&](const tinyxml2::XMLElement& element) {
+    if (element.GetLineNum() == line) path = object_path(element);
+  });
+  return path;
+}
+
 bool SceneXml::is_urdf() const { return std::string_view(document_.RootElement()->Name()) == "robot"; }
 
 /// The error for an element that SDFormat could not read, without details from SDFormat.

@@ -31,6 +31,9 @@ class SceneXml {
   /// <include>.
   Source place_of(const std::string& element, const std::string& text) const;
 
+  /// The path of the object that an element in this line of the file belongs to, or empty.
+  std::string object_at(const std::string& file, int line) const;
+
   const tinyxml2::XMLDocument& document() const { return document_; }
   tinyxml2::XMLDocument& document() { return document_; }
   /// Declares that SDFormat reads `copy` in place of `original`; errors name the original.

@@ -151,7 +151,7 @@ TEST(Elements, ThatSdformatDoesNotKnowAreTold) {
   std::vector<Problem> warnings;
   loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>", "odd.sdf", &warnings);
   const std::string reported = lines_of(warnings);
-  EXPECT_TRUE(holds(reported, "odd.sdf:3: <contact> is not an element of <link>: ignored\n")) << reported;
+  EXPECT_TRUE(holds(reported, "odd.sdf:3: /m/l: <contact> is not an element of <link>: ignored\n")) << reported;
 }
 
 TEST(SeveralModels, InAFileWithoutAWorldAreOne) {

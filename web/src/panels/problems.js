@@ -11,8 +11,10 @@ export const problems = {
     const rows = h("div.problemlist");
     let revision = -1;
     const open = ({ source, object, file, line }) => {
-      const found = object && app.scene.byPath(object);
-      if (found) app.selection.select(found);
+      // Collisions and visuals, which have a name in the file, are no objects of the scene: their link is.
+      let path = object;
+      while (path && !app.scene.byPath(path)) path = path.slice(0, path.lastIndexOf("/"));
+      if (path) app.selection.select(app.scene.byPath(path));
       if (source === "script") app.openScript?.(object, file, line);
     };
     const show = (list) => {

@@ -135,10 +135,16 @@ export class Gizmo {
       if (!pull) return;
       if (!view.rayThrough(event.clientX, event.clientY).intersectPlane(pull.plane, pull.target)) return;
       view.invalidate();
-      if (performance.now() - this.#sent < PERIOD) return;
+      // Not at once if one was sent just now, but the last one always: the mouse may rest there.
+      waiting ??= setTimeout(send, this.#sent + PERIOD - performance.now());
+    });
+    let waiting = null;
+    const send = () => {
+      waiting = null;
+      if (!pull) return;
       this.#sent = performance.now();
       this.#app.link.call("window.pull", [pull.target.toArray()], "drag").catch(() => {});
-    });
+    };
     const end = () => {
       if (!pull) return;
       pull = null;

@@ -45,6 +45,15 @@ export class Poses {
     return poseMatrix(this.of(carrier), target).multiply(object.inCarrier);
   }
 
+  /// The matrix of an object in the last frame, to which the picture moves.
+  latest(object, target) {
+    const share = this.#share;
+    this.#share = 1;
+    const found = this.matrix(object, target);
+    this.#share = share;
+    return found;
+  }
+
   #row(row) {
     const last = this.#last?.frame;
     if (!last || last.revision !== this.#app.scene.revision) return null;

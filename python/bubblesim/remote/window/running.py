@@ -35,9 +35,13 @@ def step(window: Window, steps: int = 1) -> None:
 
 
 def speed(window: Window, factor: float | None = None) -> float:
-    """Set the speed in simulated seconds per second, 0 for as fast as possible, if it is given; return it."""
+    """Set the speed in simulated seconds per second, 0 for as fast as possible, if it is given; return it.
+
+    All pages are sent a new one as an event, ``speed``.
+    """
     if factor is not None:
         window.runner.set_speed(float("inf") if factor == 0 else float(factor), wait=False)
+        window.emit("speed", factor)
         return factor
     now: float = window.runner.speed
     return 0.0 if now == float("inf") else now

@@ -27,13 +27,14 @@ export const paths = {
     });
     app.link.on("frame", (frame) => {
       if (frame.time < time) clear();
+      const moved = frame.time > time; // by the simulation, not by hand
       time = frame.time;
-      if (frame.state !== "running" || frame.revision !== app.scene.revision) return;
+      if (!moved || frame.revision !== app.scene.revision) return;
       let followed = 0;
       for (const model of app.scene.children()) {
         if (model.static || !app.scene.linkIndex.has(model.canonical_link)) continue;
         if (++followed > MODELS) break;
-        const { elements } = app.view.matrixOf(model, matrix);
+        const { elements } = app.view.poses.latest(model, matrix);
         append(model.handle, elements[12], elements[13], elements[14] + 0.01);
       }
     });

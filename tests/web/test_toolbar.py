@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The toolbar and its keys, in a real browser."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from web_support import Node, Window
+
+Show = Callable[..., Window]
+
+FACTOR = "parseFloat(document.querySelector('.factor').textContent)"
+
+
+def test_keys_play_pause_step_and_stop(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        page = show(node)
+        page.page.keyboard.press("n")
+        page.wait("bubblesim.link.frame.time > 0.04 && bubblesim.link.frame.state === 'paused'")
+        page.page.keyboard.press("Space")
+        page.wait("bubblesim.link.frame.state === 'running'")
+        page.page.keyboard.press("Space")
+        page.wait("bubblesim.link.frame.state === 'paused'")
+        page.page.keyboard.press("Shift+Space")
+        page.wait("bubblesim.link.frame.state === 'stopped' && bubblesim.link.frame.time === 0")
+        assert page.page.locator(".time").inner_text() == "0.00 s"
+
+
+def test_the_speed_is_that_of_the_run_and_of_all_pages(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--speed", "3") as node:
+        first, second = show(node), show(node)
+        assert first.page.locator("select.speed").input_value() == "3"
+        for speed, shown in (("0.5", "0.4 < f && f < 0.6"), ("2", "1.6 < f && f < 2.4"), ("0", "f > 3")):
+            first.page.locator("select.speed").select_option(speed)
+            second.wait("document.querySelector('select.speed').value === x", speed)
+            second.wait(f"((f) => {shown})({FACTOR})")
+
+
+def test_a_page_that_is_opened_later_shows_the_speed(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        show(node).page.locator("select.speed").select_option("0.25")
+        show(node).wait("document.querySelector('select.speed').value === '0.25'")
+
+
+def test_the_menu_switches_what_is_shown(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "tricycle", "--paused") as node:
+        page = show(node)
+        page.page.locator("button[title='What is shown']").click()
+        for title, shown in (
+            ("Shadows", "bubblesim.view.lights.group.children.some((e) => e.castShadow)"),
+            ("Grid", "bubblesim.view.overlays.find((e) => e.id === 'grid').layer.object3d.visible"),
+        ):
+            assert page.js(shown)
+            page.page.locator(".menu .entry", has_text=title).click()
+            page.wait(f"!{shown}")
+        page.page.mouse.click(500, 500)
+        assert page.page.locator(".menu").is_hidden()
+        page.page.keyboard.press("x")
+        page.wait("bubblesim.view.overlays.find((e) => e.id === 'frames').layer.object3d.visible")
