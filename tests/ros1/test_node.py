@@ -101,9 +101,9 @@ def test_clock_is_left_to_a_script_that_advertises_it(roscore: RosCore) -> None:
         probe.ask("clock", 2.0)
         probe.wait_for(lambda: probe.messages(subscriber) == ["7 0", "2 0"], "the simulator's clock again")
         probe.ask("advertise", "/clock", "clock")
-        assert [line for line in probe.errors if "/clock" in line] == [
-            "plugin 'ROSInterface': a script advertises /clock: the simulator does not publish it"
-        ]
+    assert [line for line in probe.errors if "/clock" in line] == [
+        "plugin 'ROSInterface': a script advertises /clock: the simulator does not publish it"
+    ]
 
 
 def test_now_is_the_wall_clock_without_use_sim_time(roscore: RosCore) -> None:
@@ -169,9 +169,9 @@ def test_ends_in_time_while_a_registration_hangs(roscore: RosCore) -> None:
 def test_ends_in_time_when_the_master_hung_from_the_start(roscore: RosCore) -> None:
     roscore.pause()
     with Probe(roscore.env) as probe:
-        assert "load failed (failed initialization)" in probe.errors[0]
         assert probe.terminate() < BOUND + SLACK
         assert probe.process.returncode == 0
+    assert "load failed (failed initialization)" in probe.errors[0]
 
 
 def test_ends_in_time_after_the_master_died(tmp_path: Path) -> None:

@@ -45,10 +45,10 @@ def test_subscriber_of_another_type_is_reported_once(roscore: RosCore, tmp_path:
         again = "s = rospy.Subscriber('/speed', std_msgs.msg.String); rospy.sleep(0.5); s.unregister()"
         with rospy_node(roscore, f"while not rospy.is_shutdown(): {again}", tmp_path / "peer"):
             wait_until(lambda: attempts() >= 2, "the peer to have tried twice")
-        assert reported(probe) == [
-            f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to {STRING}, but this node publishes "
-            f"{FLOAT}, so no messages are sent to it; use the same type in both"
-        ]
+    assert reported(probe) == [
+        f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to {STRING}, but this node publishes "
+        f"{FLOAT}, so no messages are sent to it; use the same type in both"
+    ]
 
 
 def test_publisher_of_another_type_is_reported_once(roscore: RosCore, tmp_path: Path) -> None:
@@ -63,12 +63,12 @@ def test_publisher_of_another_type_is_reported_once(roscore: RosCore, tmp_path: 
             with Probe(roscore.env, "__name:=second") as second:
                 second.ask("advertise", "/speed", "other_float")
                 probe.wait_for(lambda: len(reported(probe)) > 1, "the second publisher's line")
-        assert reported(probe) == [
-            f"plugin 'ROSInterface': topic '/speed': node /peer publishes {STRING}, but this node subscribes to "
-            f"{FLOAT}, so no messages arrive from it; use the same type in both",
-            f"plugin 'ROSInterface': topic '/speed': node /second publishes {OTHER_FLOAT}, but this node "
-            f"subscribes to {FLOAT}, so no messages arrive from it; {REBUILD}",
-        ]
+    assert reported(probe) == [
+        f"plugin 'ROSInterface': topic '/speed': node /peer publishes {STRING}, but this node subscribes to "
+        f"{FLOAT}, so no messages arrive from it; use the same type in both",
+        f"plugin 'ROSInterface': topic '/speed': node /second publishes {OTHER_FLOAT}, but this node "
+        f"subscribes to {FLOAT}, so no messages arrive from it; {REBUILD}",
+    ]
 
 
 def test_subscriber_with_another_version_of_the_type_is_advised_to_rebuild(roscore: RosCore) -> None:
@@ -93,12 +93,12 @@ def test_client_of_another_service_type_is_reported_once(roscore: RosCore, tmp_p
         wait_until(lambda: "/paint" in roscore.state()["services"], "the service")
         with rospy_node(roscore, code, log):
             wait_until(lambda: log.read_text().count("refused") == 2, "both calls")
-        assert reported(probe) == [
-            "plugin 'ROSInterface': service '/paint': a client calls a type with md5 "
-            "937c9679a518e3a18d831e57125ea522, but this node provides std_srvs/SetBool (md5 "
-            "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; use the same type in both, built from the same "
-            "definition"
-        ]
+    assert reported(probe) == [
+        "plugin 'ROSInterface': service '/paint': a client calls a type with md5 "
+        "937c9679a518e3a18d831e57125ea522, but this node provides std_srvs/SetBool (md5 "
+        "09fb03525b03e7ea1fd3992bafd87e16), so the call is refused; use the same type in both, built from the same "
+        "definition"
+    ]
 
 
 def test_other_errors_of_roscpp_are_still_printed(roscore: RosCore) -> None:
