@@ -148,9 +148,8 @@ class Window:
     def look_from_above(self) -> None:
         """Look down at what is in the middle."""
         self.js("bubblesim.view.lookFrom('top')")
-        self.wait(
-            "((view) => view.camera.position.clone().sub(view.controls.target).normalize().z > 0.9999999)(bubblesim.view)"
-        )
+        away = "bubblesim.view.camera.position.clone().sub(bubblesim.view.controls.target).normalize()"
+        self.wait(f"{away}.z > 0.9999999")
 
     def button(self, title: str) -> Any:
         """Return the button whose title begins so."""
