@@ -17,7 +17,8 @@ class Display:
 
     def __init__(self, env: dict[str, str], size: str = "1280x900x24") -> None:
         read, write = os.pipe()
-        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-nolisten", "tcp"]
+        # By default a server resets when its last client leaves, and refuses those that come meanwhile.
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-nolisten", "tcp", "-noreset"]
         self._process = start(command, env, pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as reported:
