@@ -95,7 +95,7 @@ def first_picture(address: str, openings: int) -> float:
     times = []
     with sync_playwright() as playwright:
         flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
-        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=flags)
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=flags)
         for _ in range(openings):
             page = browser.new_context(viewport={"width": 1000, "height": 620}).new_page()
             begin = time.monotonic()

@@ -27,7 +27,7 @@ PREPARE = """async () => {
 def picture(address: str) -> None:
     """Save the picture of a window."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=FLAGS)
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=FLAGS)
         page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme="dark")
         page.goto(address)
         while not page.evaluate("bubblesim.scene.models.length"):

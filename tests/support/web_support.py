@@ -20,7 +20,7 @@ PATIENCE = 60_000  # ms, for a busy machine that draws without a GPU
 
 def launch_browser(playwright: Playwright) -> Browser:
     """Start Debian's Chromium, which draws in software."""
-    return playwright.chromium.launch(executable_path="/usr/bin/chromium", args=_FLAGS)
+    return playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=_FLAGS)
 
 
 def new_page(browser: Browser, width: int, height: int) -> Page:

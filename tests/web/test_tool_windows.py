@@ -154,6 +154,14 @@ def test_a_field_of_a_topic_is_plotted_and_a_bag_recorded(roscore: RosCore, tmp_
         assert len(bags) == 1
         assert bags[0].stat().st_size > 4096
         window.page.click("button:has-text('Record a bag')")
+
+        def is_open() -> bool:
+            runs = window.call("server.recording")["runs"]
+            opened = list(tmp_path.glob("bubblesim_*.bag.active"))
+            assert opened or not runs, "rosbag leaves no file if it is ended while it starts"
+            return bool(opened)
+
+        wait_until(is_open, "the second bag to be opened")
         window.page.wait_for_selector("button:has-text('End the recording')")
         assert window.errors == []
     # The second one ends with the server.

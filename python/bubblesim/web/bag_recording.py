@@ -24,16 +24,19 @@ class Recording:
     def __init__(self) -> None:
         """Create it without a recording."""
         self._process: subprocess.Popen[bytes] | None = None
-        self._file = ""
+        self._file = ""  # as soon as rosbag has opened it
 
     def state(self) -> dict[str, Any]:
         """Return whether it ``runs``, and its ``file``."""
-        return {"runs": self._process is not None and self._process.poll() is None, "file": self._file}
+        return {"runs": bool(self._file) and self._is_busy(), "file": self._file}
+
+    def _is_busy(self) -> bool:
+        return self._process is not None and self._process.poll() is None
 
     async def start(self, topics: list[str]) -> dict[str, Any]:
         """Record topics, or all without a list, to a new file in the folder where the server was started."""
-        if self.state()["runs"]:
-            raise RuntimeError(f"{self._file} is being recorded already")
+        if self._is_busy():
+            raise RuntimeError(f"{self._file or 'a bag'} is being recorded already")
         await asyncio.to_thread(ros_topics.node)
         program = shutil.which("rosbag")
         if program is None:
@@ -42,22 +45,23 @@ class Recording:
             if not topic.startswith("/"):
                 raise ValueError(f"'{topic}' is not the name of a topic: it must begin with /")
         now = datetime.datetime.now().astimezone()
-        self._file = str(Path.cwd() / f"bubblesim_{now:%Y-%m-%d_%H-%M-%S}.bag")
-        command = [program, "record", "-q", "-O", self._file, *(topics or ["-a"])]
+        file = str(Path.cwd() / f"bubblesim_{now:%Y-%m-%d_%H-%M-%S}.bag")
+        command = [program, "record", "-q", "-O", file, *(topics or ["-a"])]
+        self._file = ""
         self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
-        await self._wait_for_file()
+        await self._wait_for(file)
+        self._file = file
         return self.state()
 
-    async def _wait_for_file(self) -> None:
+    async def _wait_for(self, file: str) -> None:
         """Wait until rosbag has opened the file: one that is ended before leaves none."""
         end = time.monotonic() + _BEGIN
-        while not Path(f"{self._file}.active").exists():
-            process = self._process
-            if process is None or process.poll() is not None:
-                raise RuntimeError(f"rosbag has ended before it opened {self._file}: see the output of the window")
+        while not Path(f"{file}.active").exists():
+            if not self._is_busy():
+                raise RuntimeError(f"rosbag has ended before it opened {file}: see the output of the window")
             if time.monotonic() > end:
                 await self.stop()
-                raise RuntimeError(f"rosbag has not opened {self._file} within {_BEGIN:g} s")
+                raise RuntimeError(f"rosbag has not opened {file} within {_BEGIN:g} s")
             await asyncio.sleep(0.05)
 
     async def stop(self) -> dict[str, Any]:
@@ -74,7 +78,7 @@ class Recording:
 
     def close(self) -> None:
         """End a recording with the server."""
-        if self._process is not None and self._process.poll() is None:
+        if self._process is not None and self._is_busy():
             self._process.send_signal(signal.SIGINT)
 
 
