@@ -3,8 +3,8 @@
 
 namespace bubblesim {
 
-/// Limits the log lines of roscpp's libraries about connections, which any peer can open: prints ten lines per minute
-/// each of XML-RPC and of roscpp, then one line that more are suppressed. /rosout still gets all lines of roscpp.
+/// Limits the log lines of roscpp about connections, which any peer can open: prints ten per minute, then one line that
+/// more are suppressed. /rosout still gets all that is logged.
 /// Call it after ros::init(), before other threads log.
 void limit_peer_lines();
 

@@ -88,7 +88,7 @@ def test_without_a_master_it_says_so_and_runs_on(tmp_path: Path) -> None:
         assert "plugin 'ROSInterface': load failed (failed initialization)" in node.output
         assert f"http://localhost:{port}" in node.output
         assert "roscore" in node.output
-        assert "\ninit\ncleanup\n" in node.output  # a slow end may add one line about connections
+        assert node.output.endswith("\ninit\ncleanup\n")
 
 
 def test_topics_appear_when_a_master_comes_late(tmp_path: Path) -> None:

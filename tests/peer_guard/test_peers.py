@@ -230,12 +230,17 @@ def test_lengths_beyond_a_tcpros_header_end_its_connection(sim: Node) -> None:
 
 def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
     port = sim.tcpros_port("/tf")
-    for _ in range(200):
-        for target in (sim.port, port):
+    line = b"a line without an equals sign"
+    unreadable = struct.pack("<II", 4 + len(line), len(line)) + line
+    service = b"service=/of_nobody"
+    of_nobody = struct.pack("<II", 4 + len(service), len(service)) + service
+    request = b"GET / HTTP/1.0\r\n\r\n"
+    for _ in range(100):
+        for target, junk in ((sim.port, request), (port, request), (port, unreadable), (port, of_nobody)):
             with socket.create_connection(("127.0.0.1", target), timeout=10) as connection:
-                connection.sendall(b"GET / HTTP/1.0\r\n\r\n")
+                connection.sendall(junk)
                 connection.shutdown(socket.SHUT_WR)
                 with contextlib.suppress(ConnectionError):
                     connection.recv(1)
-    wait_until(lambda: "suppressing more lines about XML-RPC connections" in sim.output, "the limit")
-    assert len(sim.output.splitlines()) < 60
+    wait_until(lambda: "suppressing more lines about connections of peers" in sim.output, "the limit")
+    assert len(sim.output.splitlines()) < 30
