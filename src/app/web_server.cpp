@@ -21,6 +21,8 @@ namespace {
 
 constexpr int kLifelineOfServer = 3;
 
+/// A port that nobody else is given. Its socket stays open: a port that is only looked at may be taken by another
+/// process before the door listens. The door may share it (SO_REUSEADDR), since this socket does not listen.
 int free_port() {
   const int probe = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -28,8 +30,9 @@ int free_port() {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
   auto* generic = reinterpret_cast<sockaddr*>(&address);
-  const bool found = probe >= 0 && bind(probe, generic, size) == 0 && getsockname(probe, generic, &size) == 0;
-  if (probe >= 0) close(probe);
+  const int shared = 1;
+  const bool found = probe >= 0 && setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared) == 0 &&
+                     bind(probe, generic, size) == 0 && getsockname(probe, generic, &size) == 0;
   if (!found) throw std::runtime_error(std::string("--web: no free port for the door: ") + std::strerror(errno));
   return ntohs(address.sin_port);
 }

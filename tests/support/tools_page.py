@@ -31,12 +31,13 @@ class ToolsPage:
         self.node = self._ends.enter_context(
             Node(self.env, folder / "node.txt", scene, *ros, f"--remote={door}", "--start", *options)
         )
-        wait_until(lambda: "remote clients can connect" in self.node.output, "the door")
+        wait_until(lambda: "remote clients can connect" in self.node.output, "the door", timeout=PATIENCE / 1000)
         command = [sys.executable, "-m", "bubblesim.web", "--door", str(door), "--port", str(self.port), "--token", "t"]
-        with (folder / "server.txt").open("w") as log:
-            self.server = start(command, self.env, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+        log = folder / "server.txt"
+        with log.open("w") as output:
+            self.server = start(command, self.env, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
         self._ends.callback(stop, self.server)
-        wait_until(lambda: "the window is at" in (folder / "server.txt").read_text(), "the server")
+        wait_until(lambda: "the window is at" in log.read_text(), "the server", timeout=PATIENCE / 1000)
 
     def __enter__(self) -> Self:
         playwright = self._ends.enter_context(sync_playwright())

@@ -16,7 +16,7 @@ class Velocities:
 
     def all(self) -> list[tuple[float, float]]:
         """Return forward and turning velocity of each command so far."""
-        lines = self._file.read_text().splitlines()
+        lines = self._file.read_text().rpartition("\n")[0].splitlines()  # the last one may not be complete
         rows = [line.split(",") for line in lines[1:] if line.count(",") == lines[0].count(",")]
         return [(float(row[1]), float(row[6])) for row in rows]
 

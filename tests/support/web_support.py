@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import pytest
-from playwright.sync_api import Browser, Page, Playwright, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, sync_playwright
 
 from ros_support import built, start, stop, wait_until
 
@@ -20,7 +20,7 @@ PATIENCE = 60_000  # ms, for a busy machine that draws without a GPU
 
 def launch_browser(playwright: Playwright) -> Browser:
     """Start Debian's Chromium, which draws in software."""
-    return playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=_FLAGS)
+    return playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=_FLAGS, timeout=PATIENCE)
 
 
 def new_page(browser: Browser, width: int, height: int) -> Page:
@@ -35,12 +35,17 @@ class Node:
 
     def __init__(self, folder: Path, scene: str, *options: str) -> None:
         """Start it, and wait for the address of the window."""
+        self.windows: list[Window] = []
         self._log = folder / "node.err"
         self._errors = self._log.open("w")
         command = [str(built("sim")), scene, "--no-ros", "--web", *options]
         self._output = (folder / "node.out").open("w")
         self.process = start(command, dict(os.environ), stdout=self._output, stderr=self._errors)
-        self.address = self.find(r"the window is at (\S+)\s")
+        try:
+            self.address = self.find(r"the window is at (\S+)\s")
+        except BaseException:
+            self.__exit__()
+            raise
         self.origin = self.address.partition("/?")[0]
 
     def find(self, pattern: str) -> str:
@@ -52,13 +57,15 @@ class Node:
             found[:] = re.findall(pattern, self._log.read_text())
             return bool(found)
 
-        wait_until(look, f"{pattern} in the node's output")
+        wait_until(look, f"{pattern} in the node's output", timeout=PATIENCE / 1000)
         return found[0]
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_error: object) -> None:
+        for window in self.windows:  # a page that outlives the server reports that it is gone
+            window.close()
         stop(self.process)
         self._errors.close()
         self._output.close()
@@ -91,11 +98,22 @@ class Window:
         """Open it and wait until the scene is drawn."""
         self.page = page
         self.errors: list[str] = []
+        self.may_lose_server = False
+        """The server ends before the page: errors of the connection to it are expected."""
         page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        page.on("console", self._note)
         page.goto(address)
         self.wait("bubblesim.scene.models.length > 0 && bubblesim.link.frame")
         self.js("bubblesim.view.settled()")
+
+    def _note(self, message: ConsoleMessage) -> None:
+        refused = message.text.startswith("WebSocket connection to")
+        if message.type == "error" and not (refused and self.may_lose_server):
+            self.errors.append(message.text)
+
+    def close(self) -> None:
+        """Close the page, and its session."""
+        self.page.context.close()
 
     def js(self, expression: str, argument: Any = None) -> Any:
         """Return the value of an expression; `x` is the argument."""
@@ -172,11 +190,13 @@ def show(browser: Browser) -> Iterator[Callable[..., Window]]:
 
     def open_page(node: Node | str) -> Window:
         page = new_page(browser, 1000, 620)
-        windows.append(Window(page, node if isinstance(node, str) else node.address))
-        return windows[-1]
+        window = Window(page, node if isinstance(node, str) else node.address)
+        windows.append(window)
+        if isinstance(node, Node):
+            node.windows.append(window)
+        return window
 
     yield open_page
     for window in windows:
-        errors = window.errors
-        window.page.context.close()
-        assert errors == []
+        window.close()
+        assert window.errors == []

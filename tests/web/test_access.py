@@ -2,12 +2,16 @@
 """Who may use the server of the window."""
 
 import http.client
+import os
+import re
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
-from web_support import Node, Window
+from ros_support import free_port, start, stop, wait_until
+from web_support import PATIENCE, Node, Window
 
 
 @pytest.fixture(scope="module")
@@ -60,6 +64,19 @@ def test_files_outside_of_the_page_are_not_served(node: Node) -> None:
     known = cookie(node)
     for path in ("/../package.xml", "/%2e%2e/package.xml", "/..%2f..%2fpackage.xml"):
         assert status(node, path, Cookie=known)[0] in (403, 404)
+
+
+def test_servers_that_begin_together_have_ports_of_their_own(tmp_path: Path) -> None:
+    command = ["bubblesim", "view", "--door", str(free_port())]
+    logs = [tmp_path / f"{number}.txt" for number in range(6)]
+    with ExitStack() as ends:
+        for log in logs:
+            with log.open("w") as output:
+                ends.callback(stop, start(command, dict(os.environ), stderr=output))
+        wait_until(lambda: all(log.read_text().endswith("\n") for log in logs), "all servers", timeout=PATIENCE / 1000)
+    found = [re.findall(r"the window is at http://127.0.0.1:(\d+)/", log.read_text()) for log in logs]
+    assert all(len(ports) == 1 for ports in found), found
+    assert len({ports[0] for ports in found}) == len(logs)
 
 
 def test_a_window_that_only_looks_changes_nothing(tmp_path: Path, show: Callable[..., Window]) -> None:

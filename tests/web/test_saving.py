@@ -46,9 +46,28 @@ def window(tmp_path: Path) -> Iterator[ToolsPage]:
         assert window.errors == []
 
 
+# Notices are shown for a few seconds only: a busy machine may look too late.
+LISTEN = """(() => {
+  window.said = [];
+  window.listening?.disconnect();
+  window.listening = new MutationObserver((changes) => {
+    for (const { addedNodes } of changes) window.said.push(...[...addedNodes].map((each) => each.innerText));
+  });
+  window.listening.observe(document.querySelector(".notices"), { childList: true });
+})()"""
+
+
+def stop(window: ToolsPage) -> None:
+    """Stop the simulation that runs, and wait until it is at the start again."""
+    window.wait_for("bubblesim.link.frame?.time > 0")
+    window.call("window.stop")  # returns before
+    window.wait_for("bubblesim.link.frame.state === 'stopped'")
+
+
 def save_as(window: ToolsPage, name: str, *, overwrite: bool = False) -> list[str]:
     """Save under a name, answer the question, and return it and what the page says then."""
     texts: list[str] = []
+    window.page.evaluate(LISTEN)
 
     def answer(dialog: Dialog) -> None:
         texts.append(dialog.message)
@@ -63,14 +82,14 @@ def save_as(window: ToolsPage, name: str, *, overwrite: bool = False) -> list[st
     window.page.click(".saving button[type=submit]")
     window.wait_for("!document.querySelector('.saving[open] button:disabled')")
     window.page.remove_listener("dialog", answer)
-    texts += window.page.locator(".notice").all_inner_texts()
+    texts += window.page.evaluate("window.said")
     window.page.evaluate("document.querySelector('.saving[open]')?.close()")
     window.wait_for("!document.querySelector('.saving')")
     return texts
 
 
 def test_what_was_edited_is_saved(window: ToolsPage, tmp_path: Path) -> None:
-    window.call("window.stop")
+    stop(window)
     box = window.call("sim.getObject", "/box")
     window.call("window.duplicate", box, [1, 0, 0.1, 0, 0, 0, 1])
     window.call("window.set_pose", box, [0, 1, 0.1, 0, 0, 0, 1])
@@ -90,9 +109,9 @@ def test_what_was_edited_is_saved(window: ToolsPage, tmp_path: Path) -> None:
 
 def test_nothing_is_overwritten_without_asking(window: ToolsPage, tmp_path: Path) -> None:
     file = write(tmp_path / "mine.sdf", "mine\n")
-    window.wait_for("bubblesim.link.frame.time > 0")
+    window.wait_for("bubblesim.link.frame?.time > 0")
     assert "stop the simulation before you save" in save_as(window, "other")[-1]
-    window.call("window.stop")
+    stop(window)
     assert save_as(window, "mine.sdf")[0] == f"{file} exists. Overwrite it?"
     assert file.read_text() == "mine\n"
     assert save_as(window, "mine", overwrite=True)[-1] == f"Saved to {file}"

@@ -2,7 +2,7 @@
 """Panels of the window that need a scene or a master of their own, in a real browser."""
 
 import sys
-import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,8 @@ import pytest
 
 pytest.importorskip("playwright")
 
-from node_support import findings_of, write
+from node_support import write
+from ros_peer import Peer
 from ros_support import RosCore, start, stop, wait_until
 from tools_page import ToolsPage
 
@@ -66,40 +67,21 @@ def test_a_warning_of_the_scene_leads_to_its_object(tmp_path: Path) -> None:
         assert window.errors == []
 
 
-PROBE = """
-import json
-import rospy
-from geometry_msgs.msg import Twist
-
-received = []
-rospy.init_node('probe')
-rospy.Subscriber('/drive_here', Twist, lambda m: received.append([m.linear.x, m.angular.z]), queue_size=1000)
-while not rospy.is_shutdown():
-    rospy.sleep(0.02)
-    moved = any(x > 0.1 for x, _ in received)
-    if moved and len(received) > 4 and received[-1] == [0.0, 0.0]:
-        break
-print(json.dumps({'received': received}), flush=True)
-rospy.spin()
-"""
-
-
 def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, tmp_path: Path) -> None:
-    result: dict[str, list[list[float]]] = {}
-    with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
-        listener = threading.Thread(target=lambda: result.update(findings_of(PROBE, roscore.env, tmp_path)))
-        listener.start()
-        wait_until(lambda: "/drive_here" in str(roscore.state()["subscribers"]), "the probe")
+    with ToolsPage(tmp_path, "ball", env=roscore.env) as window, Peer(roscore, tmp_path / "peer.txt") as peer:
+
+        def velocities() -> list[list[float]]:
+            received = peer.received("/drive_here", "geometry_msgs/Twist")
+            return [[message["linear"]["x"], message["angular"]["z"]] for message in received]
+
+        wait_until(lambda: not velocities() and "/drive_here" in roscore.state()["subscribers"], "the peer")
         window.show("driving")
         window.page.fill(".driving input >> nth=0", "/drive_here")
         window.page.click(".drive")
         window.page.keyboard.down("w")
-        window.page.wait_for_timeout(1500)
+        wait_until(lambda: velocities().count([0.5, 0.0]) > 4, "velocities")
         window.page.close()  # with the key down: the server stops the robot
-        listener.join(timeout=30)
-    received = result["received"]
-    assert [0.5, 0.0] in received
-    assert received[-1] == [0.0, 0.0]
+        wait_until(lambda: velocities()[-1] == [0.0, 0.0], "the robot to be stopped")
 
 
 def test_the_stick_drives_a_robot_and_a_page_without_focus_stops_it(roscore: RosCore, tmp_path: Path) -> None:
@@ -127,21 +109,37 @@ def test_the_stick_drives_a_robot_and_a_page_without_focus_stops_it(roscore: Ros
         assert window.errors == []
 
 
+PUBLISHER = """\
+def sysCall_init():
+    self.stamped = simROS.advertise('/stamped', 'geometry_msgs/PointStamped')
+    self.plain = simROS.advertise('/t', 'std_msgs/Float64')
+
+def sysCall_sensing():
+    t = sim.getSimulationTime()
+    simROS.publish(self.stamped, {'header': {'stamp': t + 1}, 'point': {'x': t + 6}})
+    simROS.publish(self.plain, {'data': t})
+"""
+
+
 def test_a_field_of_a_topic_is_plotted_and_a_bag_recorded(roscore: RosCore, tmp_path: Path) -> None:
-    code = "def sysCall_init(): self.p = simROS.advertise('/t', 'std_msgs/Float64')\n"
-    code += "def sysCall_sensing(): simROS.publish(self.p, {'data': sim.getSimulationTime() + 5})\n"
-    script = write(tmp_path / "script.py", code)
+    script = write(tmp_path / "script.py", PUBLISHER)
     with ToolsPage(tmp_path, "ball", "--child-script", f"/Ball={script}", env=roscore.env) as window:
         window.show("plots")
+        wait_until(lambda: "/t" in roscore.state()["publishers"], "the script's topic")
         topics = dict(window.call("server.topics"))
         assert topics["/t"] == "std_msgs/Float64"
         assert window.call("server.topicFields", "/t") == ["data"]
-        window.page.evaluate("bubblesim.plot('topic', ['/t', 'data']).then(() => 0)")
-        window.wait_for("bubblesim.plots.plots[0]?.series[0].series.times.length > 5")
-        times, values = window.page.evaluate(
-            "(({times, values}) => [times, values])(bubblesim.plots.plots[0].series[0].series)"
-        )
-        assert np.ptp(np.subtract(values, times)) < 0.2
+        series = "bubblesim.plots.plots[{}].series[0].series"
+        begin = time.time()
+        for number, (topic, field) in enumerate((("/stamped", "point.x"), ("/t", "data"))):
+            window.page.evaluate("x => bubblesim.plot('topic', x).then(() => 0)", [topic, field])
+            window.wait_for(f"{series.format(number)}.times.length > 5")
+        found = [window.page.evaluate(f"(({{times, values}}) => [times, values])({series.format(i)})") for i in (0, 1)]
+        (stamps, values), (arrivals, times) = found
+        assert np.subtract(values, stamps) == pytest.approx(5, abs=1e-6)
+        assert begin <= arrivals[0] <= arrivals[-1] <= time.time()  # without a stamp: when it came
+        assert arrivals == sorted(arrivals)
+        assert times == sorted(times)
         window.show("record")
         window.page.wait_for_selector(".record option:text-is('/t')", state="attached")
         window.page.select_option(".record select", "/t")

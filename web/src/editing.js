@@ -26,7 +26,8 @@ export class Editing extends Emitter {
   move(object, pose, before = null) {
     const target = { handle: object.handle };
     const from = before ?? [...this.#app.view.poseOf(object)];
-    const set = (to) => this.#app.link.call("window.set_pose", [this.#now(target), to]);
+    // On the line of the poses that the handles send while they are dragged: none of those may come after this one.
+    const set = (to) => this.#app.link.call("window.set_pose", [this.#now(target), to], "drag");
     return this.carry({ title: `move ${object.name}`, redo: () => set(pose), undo: () => set(from) });
   }
 

@@ -40,14 +40,13 @@ def is_looking(function: str) -> bool:
 class Access:
     """Lets in who has the token, with requests that are meant for this server."""
 
-    def __init__(self, address: str, port: int, *, token: str | None = None) -> None:
-        """Make a token, unless one is given.
+    def __init__(self, address: str, *, token: str | None = None) -> None:
+        """Make a token, unless one is given. Nobody is let in before the ``port`` is known.
 
         :param address: on which the server listens.
         """
         self.token = token or secrets.token_urlsafe(24)
-        self._cookie = f"bubblesim-{port}"
-        self._port = port
+        self.port = 0
         self._names = {"127.0.0.1", "localhost", "::1"}
         self._any_host = not is_loopback(address)  # it is reached under names that are not known here
 
@@ -58,20 +57,23 @@ class Access:
             raise web.HTTPForbidden(text="the Host or Origin of this request is not that of this server")
         if secrets.compare_digest(request.query.get("token", "").encode(), self.token.encode()):
             response: web.StreamResponse = web.HTTPFound(request.path)  # the token does not stay in the address line
-            response.set_cookie(self._cookie, self.token, httponly=True, samesite="Strict")
+            response.set_cookie(self._cookie(), self.token, httponly=True, samesite="Strict")
             return response
-        if not secrets.compare_digest(request.cookies.get(self._cookie, "").encode(), self.token.encode()):
+        if not secrets.compare_digest(request.cookies.get(self._cookie(), "").encode(), self.token.encode()):
             return web.Response(status=403, text=_NO_TOKEN, content_type="text/html")
         response = await handler(request)
         if not response.prepared:
             response.headers.update(_HEADERS)
         return response
 
+    def _cookie(self) -> str:
+        return f"bubblesim-{self.port}"
+
     def _is_meant_for_us(self, request: web.Request) -> bool:
         """Return whether neither another site nor a name that someone else has given to this address is in play."""
         host = urlsplit(f"//{request.headers.get('Host', '')}")
         try:
-            known = host.port == self._port and (self._any_host or host.hostname in self._names)
+            known = host.port == self.port and (self._any_host or host.hostname in self._names)
         except ValueError:
             return False
         origin = request.headers.get("Origin")

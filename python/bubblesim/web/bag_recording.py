@@ -15,7 +15,7 @@ from typing import Any
 from bubblesim.web import ros_topics
 
 _BEGIN = 30.0  # s until rosbag has opened its file
-_GRACE = 10.0  # s for the index of the bag
+_GRACE = 30.0  # s for the index of the bag
 
 
 class Recording:

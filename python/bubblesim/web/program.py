@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import errno
 import os
 import signal
 import sys
@@ -65,8 +66,7 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     hub = Hub(f"tcp://127.0.0.1:{options.door}")
     application = web.Application()
     runner = web.AppRunner(application, access_log=None)
-    port = options.port if options.port is not None else _free_port(options.address)
-    access = Access(options.address, port, token=options.token)
+    access = Access(options.address, token=options.token)
     application.middlewares.append(access.middleware)
 
     async def index(_request: web.Request) -> web.StreamResponse:
@@ -79,13 +79,16 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     application.router.add_get("/socket", page)
     application.router.add_static("/", folder)
     await runner.setup()
+    ports = [options.port] if options.port is not None else list(range(PORT, PORT + _TRIES))
     try:
-        await web.TCPSite(runner, options.address, port, shutdown_timeout=1.0).start()
+        port = await _listen(runner, options.address, ports)
     except OSError as error:
         await runner.cleanup()
         raise SystemExit(
-            f"error: the window cannot listen on {options.address}:{port}: {error.strerror}; another port: --web=PORT"
+            f"error: the window cannot listen on {options.address}:{ports[0]}: {error.strerror}; "
+            "another port: --web=PORT"
         ) from None
+    access.port = port
     following = asyncio.create_task(hub.run())
     shown = f"[{options.address}]" if ":" in options.address else options.address
     address = f"http://{shown}:{port}/?token={access.token}"
@@ -101,15 +104,18 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     await hub.close()
 
 
-def _free_port(address: str) -> int:
-    import socket
+async def _listen(runner: web.AppRunner, address: str, ports: list[int]) -> int:
+    """Listen on the first port that is free, and return it.
 
-    for port in range(PORT, PORT + _TRIES):
-        with socket.socket() as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                probe.bind((address, port))
-            except OSError:
-                continue
+    :raises OSError: if there is none.
+    """
+    for port in ports:
+        site = web.TCPSite(runner, address, port, shutdown_timeout=1.0)
+        try:
+            await site.start()  # not after a look at which one is free: other servers look at the same time
             return port
-    return PORT
+        except OSError as error:
+            await site.stop()
+            if error.errno != errno.EADDRINUSE or port == ports[-1]:
+                raise
+    raise ValueError("no ports are given")

@@ -20,6 +20,7 @@ _MOST_FIELDS = 400
 _MOST_SAMPLES = 5000
 _MOST_WATCHED = 64
 _SILENCE = 0.4  # s without a command, after which a robot is stopped
+_RECENT = 1.0  # s after which a message has been sent, even on a busy machine
 _DEEPEST = 6
 
 
@@ -153,16 +154,18 @@ class Driver:
 
     def send(self, forward: float, left: float, turn: float) -> None:
         """Publish a velocity: m/s, m/s, rad/s."""
-        twist = self._twist()
-        twist.linear.x, twist.linear.y, twist.angular.z = forward, left, turn
-        message = twist
-        if self._stamped is not None:
-            message = self._stamped()
-            message.header.stamp = self._rospy.get_rostime()
-            message.twist = twist
-        self._publisher.publish(message)
+        self._publisher.publish(self._message(forward, left, turn))
         self._moving = (forward, left, turn) != (0.0, 0.0, 0.0)
         self._last = time.monotonic()
+
+    def _message(self, forward: float, left: float, turn: float) -> Any:
+        twist = self._twist()
+        twist.linear.x, twist.linear.y, twist.angular.z = forward, left, turn
+        if self._stamped is None:
+            return twist
+        message = self._stamped(twist=twist)
+        message.header.stamp = self._rospy.get_rostime()
+        return message
 
     def stop_if_silent(self) -> None:
         """Stop the robot if the last command is too old."""
@@ -170,9 +173,14 @@ class Driver:
             self.send(0.0, 0.0, 0.0)
 
     def close(self) -> None:
-        """Stop the robot, and end publishing."""
-        if self._moving:
-            self.send(0.0, 0.0, 0.0)
+        """Stop the robot, and end publishing: in a thread, because a message is lost if its topic ends too early."""
+        threading.Thread(target=self._end).start()
+
+    def _end(self) -> None:
+        from bubblesim.nodes.last_message import send_last
+
+        if self._moving or time.monotonic() - self._last < _RECENT:
+            send_last((self._publisher, self._message(0.0, 0.0, 0.0)))
         self._publisher.unregister()
 
 

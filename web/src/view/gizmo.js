@@ -127,7 +127,8 @@ export class Gizmo {
           target: hit.point.clone(),
         };
         this.#dragging = true;
-        this.#app.attempt("window.grip", [hit.link.handle, pull.local.toArray()]);
+        // On the line of the pulls: those that come before it are lost.
+        this.#app.attempt("window.grip", [hit.link.handle, pull.local.toArray()], "drag");
       },
       { capture: true },
     );
@@ -150,7 +151,7 @@ export class Gizmo {
       pull = null;
       this.#dragging = false;
       line.visible = false;
-      this.#app.attempt("window.let_go");
+      this.#app.attempt("window.let_go", [], "drag");
       view.invalidate();
     };
     canvas.addEventListener("pointerup", end);

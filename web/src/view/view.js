@@ -263,6 +263,7 @@ export class View extends Emitter {
   async settled() {
     await this.#changing;
     await this.bodies.settled();
+    this.poses.advance(); // the last frame may be newer than the last picture
     this.#draw();
   }
 
