@@ -9,12 +9,12 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded 
 import argparse
 import sys
 import threading
-import time
 
 import rospy
 from std_msgs.msg import Float32
 
 from bubblesim.controllers.tricycle_avoid import Command, TricycleAvoid, is_reading
+from bubblesim.nodes.last_message import send_last
 from bubblesim.nodes.run_node import run_ros_program
 
 _PERIOD = 0.2  # s, between checks for missing sonar messages
@@ -59,8 +59,7 @@ class TricycleAvoidNode:
     def _stop(self) -> None:
         with self._lock:
             self._ended = True
-            self._speed.publish(0.0)
-        time.sleep(0.1)  # rospy publishes in another thread, which ends with the node
+        send_last((self._speed, Float32(0.0)))
 
 
 def main() -> int:

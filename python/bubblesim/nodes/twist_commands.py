@@ -2,12 +2,12 @@
 """Velocity commands on the topic cmd_vel."""
 
 import threading
-import time
 
 import rospy
 from geometry_msgs.msg import Twist, TwistStamped
 
 from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.nodes.last_message import send_last
 
 
 class TwistCommands:
@@ -31,7 +31,7 @@ class TwistCommands:
         with self._lock:
             self._standing = velocity == STANDING
             if not self._ended:
-                self._send(velocity)
+                self._publisher.publish(self._message(velocity))
 
     def follow(self, velocity: Velocity) -> None:
         """Publish a command, but zero velocity only once, so that other nodes can drive while this one is idle."""
@@ -41,18 +41,16 @@ class TwistCommands:
     def _end(self) -> None:
         with self._lock:
             self._ended = True
-            self._send(STANDING)
-        time.sleep(0.1)  # rospy sends from another thread, which ends with the node
+        send_last((self._publisher, self._message(STANDING)))
 
-    def _send(self, velocity: Velocity) -> None:
+    def _message(self, velocity: Velocity) -> Twist | TwistStamped:
         twist = Twist()
         twist.linear.x = velocity.forward
         twist.linear.y = velocity.left
         twist.angular.z = velocity.turning
-        if self._stamped:
-            message = TwistStamped(twist=twist)
-            message.header.stamp = rospy.Time.now()
-            message.header.frame_id = self._frame_id
-            self._publisher.publish(message)
-        else:
-            self._publisher.publish(twist)
+        if not self._stamped:
+            return twist
+        message = TwistStamped(twist=twist)
+        message.header.stamp = rospy.Time.now()
+        message.header.frame_id = self._frame_id
+        return message
