@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import example, given
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from bubblesim.scripting.api import kinds
@@ -30,6 +30,8 @@ ANYTHING = st.recursive(
     lambda inner: st.lists(inner, max_size=8) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
     max_leaves=8,
 )
+# On a busy machine, examples take their time.
+AT_LEISURE = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 @script_module("sample")
@@ -71,6 +73,7 @@ def refusal(function: Callable[[Any], object], value: object) -> str | None:
     return None
 
 
+@AT_LEISURE
 @given(ANYTHING)
 @example(b"0")
 @example("0")
@@ -83,6 +86,7 @@ def test_numbers_and_only_they_are_taken_for_numbers(value: object) -> None:
         assert reported.startswith("sample.number: argument 1, value: expected a number, found ")
 
 
+@AT_LEISURE
 @given(st.lists(st.floats() | st.text() | st.none(), max_size=5))
 def test_lists_of_three_numbers_are_taken_for_vectors(values: list[object]) -> None:
     reported = refusal(Sample().vector, values)

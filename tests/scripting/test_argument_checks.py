@@ -13,7 +13,7 @@ from node_support import run_sim, write
 from ros_support import free_port, ros_environment
 
 IN_PYTHON = """
-    from hypothesis import given, settings, strategies as st
+    from hypothesis import HealthCheck, given, settings, strategies as st
     from bubblesim.scripting.api.functions import ArgumentError, functions, kinds_of
 
     ANYTHING = st.recursive(
@@ -34,7 +34,8 @@ IN_PYTHON = """
         return next(value for value in FITTING if kind is None or takes(kind, value))
 
     def check(module, name, number, parameter, kind, before, after):
-        @settings(max_examples=4, deadline=None, database=None)
+        # On a busy machine, examples take their time.
+        @settings(max_examples=4, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow])
         @given(ANYTHING.filter(lambda value: not takes(kind, value)))
         def refuses(value):
             try:

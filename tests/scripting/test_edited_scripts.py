@@ -41,6 +41,15 @@ def test_so_does_one_whose_included_file_was_edited(tmp_path: Path) -> None:
         node.wait_for_output("three\n")
 
 
+def test_an_edit_while_the_script_is_loaded_is_not_missed(tmp_path: Path) -> None:
+    part = write(tmp_path / "part.py", "WORD = 'one'\n")
+    edit = f"if WORD == 'one': open({str(part)!r}, 'w').write(\"WORD = 'three'\\n\")\n"
+    script = write(tmp_path / "script.py", f"#python\ninclude part\n\n{edit}def sysCall_init(): print(WORD)\n")
+    options = ["ball", "--no-ros", "--watch", "--child-script", f"/Ball={script}"]
+    with Node(ros_environment(free_port(), tmp_path), tmp_path / "log", *options) as node:
+        node.wait_for_output("three\n")
+
+
 def test_without_the_option_it_is_the_next_start_that_loads_it(tmp_path: Path) -> None:
     other = tmp_path / "script.py"
     code = f"""

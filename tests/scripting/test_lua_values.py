@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lupa import lua54
 
@@ -81,6 +81,8 @@ trees = st.recursive(
 )
 
 
+# On a busy machine, examples take their time.
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(trees)
 def test_what_goes_to_lua_comes_back_as_it_was(value: object) -> None:
     assert VALUES.to_python(VALUES.to_lua(value)) == value

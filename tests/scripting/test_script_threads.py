@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """sysCall_thread: when it runs, what it can wait for, and how it ends."""
 
+import itertools
 import signal
+import socket
+import time
 from pathlib import Path
 
 import pytest
 
+from bubblesim.scripting.threads.script_thread import ScriptThread
 from node_support import Node, clean_environment, run_script, write
 
 
@@ -168,3 +172,14 @@ def test_a_thread_that_never_steps_in_stepping_mode_is_broken_off_by_a_signal(tm
         assert node.end(signal.SIGTERM) == 0
         assert "was interrupted in sysCall_thread" in node.output
         assert node.output.endswith("cleanup\n")
+
+
+def test_a_thread_is_woken_at_its_end_even_if_the_machine_stands_still_meanwhile(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    waits, _other = socket.socketpair()
+    thread = ScriptThread("waits", lambda: waits.recv(1))
+    thread.run_turn()
+    hours = itertools.count()
+    monkeypatch.setattr(time, "monotonic", lambda: 3600.0 * next(hours))
+    assert thread.end(lambda: waits.shutdown(socket.SHUT_RDWR))

@@ -46,5 +46,14 @@ def test_a_callback_is_reported_once(tmp_path: Path) -> None:
 
 
 def test_callbacks_that_return_are_not_reported(tmp_path: Path) -> None:
-    code = "import time\ndef sysCall_init(): pass\ndef sysCall_actuation(): time.sleep(0.5)\n"
-    assert run_script(tmp_path, code, until=0.3, slowness=True).stderr == ""
+    code = """
+        import time
+        def sysCall_init(): pass
+        def sysCall_actuation():
+            begin = time.monotonic()
+            time.sleep(0.5)
+            print(time.monotonic() - begin)
+    """
+    run = run_script(tmp_path, code, until=0.3, slowness=True)
+    longest = max(float(line) for line in run.stdout.splitlines())
+    assert run.stderr == "" or longest > 1.4, f"reported although none took longer than {longest} s"  # busy machine

@@ -23,7 +23,7 @@ from bubblesim.scripting.host.started_programs import Program, end_programs
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_code import ScriptCode, load_code
 from bubblesim.scripting.language.script_output import Source
-from bubblesim.scripting.language.source import ScriptSourceError
+from bubblesim.scripting.language.source import ScriptSourceError, read_text
 from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
@@ -58,7 +58,7 @@ class ChildScript:
         self._load()
 
     def _load(self) -> None:
-        self._stamps = FileStamps([self.file])
+        self._stamps = FileStamps()
         try:
             self._code: ScriptCode = load_code(
                 self.file,
@@ -67,14 +67,13 @@ class ChildScript:
                 self._module_name,
                 Source(self.object_path, lambda: float(self.host.simulation.time), self.shared.log.add_written),
                 lua_unsafe=self.host.lua_unsafe,
+                read=self._read,
             )
         except ScriptSourceError as error:
             problem = problems.of_source(self.object_path, str(self.file), str(error))
             self._fail(f"error: child script of {self.object_path} is disabled: {error}", problem)
             return
-        loaded = self.run("loading", self._code.run)
-        self._stamps = FileStamps([self.file, *self._code.files])
-        if not loaded:
+        if not self.run("loading", self._code.run):
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
@@ -85,6 +84,10 @@ class ChildScript:
                 f"error: child script of {self.object_path} is disabled: {self.file}: {why}",
                 self._problem("error", why),
             )
+
+    def _read(self, file: Path) -> str:
+        self._stamps.note(file)
+        return read_text(file)
 
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):

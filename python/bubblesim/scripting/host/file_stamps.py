@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 _Stamp = tuple[int, int, int]
@@ -12,9 +11,13 @@ _Stamp = tuple[int, int, int]
 class FileStamps:
     """Inode, size and time stamp of files."""
 
-    def __init__(self, files: Iterable[Path]) -> None:
-        """Store the current state of the files."""
-        self._before = {file: _stamp(file) for file in files}
+    def __init__(self) -> None:
+        """Know no files yet."""
+        self._before: dict[Path, _Stamp | None] = {}
+
+    def note(self, file: Path) -> None:
+        """Store the state of a file. Call it before reading: later, the file may have changed again."""
+        self._before.setdefault(file, _stamp(file))
 
     def differ(self) -> bool:
         """Return whether a file has changed. Missing files are ignored: editors replace files."""

@@ -17,7 +17,7 @@ from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.ros import no_ros
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaScriptError, LuaValues
 from bubblesim.scripting.language.script_output import Source, print_line
-from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
+from bubblesim.scripting.language.source import ScriptSourceError, find_file
 from bubblesim.scripting.threads.lua_thread import LuaThread
 
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
@@ -40,14 +40,17 @@ class LuaCode:
         source: Source,
         *,
         unsafe: bool,
+        read: Callable[[Path], str],
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
         :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
         :param source: where printed lines come from.
         :param unsafe: keep the libraries ``os``, ``io``, ``debug``, ``package``.
+        :param read: reads a file that the script requires.
         :raises ScriptSourceError: if it cannot be read or compiled.
         """
+        self._read = read
         self._folders = [file.parent, *search_paths]
         self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by chunk name
@@ -70,11 +73,6 @@ class LuaCode:
         self._body, problem = _pair(self._sandbox[b"compile"](_as_lua(text), self._chunk_name(file)))
         if self._body is None:
             raise ScriptSourceError(self._with_whole_paths(problem.decode(errors="backslashreplace")))
-
-    @property
-    def files(self) -> set[Path]:
-        """Return the source files read so far."""
-        return set(self._files.values())
 
     def run(self) -> None:
         """Run the body of the script."""
@@ -184,7 +182,7 @@ class LuaCode:
     def _find_source(self, name: str) -> tuple[bytes, bytes]:
         """Return text and chunk name of a Lua file required by the script."""
         file = find_file(f"{name.replace('.', '/')}.lua", self._folders)
-        return _as_lua(read_text(file)), self._chunk_name(file)
+        return _as_lua(self._read(file)), self._chunk_name(file)
 
     def _chunk_name(self, file: Path) -> bytes:
         """Return a short unique name for a file, because Lua truncates long ones; see _with_whole_paths."""

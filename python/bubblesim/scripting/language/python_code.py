@@ -29,6 +29,8 @@ class PythonCode:
         modules: dict[str, Any],
         name: str,
         source: Source,
+        *,
+        read: Callable[[Path], str] = read_text,
     ) -> None:
         """Compile the ``text`` of ``file`` without running it.
 
@@ -38,9 +40,10 @@ class PythonCode:
         :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
         :param name: name of the script's module.
         :param source: where printed lines come from.
+        :param read: reads an included file.
         :raises ScriptSourceError: for a missing file or a syntax error.
         """
-        self._files: set[Path] = set()
+        self._read = read
         self._parts = self._compile(file, text, [file.parent, *search_paths], including=())
         self._modules = modules
         self._name = name
@@ -50,11 +53,6 @@ class PythonCode:
         sys.modules[name] = module
         self._globals: dict[str, Any] = module.__dict__
         self._globals.update(modules, __file__=str(file), self=SimpleNamespace(), require=self._require)
-
-    @property
-    def files(self) -> set[Path]:
-        """Return the source files of the script."""
-        return self._files
 
     @property
     def is_confined(self) -> bool:
@@ -118,7 +116,6 @@ class PythonCode:
         file = file.resolve()
         if file in including:
             raise ScriptSourceError(f"{file}: the file includes itself through {including[-1]}")
-        self._files.add(file)
         lines = text.splitlines(keepends=True)
         parts: list[CodeType] = []
         for number, line in enumerate(lines):
@@ -128,7 +125,7 @@ class PythonCode:
                     included = find_file(f"{words[1]}.py", folders)
                 except ScriptSourceError as error:
                     raise ScriptSourceError(f"{file}:{number + 1}: {error}") from None
-                parts += self._compile(included, read_text(included), folders, (*including, file))
+                parts += self._compile(included, self._read(included), folders, (*including, file))
                 lines[number] = "\n"  # keeps the following line numbers
             elif words and not line.startswith("#"):
                 break  # end of the header

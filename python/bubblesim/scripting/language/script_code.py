@@ -9,16 +9,12 @@ from typing import Any, Protocol
 
 from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
-from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
+from bubblesim.scripting.language.source import ScriptSourceError, is_lua
 from bubblesim.scripting.threads.script_thread import AnyThread
 
 
 class ScriptCode(Protocol):
     """Code with its own globals."""
-
-    @property
-    def files(self) -> set[Path]:
-        """Return the source files read so far."""
 
     @property
     def is_confined(self) -> bool:
@@ -60,17 +56,19 @@ def load_code(
     source: Source,
     *,
     lua_unsafe: bool,
+    read: Callable[[Path], str],
 ) -> ScriptCode:
     """Compile a script without running it.
 
     :param name: name of the script's Python module.
     :param source: where printed lines come from.
     :param lua_unsafe: see LuaCode.
+    :param read: read_text, or a function that calls it; called for each source file.
     :raises ScriptSourceError: with file and line.
     """
-    text = read_text(file)
+    text = read(file)
     if not is_lua(file, text):
-        return PythonCode(file, text, search_paths, modules, name, source)
+        return PythonCode(file, text, search_paths, modules, name, source, read=read)
     try:
         from bubblesim.scripting.language.lua_code import LuaCode
     except ImportError as error:
@@ -78,4 +76,4 @@ def load_code(
             f"{file}:1: Lua scripts need the Python package lupa ({error}): run scripts/setup, or "
             "activate a virtual environment with lupa (`pip install lupa==2.8`)"
         ) from error
-    return LuaCode(file, text, search_paths, modules, source, unsafe=lua_unsafe)
+    return LuaCode(file, text, search_paths, modules, source, unsafe=lua_unsafe, read=read)

@@ -21,7 +21,8 @@ _SAMPLE = 0.001  # s between checks of the thread
 # s after which a thread that has not run counts as asleep; while waiting for the GIL, a thread runs every 5 ms.
 _ASLEEP_AFTER = 0.007
 _SECONDS_TO_EXIT = 0.2  # s for a thread that checks the exit request
-_SECONDS_TO_END = 0.8
+_TRIES_TO_END = 12  # counted, because a machine that runs none of our threads for a while delays both sides
+_SECONDS_PER_TRY = 0.05
 
 
 class AnyThread(Protocol):
@@ -216,7 +217,6 @@ class ScriptThread:
 
         :param wake: wakes the thread if it waits.
         """
-        begin = time.monotonic()
         with self._changed:
             self.exit_requested = self._turn = True
             self._changed.notify_all()
@@ -224,9 +224,11 @@ class ScriptThread:
             return True
         asleep = self._slept_at is not None and self._slept_at == self._runs()
         self._thread.join(0 if asleep else _SECONDS_TO_EXIT)
-        while self._thread.is_alive() and time.monotonic() - begin < _SECONDS_TO_END:
+        for _ in range(_TRIES_TO_END):
+            if not self._thread.is_alive():
+                break
             ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self._thread.ident), ctypes.py_object(SystemExit))
             wake()
-            self._thread.join(0.05)
+            self._thread.join(_SECONDS_PER_TRY)
         self._turn = False
         return not self._thread.is_alive()
