@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from cli_support import bubblesim
-from ros_support import RosCore, free_port, ros_environment, start, wait_until
+from ros_support import RosCore, alone_on_port, free_port, ros_environment, start, wait_until
 
 
 def finding(run: "subprocess.CompletedProcess[str]", words: str) -> tuple[str, str]:
@@ -152,11 +152,12 @@ numpy.__version__ = "2.1.0"
 
 
 def test_a_port_that_a_scene_serves_and_another_has_is_a_warning(terminal: dict[str, str]) -> None:
-    try:
-        server = socket.create_server(("127.0.0.1", 5000))
-    except OSError:
-        server = None  # already in use
-    run = bubblesim("doctor", "ports", env=terminal)
-    if server:
-        server.close()
+    with alone_on_port(5000):
+        try:
+            server = socket.create_server(("127.0.0.1", 5000))
+        except OSError:
+            server = None  # already in use
+        run = bubblesim("doctor", "ports", env=terminal)
+        if server:
+            server.close()
     assert finding(run, "cannot bind port 5000, which the scene tricycle_socket needs")[0] == "warning"

@@ -5,13 +5,15 @@ import hashlib
 import itertools
 import os
 import re
+import socket
 from pathlib import Path
 
 import pytest
 import rosbag
 
-from bubblesim.running.processes import RunError
-from bubblesim.testing.master import Master
+from bubblesim.running.processes import Program, Programs, RunError
+from bubblesim.testing import simulator
+from bubblesim.testing.master import Master, start_master
 from bubblesim.testing.plugin import StartController, StartSimulator
 from cli_support import bubblesim
 from node_support import write
@@ -56,7 +58,7 @@ CLOCK_LATER = """received = threading.Event()
         if received.wait(4.0):
             speed.publish(1.0)
     rospy.Subscriber("/front_sonar", Float32, answer)
-    time.sleep(1.0)
+    time.sleep(0.6)
     rospy.Subscriber("/clock", Clock, lambda message: received.set())"""
 
 BY_THE_CLOCK = """\
@@ -219,7 +221,17 @@ def test_a_topic_without_a_subscriber_is_reported(sim: StartSimulator) -> None:
         tricycle.run(1.0)
 
 
-def test_a_missing_controller_is_reported(sim: StartSimulator) -> None:
+def test_a_controller_may_start_late(tmp_path: Path, controller: StartController, sim: StartSimulator) -> None:
+    tricycle = sim("tricycle", lockstep=["/speed"])
+    late = "    import time\n    time.sleep(6.0)\n"  # longer than the node waits for an answer
+    code = late + ECHOES.replace("message.data", "1.0")
+    controller(f"/usr/bin/python3 {write(tmp_path / 'mine.py', code)}")
+    tricycle.run(0.5)
+    assert tricycle.time == pytest.approx(0.5)
+
+
+def test_a_missing_controller_is_reported(sim: StartSimulator, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(simulator, "_STARTING_PATIENCE", 0.0)
     tricycle = sim("tricycle", lockstep=TOPICS)
     with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)
@@ -246,3 +258,17 @@ def test_without_lockstep_the_time_passes_as_fast_as_it_can(sim: StartSimulator)
 def test_everything_knows_the_master(ros_master: Master) -> None:
     assert os.environ["ROS_MASTER_URI"] == ros_master.uri
     assert ros_master.find_service("/none") is None
+
+
+class WithARival(Programs):
+    """Starts a program after another has tried to get the port that is its last argument."""
+
+    def start(self, name: str, *command: str, shown: bool = False, serves_others: bool = False) -> Program:
+        with socket.socket() as other, pytest.raises(OSError, match="in use"):
+            other.bind(("127.0.0.1", int(command[-1])))
+        return super().start(name, *command, shown=shown, serves_others=serves_others)
+
+
+def test_no_other_process_gets_the_port_of_the_master_while_it_starts(tmp_path: Path) -> None:
+    with WithARival(tmp_path) as programs:
+        assert start_master(programs).answers()

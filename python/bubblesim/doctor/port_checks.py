@@ -15,7 +15,7 @@ def check_ports() -> Iterator[Finding]:
     """Check each port of the scenes of bubblesim."""
     for port, scene in _SERVED.items():
         try:
-            socket.create_server(("127.0.0.1", port)).close()
+            _bind(port)
         except OSError as error:
             yield warning(
                 f"cannot bind port {port}, which the scene {scene} needs: {error.strerror}",
@@ -23,3 +23,10 @@ def check_ports() -> Iterator[Finding]:
             )
         else:
             yield ok(f"port {port} is free for the scene {scene}")
+
+
+def _bind(port: int) -> None:
+    """Raise OSError if a program listens on the port. Does not listen itself: a scene may start at this moment."""
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.bind(("127.0.0.1", port))

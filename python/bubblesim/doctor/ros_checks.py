@@ -14,7 +14,7 @@ from typing import Any
 from bubblesim.doctor.finding import Finding, ok, problem, warning
 
 _CALLER = "/bubblesim_doctor"
-_TIMEOUT = 2.0  # s, for a master
+_TIMEOUT = 5.0  # s, for a master and a node, also on a busy machine
 _MAX_NODES = 50
 
 

@@ -17,6 +17,8 @@ _SETTLING_TIME = 0.4
 # A node on simulated time also subscribes to /clock, and may detect a timeout if its first clock message is late.
 # Without a subscriber of /clock, wait longer for one.
 _SETTLING_TIME_WITHOUT_CLOCK = 2.0
+BEFORE_THE_CONTROLLER = "lockstep waits before the second step for a controller"
+"""How the reason begins while no controller is connected."""
 
 
 class LockStep:
@@ -92,7 +94,7 @@ class LockStep:
             return f"lockstep waits: no script subscribes to {_joined(unsubscribed)}, given by --lockstep"
         if not self._started:
             return (
-                f"lockstep waits before the second step for a controller that publishes {_joined(self._topics)} and "
+                f"{BEFORE_THE_CONTROLLER} that publishes {_joined(self._topics)} and "
                 "subscribes to a topic of the scripts: is it running, with this master?"
             )
         missing = {topic for topic in self._pending if not self._bridge.has_publisher(self._subscribers[topic])}

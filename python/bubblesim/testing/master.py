@@ -51,16 +51,18 @@ class Master:
 
 def start_master(programs: Programs) -> Master:
     """Start a master on a free port, on simulated time. It starts faster than roscore, which also runs rosout."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    master = Master(f"http://localhost:{port}")
-    programs.start("ROS master", "rosmaster", "--core", "-p", str(port), serves_others=True)
-    deadline = time.monotonic() + _TIMEOUT
-    while not master.answers():
-        programs.check()
-        if time.monotonic() > deadline:
-            raise RunError(f"the ROS master at {master.uri} does not respond")
-        time.sleep(0.01)
+    with socket.socket() as holder:
+        # The master sets SO_REUSEADDR, too, and may have the port; the kernel gives it to no other process meanwhile.
+        holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        holder.bind(("127.0.0.1", 0))
+        port = holder.getsockname()[1]
+        master = Master(f"http://localhost:{port}")
+        programs.start("ROS master", "rosmaster", "--core", "-p", str(port), serves_others=True)
+        deadline = time.monotonic() + _TIMEOUT
+        while not master.answers():
+            programs.check()
+            if time.monotonic() > deadline:
+                raise RunError(f"the ROS master at {master.uri} does not respond")
+            time.sleep(0.01)
     master.set_parameter("/use_sim_time", True)
     return master

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 _NODE = "/sim_ros_interface"
 _TIMEOUT = 30.0  # s
+_STARTING_PATIENCE = 20.0  # s until a controller is connected; longer than the node waits in a step
 _POLL = 0.03  # s; each query keeps the master from other nodes for some milliseconds
 _STEPS_PER_CALL = 200
 _TOLERANCE = 1e-6  # of a second
@@ -70,17 +71,25 @@ class Simulator:
             self._run_steps(min(max(left, 1), _STEPS_PER_CALL))
 
     def _run_steps(self, steps: int) -> None:
+        from bubblesim.observers.lock_step import BEFORE_THE_CONTROLLER  # loads slowly, while the node also starts
+
         before = self.time
+        deadline = time.monotonic() + _STARTING_PATIENCE
+        while problem := self._try_steps(steps):
+            self._programs.check()  # a program that has ended is the better explanation
+            if not problem.startswith(BEFORE_THE_CONTROLLER) or time.monotonic() > deadline:
+                raise RunError(problem)
+        self._time_step = self._time_step or (self.time - before) / steps
+
+    def _try_steps(self, steps: int) -> str:
+        """Return why not all steps were done; empty if they were."""
         try:
             answer = self._step.call(steps=steps)
         except ConnectionError:
             self._programs.check()
             raise
         self.time = answer["time"]
-        if not answer["success"]:
-            self._programs.check()  # a program that has ended is the better explanation
-            raise RunError(answer["status_message"])
-        self._time_step = self._time_step or (self.time - before) / steps
+        return "" if answer["success"] else str(answer["status_message"])
 
     def position(self, path: str) -> tuple[float, float, float]:
         """Return the position of an object, metres in the world frame.
