@@ -65,7 +65,7 @@ def test_a_simulation_that_runs_well_and_one_that_is_paused_are_fine(
         before = len(received.all(SIMULATION))
         wait_until(lambda: len(received.all(SIMULATION)) > before + 1, "messages while paused")
         assert node.end() == 0
-    status = next(s for s in received.all(SIMULATION) if "running at real-time" in s[2])
+    status = next(s for s in received.all(SIMULATION) if s[1] == OK and "running at real-time" in s[2])
     assert status[3] == "bubblesim"
     assert status[4]["State"] == "running"
     assert int(status[4]["Steps"]) > 0
@@ -84,9 +84,11 @@ def test_slow_passes_and_a_failed_script_are_reported(roscore: RosCore, received
     script = write(tmp_path / "script.py", code)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
         received.wait_for(SIMULATION, lambda level, text, _: level == WARN and text.endswith("wanted 1.00"), "slowness")
-        roscore.run("rostopic", "pub", "-1", "/end", "std_msgs/Empty")
         reported = "child scripts disabled after an error: 1"
-        received.wait_for(SIMULATION, lambda level, text, _: level == ERROR and reported in text, "the failed script")
+        with roscore.publishing("/end", "std_msgs/Empty"):
+            received.wait_for(
+                SIMULATION, lambda level, text, _: level == ERROR and reported in text, "the failed script"
+            )
         assert node.end() == 3  # a script failed
     assert received.all(SIMULATION)[-1][4]["Script errors"] == "1"
 

@@ -64,7 +64,7 @@ def test_a_terminal_that_is_closed_does_not_end_it_under_nohup(roscore: RosCore,
 @pytest.mark.parametrize("options", [["--paused"], ["--speed", "0.0001"]], ids=["paused", "slow"])
 def test_signals_end_it_while_it_waits(roscore: RosCore, tmp_path: Path, options: list[str]) -> None:
     with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
-        node.wait_until_listed(roscore)
+        node.wait_until_ready(roscore)
         assert node.end() == 0
 
 

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 
 from node_support import NAME, Node, run_sim, write
-from ros_support import RosCore, free_port, ros_environment, wait_until
+from ros_support import DEADLINE, RosCore, free_port, ros_environment
 
-LIMIT = 2.0  # s
 STUCK = """
     import time
     def sysCall_init(): pass
@@ -25,7 +24,7 @@ STUCK = """
 @pytest.fixture
 def first(roscore: RosCore, tmp_path: Path) -> Iterator[Node]:
     with Node(roscore.env, tmp_path / "first", "ball") as node:
-        node.wait_until_listed(roscore)
+        node.wait_until_ready(roscore)
         yield node
 
 
@@ -34,9 +33,10 @@ def test_rosnode_kill_ends_the_process(roscore: RosCore, tmp_path: Path) -> None
         tmp_path / "script.py", "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
     )
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
+        node.wait_until_listed(roscore)
         node.wait_for_output("init")
         assert "killed" in roscore.run("rosnode", "kill", NAME)
-        assert node.process.wait(timeout=LIMIT) == 0
+        assert node.process.wait(timeout=DEADLINE) == 0
         assert "info: shutdown requested: /rosnode" in node.output
         assert node.output.endswith("cleanup\n")
         assert NAME not in roscore.nodes()
@@ -48,7 +48,7 @@ def test_rosnode_kill_ends_a_process_whose_script_does_not_return(roscore: RosCo
         node.wait_for_output("begun")
         node.wait_until_listed(roscore)
         roscore.run("rosnode", "kill", NAME)
-        assert node.process.wait(timeout=LIMIT) == 0
+        assert node.process.wait(timeout=DEADLINE) == 0
 
 
 def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(roscore: RosCore, first: Node) -> None:
@@ -64,7 +64,7 @@ def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(
 
 def test_a_second_node_of_another_name_runs_beside_it(roscore: RosCore, first: Node, tmp_path: Path) -> None:
     with Node(roscore.env, tmp_path / "second", "ball", "__name:=other") as second:
-        wait_until(lambda: "/other" in roscore.nodes(), "the second node")
+        second.wait_until_ready(roscore, "/other")
         assert second.end() == 0
     assert first.process.poll() is None
 
@@ -99,12 +99,12 @@ def test_a_node_that_finds_its_name_taken_later_runs_on_without_ros_until_it_is_
         os.kill(early.process.pid, signal.SIGSTOP)
         with RosCore(tmp_path / "roslog", int(env["ROS_MASTER_URI"].rpartition(":")[2])) as core:
             with Node(core.env, tmp_path / "late", "ball") as late:
-                late.wait_until_listed(core)
+                late.wait_until_ready(core)
                 os.kill(early.process.pid, signal.SIGCONT)
                 early.wait_for_output(f"not registered: a node {NAME} is already running")
                 time.sleep(0.6)  # it checks again
                 assert late.process.poll() is None
                 assert early.output.count("is already running") == 1
                 assert late.end() == 0
-            early.wait_until_listed(core)
+            early.wait_until_ready(core)
             assert early.end() == 0

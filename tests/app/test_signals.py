@@ -15,6 +15,8 @@ LIMIT = 2.0
 SLACK = 1.5
 """Extra time for ending a process on a busy machine."""
 
+PATIENCE_WITH_MASTER = 0.7  # s, less than the node's
+
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("hook", ["sysCall_init", "sysCall_actuation", "sysCall_sensing"])
@@ -75,17 +77,19 @@ def test_a_master_that_hangs_does_not_keep_a_node_that_starts(
     roscore: RosCore, tmp_path: Path, number: signal.Signals
 ) -> None:
     roscore.pause()
+    start = time.monotonic()
     with Node(roscore.env, tmp_path / "log", "ball") as node:
         wait_until(lambda: handles(node, number), "the node to wait for the master")
         begin = time.monotonic()
         assert node.end(number) == 0
         assert time.monotonic() - begin < LIMIT + SLACK
-        assert "load" not in node.output
+        # It goes on without a master after a while, which may have passed before the signal on a busy machine.
+        assert "load" not in node.output or begin - start > PATIENCE_WITH_MASTER
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_scene_that_is_being_loaded_is_given_up(tmp_path: Path, number: signal.Signals) -> None:
-    models = "".join(f'<model name="m{i}"><static>1</static><link name="link"/></model>' for i in range(2000))
+    models = "".join(f'<model name="m{i}"><static>1</static><link name="link"/></model>' for i in range(100_000))
     scene = tmp_path / "long.sdf"
     scene.write_text(f'<sdf version="1.9"><world name="long">{models}</world></sdf>')
     with Node(clean_environment(), tmp_path / "log", scene, "--no-ros") as node:

@@ -34,7 +34,7 @@ def is_finite(simulation: bubblesim.Simulation) -> bool:
     return all(np.isfinite([*body.position, *body.orientation, *body.linear_velocity]).all() for body in bodies)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(st.tuples(st.sampled_from(OBJECTS), SETS), min_size=1, max_size=4))
 def test_setters_take_a_value_or_change_nothing(
     simulation: bubblesim.Simulation, commands: list[tuple[str, tuple[str, Any]]]
@@ -65,7 +65,7 @@ MODEL = """<sdf version="1.9"><model name="thing"><link name="l">
 </collision></link></model></sdf>"""
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(NUMBERS | st.floats(0.1, 10), min_size=10, max_size=10), st.lists(NUMBERS, min_size=3, max_size=3))
 def test_models_come_in_or_change_nothing(
     simulation: bubblesim.Simulation, numbers: list[float], position: list[float]

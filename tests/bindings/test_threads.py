@@ -96,7 +96,8 @@ def step():
 actions = [globals()[name] for name in sys.argv[4:]]
 threads = [threading.Thread(target=repeat, args=(action,)) for action in [step, *actions]]
 for thread in threads: thread.start()
-time.sleep(1.0)
+end = time.monotonic() + 1.0
+while (time.monotonic() < end or len(counts) <= len(actions)) and not failures: time.sleep(0.01)
 over.set()
 for thread in threads: thread.join()
 assert not failures, failures

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import DEADLINE, built
+from ros_support import DEADLINE, built, wait_until
 
 
 class Terminal:
@@ -48,6 +48,15 @@ class Terminal:
         before, self.text = self.text[: found.end()], self.text[found.end() :]
         return before
 
+    def wait_until_asleep(self) -> None:
+        """Return when its main thread waits for a key or an answer. At a prompt that it has just printed it does not
+        wait yet, and would notice a signal at the next key only."""
+        wait_until(lambda: state_of(self.process.pid) == "S", "the shell to wait", 3 * DEADLINE)
+
+    def wait_until_node_has_ended(self) -> None:
+        children = Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children")
+        wait_until(lambda: all(map(has_ended, children.read_text().split())), "the end of the node")
+
     def type(self, text: str) -> None:
         os.write(self._master, text.encode())
 
@@ -55,6 +64,19 @@ class Terminal:
         self.process.kill()
         self.process.wait()
         os.close(self._master)
+
+
+def state_of(pid: int | str) -> str:
+    """Return the state of the main thread of a process as in `ps`."""
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+
+
+def has_ended(pid: str) -> bool:
+    """Return whether a process only waits to be reaped; its other threads may end after the main thread."""
+    try:
+        return state_of(pid) == "Z" and len(list(Path(f"/proc/{pid}/task").iterdir())) == 1
+    except OSError:  # reaped
+        return True
 
 
 @pytest.fixture
@@ -78,17 +100,20 @@ def test_sim_is_there_with_completion_and_short_errors(shell: Terminal, tmp_path
 
 
 def test_ctrl_c_ends_a_call_and_nothing_else(shell: Terminal) -> None:
-    shell.type("sim.setStepping(True); sim.startSimulation(); sim.step(); sim.wait(1000)\n")
-    time.sleep(1.0)
+    shell.type("sim.setStepping(True); sim.startSimulation(); sim.step()\n")
+    shell.wait_for("step[^>]*>>> ")
+    shell.type("print('wai' 'ts'); sim.wait(1000)\n")
+    shell.wait_for("waits\r?\n")
+    shell.wait_until_asleep()
     shell.type("\x03")
     shell.wait_for("KeyboardInterrupt[^>]*>>> ")
     shell.type("print('level', sim.setStepping(True))\n")
     shell.wait_for("level 1[^>]*>>> ")
-    time.sleep(1.0)  # the prompt is there before readline waits; a signal between the two counts at the next key
+    shell.wait_until_asleep()
     os.kill(shell.process.pid, signal.SIGINT)
     shell.wait_for("KeyboardInterrupt[^>]*>>> ")
     shell.type("sim.quitSimulator()\n")
-    time.sleep(0.5)
+    shell.wait_until_node_has_ended()
     shell.type("\n\n")
     shell.wait_for("the simulator has ended")
     assert shell.process.wait(DEADLINE) == 0

@@ -75,7 +75,7 @@ def test_ray_that_is_not_installed_is_named(tmp_path: Path) -> None:
 
 def test_ctrl_c_keeps_the_finished_runs(tmp_path: Path) -> None:
     write(tmp_path / "mine.py", "import time\ndef run(run):\n    time.sleep(0.05)\n    return {'a': run.seed}\n")
-    command = [built("bubblesim"), "sweep", "mine.py", "--seeds", "0:200", "--workers", "1"]
+    command = [built("bubblesim"), "sweep", "mine.py", "--seeds", "0:2000", "--workers", "1"]
     sweep = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     journal = tmp_path / "mine-sweep.csv.journal"
     deadline = time.monotonic() + 60

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from display_support import Display
-from ros_support import REPOSITORY, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 from workspace_support import Workspace
 
 PACKAGES = {
@@ -46,7 +46,7 @@ def test_image_view_shows_a_topic(roscore: RosCore) -> None:
         image = "{height: 64, width: 64, encoding: mono8, step: 64, data: [" + "9, " * 4095 + "9]}"
         sender = start(["rostopic", "pub", "-r", "5", "/image", "sensor_msgs/Image", image], display.env)
         viewer = start(["rosrun", "image_view", "image_view", "image:=/image"], display.env, stdout=subprocess.DEVNULL)
-        wait_until(lambda: bool(display.windows("/image")), "the window")
+        wait_until(lambda: bool(display.windows("/image")), "the window", 3 * DEADLINE)
         stop(viewer)
         stop(sender)
 

@@ -11,7 +11,7 @@ import pytest
 
 from node_support import write
 from ros_peer import Message, Peer
-from ros_support import wait_until
+from ros_support import DEADLINE, wait_until
 
 RADIUS, TRACK, WHEELBASE = 0.1, 0.4, 0.5  # m
 INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
@@ -346,15 +346,17 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
         {"positions": [-0.3], "time_from_start": {"secs": 2}},
     ]
     command = {"joint_names": ["arm_joint"], "points": points}
+    peer.next("/joint_states", "sensor_msgs/JointState")  # it stands at the first angle for half a second only
+    since = len(peer.received("/joint_states"))
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
 
     def at(angle: float) -> Message:
-        return peer.wait_for(
-            "/joint_states",
-            "sensor_msgs/JointState",
-            lambda state: state["position"] == pytest.approx([angle], abs=0.01),
-            f"the joint to stand at {angle} rad",
-        )
+        def found() -> list[Message]:
+            states = peer.received("/joint_states")[since:]
+            return [state for state in states if state["position"] == pytest.approx([angle], abs=0.01)]
+
+        wait_until(lambda: bool(found()), f"the joint to stand at {angle} rad", 3 * DEADLINE)
+        return found()[0]
 
     first = at(0.5)
     assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]

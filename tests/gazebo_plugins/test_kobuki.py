@@ -11,6 +11,7 @@ from bubblesim import _core
 from bubblesim.gazebo_plugins.drives.kobuki_events import bumpers_pressed, cliff_reading
 from node_support import write
 from ros_peer import Message, Peer
+from ros_support import DEADLINE, wait_until
 
 WHEEL, TRACK = 0.035, 0.23  # m
 INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
@@ -77,6 +78,7 @@ WORLD = (
     + kobuki("mobile_base", "0 0 0 0 0 0", velocity_command_timeout=0.6)
     + block("wall", "0.25 3 0.5 0 0 0", "0.1 2 1")
     + kobuki("bumps", "0 3 0 0 0 0", velocity_command_timeout=1e6, robotNamespace="bumps")
+    + kobuki("motors", "0 -3 0 0 0 0", velocity_command_timeout=1e6, robotNamespace="motors")
     + block("table", "0 6 0.25 0 0 0", "1 1 0.5")
     + kobuki("edge", "0.4 6 0.5 0 0 0", velocity_command_timeout=1e6, robotNamespace="edge")
     + "</world></sdf>"
@@ -89,32 +91,54 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
     return peer
 
 
-def odometry(peer: Peer, holds: Callable[[Message, Message], bool], what: str) -> Message:
-    """Return the first odometry for which `holds`, given its pose and its twist, is true."""
-    message = peer.wait_for(
-        "/odom", "nav_msgs/Odometry", lambda odom: holds(odom["pose"]["pose"], odom["twist"]["twist"]), what
-    )
-    assert (message["header"]["frame_id"], message["child_frame_id"]) == ("odom", "base_footprint")
-    return message
+class Messages:
+    """The messages of a topic from the construction on; none is left out between two calls."""
+
+    def __init__(self, peer: Peer, topic: str, message_type: str) -> None:
+        self._peer, self._topic = peer, topic
+        self._seen = len(peer.received(topic, message_type))
+
+    def next(self, holds: Callable[[Message], bool], what: str) -> Message:
+        """Return the first message for which `holds` is true, after the one that it returned before."""
+        found: list[int] = []
+
+        def look() -> bool:
+            messages = self._peer.received(self._topic)
+            found.extend(i for i in range(self._seen, len(messages)) if holds(messages[i]))
+            return bool(found)
+
+        wait_until(look, what, 3 * DEADLINE)
+        self._seen = found[0] + 1
+        return self._peer.received(self._topic)[found[0]]
+
+
+class Odometry(Messages):
+    """The odometry of a robot, which is connected: a motion may last a moment only."""
+
+    def __init__(self, peer: Peer, namespace: str = "") -> None:
+        topic = f"{namespace}/odom"
+        peer.next(topic, "nav_msgs/Odometry")
+        super().__init__(peer, topic, "nav_msgs/Odometry")
 
 
 def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: Peer) -> None:
-    peer.received("/odom", "nav_msgs/Odometry")
+    odometry = Odometry(peer)
     peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
-    odometry(peer, lambda _, twist: abs(twist["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
-    stopped = odometry(peer, lambda _, twist: abs(twist["linear"]["x"]) < 0.001, "it to stop by itself")
+    odometry.next(lambda odom: abs(odom["twist"]["twist"]["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
+    stopped = odometry.next(lambda odom: abs(odom["twist"]["twist"]["linear"]["x"]) < 0.001, "it to stop by itself")
+    assert (stopped["header"]["frame_id"], stopped["child_frame_id"]) == ("odom", "base_footprint")
     # 0.6 s and at most a step or two of 50 ms at 0.2 m/s, minus the acceleration time.
     assert stopped["pose"]["pose"]["position"]["x"] == pytest.approx(0.12, abs=0.03)
     states = peer.next("/joint_states", "sensor_msgs/JointState")
     assert states["name"] == ["wheel_left_joint", "wheel_right_joint"]
     peer.say("/mobile_base/commands/reset_odometry", "std_msgs/Empty", {})
-    odometry(peer, lambda pose, _: abs(pose["position"]["x"]) < 1e-3, "the odometry to start over")
+    odometry.next(lambda odom: abs(odom["pose"]["pose"]["position"]["x"]) < 1e-3, "the odometry to start over")
 
 
 def test_its_heading_is_that_of_its_gyroscope(peer: Peer) -> None:
-    peer.received("/odom", "nav_msgs/Odometry")
+    odometry = Odometry(peer)
     peer.drive("/mobile_base/commands/velocity", 0.0, 1.0)
-    turning = odometry(peer, lambda _, twist: twist["angular"]["z"] > 0.9, "1 rad/s to the left")
+    turning = odometry.next(lambda odom: odom["twist"]["twist"]["angular"]["z"] > 0.9, "1 rad/s to the left")
     assert turning["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.05)
     imu = peer.next("/mobile_base/sensors/imu_data", "sensor_msgs/Imu")
     assert imu["linear_acceleration"]["z"] == pytest.approx(9.8, abs=0.3)
@@ -122,31 +146,37 @@ def test_its_heading_is_that_of_its_gyroscope(peer: Peer) -> None:
 
 
 def test_motors_without_power_stand_still(peer: Peer) -> None:
-    peer.received("/odom", "nav_msgs/Odometry")
-    peer.say("/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 0})
-    peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
-    assert peer.next("/odom", count=10)["twist"]["twist"]["linear"]["x"] == pytest.approx(0, abs=1e-3)
-    peer.say("/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 1})
-    peer.drive("/mobile_base/commands/velocity", 0.2, 0.0)
-    odometry(peer, lambda _, twist: abs(twist["linear"]["x"] - 0.2) < 0.01, "0.2 m/s")
+    """Its command stays valid, and each step waits for the one before: two topics have no common order."""
+    odometry = Odometry(peer, "/motors")
+
+    def at(turning: float) -> None:
+        odometry.next(lambda odom: abs(odom["twist"]["twist"]["angular"]["z"] - turning) < 0.05, f"{turning} rad/s")
+
+    peer.drive("/motors/mobile_base/commands/velocity", 0.0, 1.0)
+    at(1.0)
+    peer.say("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 0})
+    at(0.0)
+    assert peer.next("/motors/odom", count=10)["twist"]["twist"]["angular"]["z"] == pytest.approx(0, abs=1e-3)
+    peer.say("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 1})
+    at(1.0)
 
 
 def test_a_wall_presses_and_releases_the_bumper_in_the_middle(peer: Peer) -> None:
-    peer.received("/bumps/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
+    events = Messages(peer, "/bumps/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
     peer.drive("/bumps/mobile_base/commands/velocity", 0.1, 0.0)
-    pressed = peer.wait_for("/bumps/mobile_base/events/bumper", "", lambda event: event["state"] == 1, "a press")
+    pressed = events.next(lambda event: event["state"] == 1, "a press")
     assert pressed["bumper"] == 1
     peer.drive("/bumps/mobile_base/commands/velocity", -0.1, 0.0)
-    released = peer.wait_for("/bumps/mobile_base/events/bumper", "", lambda event: event["state"] == 0, "a release")
+    released = events.next(lambda event: event["state"] == 0, "a release")
     assert released["bumper"] == 1
 
 
 def test_the_edge_of_a_table_is_a_cliff_until_there_is_floor_again(peer: Peer) -> None:
-    topic = "/edge/mobile_base/events/cliff"
-    cliff = peer.wait_for(topic, "kobuki_msgs/CliffEvent", lambda event: event["state"] == 1, "a cliff")
+    events = Messages(peer, "/edge/mobile_base/events/cliff", "kobuki_msgs/CliffEvent")
+    cliff = events.next(lambda event: event["state"] == 1, "a cliff")
     assert (cliff["sensor"], cliff["bottom"]) == (1, 0), "0.156 m ahead of 0.4 m there is no table, nor floor in range"
     peer.drive("/edge/mobile_base/commands/velocity", -0.1, 0.0)
-    floor = peer.wait_for(topic, "", lambda event: event["state"] == 0, "the floor")
+    floor = events.next(lambda event: event["state"] == 0, "the floor")
     assert floor["sensor"] == 1
 
 

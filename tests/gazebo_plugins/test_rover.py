@@ -2,6 +2,7 @@
 """A robot from a URDF file with Gazebo plugins, spawned and driven through ROS."""
 
 import math
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from ros_peer import Message, Peer
-from ros_support import REPOSITORY, RosCore, wait_until
+from ros_support import DEADLINE, REPOSITORY, RosCore, wait_until
 
 HERE = Path(__file__).parent
 ROVER = (REPOSITORY / "scenes/models/rover/rover.urdf").read_text()
@@ -40,8 +41,20 @@ def spawn(peer: Peer, name: str, namespace: str, y: float = 0.0) -> None:
 @pytest.fixture
 def peer(running: object) -> Peer:
     """Return the peer, with the rover at its start, without commands."""
-    running.peer.call("/gazebo/reset_world")
+    reset(running.peer)
     return running.peer
+
+
+def reset(peer: Peer) -> None:
+    """Reset the world, and wait for the first odometry of a later step: the earlier ones may come after the answer."""
+    peer.call("/gazebo/reset_world")
+    answered = time.time()  # the stamps are of this clock, too
+    peer.wait_for("/odom", "nav_msgs/Odometry", lambda odom: stamp(odom) > answered, "an odometry after the reset")
+
+
+def stamp(message: Message) -> float:
+    stamped = message["transforms"][0] if "transforms" in message else message
+    return float(stamped["header"]["stamp"])
 
 
 def position(message: Message) -> list[float]:
@@ -53,28 +66,46 @@ def yaw(message: Message) -> float:
     return 2 * math.atan2(orientation["z"], orientation["w"])
 
 
-def truth(peer: Peer) -> Message:
-    return peer.next("/truth", "nav_msgs/Odometry")
+def truth(peer: Peer, odom: Message) -> Message:
+    """Return the true motion in the step of an odometry or a later one."""
+    return peer.wait_for("/truth", "nav_msgs/Odometry", lambda each: stamp(each) >= stamp(odom), "the truth")
 
 
-def at_time(messages: list[Message], message: Message) -> Message:
-    """Return the message of the same step as another message."""
-    return next(each for each in messages if each["header"]["stamp"] == message["header"]["stamp"])
+def of_one_step(
+    peer: Peer, topic: str, message_type: str, holds: Callable[[Message], bool], what: str
+) -> tuple[Message, Message]:
+    """Return the first odometry for which `holds` is true, and the message of its step on another topic.
+
+    The topics are connected at different times, and a step's message may be dropped: the queues hold one.
+    """
+    found: list[tuple[Message, Message]] = []
+
+    def look() -> bool:
+        others = {stamp(each): each for each in peer.received(topic, message_type)}
+        odometry = [each for each in peer.received("/odom", "nav_msgs/Odometry") if stamp(each) in others]
+        found.extend((each, others[stamp(each)]) for each in odometry if holds(each))
+        return bool(found)
+
+    wait_until(look, what, 3 * DEADLINE)
+    return found[0]
 
 
 def test_it_drives_at_the_speed_that_a_twist_says(peer: Peer) -> None:
-    truths = peer.received("/truth", "nav_msgs/Odometry")
-    peer.received("/odom", "nav_msgs/Odometry")
+    peer.next("/truth", "nav_msgs/Odometry")
+    begin = time.time()
     peer.drive("/cmd_vel", 0.5, 0.0)
-    rolling = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.3, "a start")
-    odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 1.0, "1 m of driving")
+
+    def driven_by(way: float) -> tuple[Message, Message]:
+        def holds(odom: Message) -> bool:
+            return stamp(odom) > begin and position(odom)[0] > way
+
+        return of_one_step(peer, "/truth", "nav_msgs/Odometry", holds, f"{way} m of driving")
+
+    rolling, truly_rolling = driven_by(0.3)
+    odom, really = driven_by(1.0)
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("odom", "base_link")
     assert odom["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.01)
-    wait_until(
-        lambda: peer.received("/truth")[-1]["header"]["stamp"] >= odom["header"]["stamp"], "the truth of that step"
-    )
-    really = at_time(truths, odom)
-    driven = position(really)[0] - position(at_time(truths, rolling))[0]  # the wheels slip when it starts
+    driven = position(really)[0] - position(truly_rolling)[0]  # the wheels slip when it starts
     assert driven == pytest.approx(position(odom)[0] - position(rolling)[0], rel=0.01)
     assert really["twist"]["twist"]["linear"]["x"] == pytest.approx(0.5, rel=0.02)
 
@@ -83,18 +114,12 @@ def test_it_turns_to_the_left_for_a_positive_twist(peer: Peer) -> None:
     peer.drive("/cmd_vel", 0.0, 1.0)
     odom = peer.wait_for("/odom", "nav_msgs/Odometry", lambda message: yaw(message) > 1.0, "a turn of 1 rad")
     assert odom["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.01)
-    assert truth(peer)["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.02)
+    assert truth(peer, odom)["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.02)
 
 
 def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
-    peer.received("/tf", "tf2_msgs/TFMessage")
-    odom = peer.next("/odom", "nav_msgs/Odometry", count=3)
-
-    def of_that_pass(message: Message) -> bool:
-        return bool(message["transforms"][0]["header"]["stamp"] == odom["header"]["stamp"])
-
-    wait_until(lambda: any(map(of_that_pass, peer.received("/tf"))), "the transforms of that step")
-    (message,) = filter(of_that_pass, peer.received("/tf"))
+    odom, message = of_one_step(peer, "/tf", "tf2_msgs/TFMessage", lambda _: True, "the transforms of a step")
+    assert [stamp(each) for each in peer.received("/tf")].count(stamp(odom)) == 1
     frames = {each["child_frame_id"]: each for each in message["transforms"]}
     base = frames["base_link"]
     assert base["header"]["frame_id"] == "odom"
@@ -164,7 +189,7 @@ def test_a_twist_that_is_not_finite_is_left_out(running: object, peer: Peer) -> 
 def test_a_reset_stops_it(peer: Peer) -> None:
     peer.drive("/cmd_vel", 0.5, 0.0)
     peer.wait_for("/odom", "nav_msgs/Odometry", lambda odom: position(odom)[0] > 0.3, "driving")
-    peer.call("/gazebo/reset_world")
+    reset(peer)
     odom = peer.next("/odom", count=5)
     assert position(odom) == pytest.approx([0, 0, 0], abs=0.01)
 
@@ -176,8 +201,8 @@ def test_a_second_one_has_topics_and_frames_in_its_namespace_until_it_goes(runni
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("other/odom", "other/base_link")
     assert peer.next("/other/scan", "sensor_msgs/LaserScan")["header"]["frame_id"] == "other/laser_link"
     peer.drive("/other/cmd_vel", 0.3, 0.0)
-    peer.wait_for("/other/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.1, "driving")
-    assert position(truth(peer)) == pytest.approx([0, 0, 0], abs=0.01)
+    odom = peer.wait_for("/other/odom", "nav_msgs/Odometry", lambda message: position(message)[0] > 0.1, "driving")
+    assert position(truth(peer, odom)) == pytest.approx([0, 0, 0], abs=0.01)
     assert peer.call("/gazebo/delete_model", model_name="other")["success"]
     wait_until(lambda: "/other/odom" not in core.state()["publishers"], "its topics to go")
     assert "/odom" in core.state()["publishers"]

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from node_support import Node, write
-from ros_peer import Peer
+from ros_peer import Message, Peer
 from ros_support import RosCore, wait_until
 
 ROBOT = """\
@@ -43,25 +43,27 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
     return peer
 
 
-def measurements(peer: Peer) -> tuple[float, int]:
-    """Return the simulated time of the next report after the first step, and the number of measurements until then."""
-    while True:
-        message = peer.next("/diagnostics", "diagnostic_msgs/DiagnosticArray")
-        for status in message["status"]:
-            values = {pair["key"]: pair["value"] for pair in status["values"]}
-            if float(values.get("Simulation time (s)", 0)) > 0:
-                return float(values["Simulation time (s)"]), int(values["Measurements of sensors"])
+def measurements(peer: Peer, after: float = 0.0) -> tuple[float, int]:
+    """Return the simulated time of the next report after a time, and the number of measurements until then."""
+
+    def values(message: Message) -> dict[str, str]:
+        return {pair["key"]: pair["value"] for status in message["status"] for pair in status["values"]}
+
+    def is_later(message: Message) -> bool:
+        return float(values(message).get("Simulation time (s)", 0)) > after
+
+    report = values(peer.wait_for("/diagnostics", "diagnostic_msgs/DiagnosticArray", is_later, "a later report"))
+    return float(report["Simulation time (s)"]), int(report["Measurements of sensors"])
 
 
 def test_sensors_measure_only_while_somebody_listens(peer: Peer) -> None:
     time, before = measurements(peer)
-    later, still = measurements(peer)
-    assert later > time, "the simulation runs"
+    _, still = measurements(peer, after=time)
     assert still == before
     peer.next("/scan", "sensor_msgs/LaserScan")
     wait_until(lambda: measurements(peer)[1] > before, "the lidar's measurements")
     time, before = measurements(peer)
-    later, after = measurements(peer)
+    later, after = measurements(peer, after=time + 1.0)
     # 20 steps per second, of the lidar only: two cameras with it would give three times as many.
     assert 0 < after - before < 2 * 20 * (later - time)
 

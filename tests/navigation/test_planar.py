@@ -3,7 +3,7 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from bubblesim.controllers.planar_motion import Pose2D
@@ -18,6 +18,7 @@ def test_a_point_ahead_and_one_to_the_left() -> None:
     assert seen_from(POSE, (0.0, 2.0)) == pytest.approx((0.0, 1.0))
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])  # a busy machine may stand still
 @given(metres, metres, st.floats(-10, 10), metres, metres)
 def test_what_is_seen_lies_where_it_is(x: float, y: float, heading: float, px: float, py: float) -> None:
     pose = Pose2D(x, y, heading)

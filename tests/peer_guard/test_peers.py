@@ -222,7 +222,7 @@ def test_odd_parameters_are_answered(node: Node, name: str, value: str) -> None:
 def test_lengths_beyond_a_tcpros_header_end_its_connection(sim: Node) -> None:
     port = sim.tcpros_port("/tf")
     for _ in range(50):
-        with socket.create_connection(("127.0.0.1", port), timeout=10) as connection:
+        with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
             connection.sendall(struct.pack("<II", 8, 1_000_000) + b"abcd")
             with contextlib.suppress(ConnectionError):
                 assert connection.recv(1) == b""
@@ -237,7 +237,7 @@ def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
     request = b"GET / HTTP/1.0\r\n\r\n"
     for _ in range(100):
         for target, junk in ((sim.port, request), (port, request), (port, unreadable), (port, of_nobody)):
-            with socket.create_connection(("127.0.0.1", target), timeout=10) as connection:
+            with socket.create_connection(("127.0.0.1", target), timeout=60) as connection:
                 connection.sendall(junk)
                 connection.shutdown(socket.SHUT_WR)
                 with contextlib.suppress(ConnectionError):

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The begin and the end of the door."""
 
-import time
 from pathlib import Path
 
 import cbor2
+import zmq
 
 from door_support import Door
 from node_support import run_sim
+from ros_support import DEADLINE
 
 
 def test_the_end_of_the_node_is_reported_to_those_who_wait(tmp_path: Path) -> None:
@@ -15,16 +16,18 @@ def test_the_end_of_the_node_is_reported_to_those_who_wait(tmp_path: Path) -> No
         one, two = door.sim(), door.sim()
         one.startSimulation()
         one.pauseSimulation()
-        raw = door.raw()
-        for name in ("sim.getSimulationTime", "sim.step"):
-            raw.send(cbor2.dumps({"func": name, "args": [], "uuid": "waits"}))
-            assert name == "sim.step" or cbor2.loads(raw.recv()) == {"ret": [one.getSimulationTime()]}
-        time.sleep(0.5)  # the sockets are not ordered: the step of the one may arrive after the end of the other
+        raw = door.raw(zmq.DEALER)  # it may send another request before the reply
+        for name in ("sim.getSimulationTime", "sim.step", "sim.getSimulationTime"):
+            raw.send_multipart([b"", cbor2.dumps({"func": name, "args": [], "uuid": "waits"})])
+        replies = [cbor2.loads(raw.recv_multipart()[-1]) for _ in range(2)]
+        # The sockets are not ordered: without the second reply the step might arrive after the end.
+        assert replies[0] == {"ret": [one.getSimulationTime()]}
+        assert "the previous call on this socket is not answered yet" in replies[1]["err"]
         assert two.getSimulationState() == two.simulation_paused
         two.quitSimulator()
-        assert "the simulator has ended" in cbor2.loads(raw.recv())["err"]
+        assert "the simulator has ended" in cbor2.loads(raw.recv_multipart()[-1])["err"]
         raw.close()
-        assert door.process.wait(10) == 0
+        assert door.process.wait(DEADLINE) == 0
 
 
 def test_an_address_in_use_is_an_error(door: Door) -> None:

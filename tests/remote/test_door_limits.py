@@ -9,6 +9,7 @@ import pytest
 import zmq
 
 from door_support import Door
+from ros_support import DEADLINE
 
 
 def test_strange_messages_get_an_error(door: Door) -> None:
@@ -46,19 +47,20 @@ def test_a_flood_stops_neither_steps_nor_other_clients(door: Door) -> None:
     sim.startSimulation()
     flood = door.raw(zmq.DEALER)
     request = cbor2.dumps({"func": "sim.getSimulationTime", "args": [], "uuid": "flood"})
-    deadline = time.monotonic() + 2.0
     sent = 0
-    begin = sim.getSimulationTime()
-    while time.monotonic() < deadline:
+    begin = now = sim.getSimulationTime()
+    start = looked = time.monotonic()
+    # For 2 s, and on a busy machine for as long as the steps take.
+    while (passed := time.monotonic() - start) < 2.0 or (now <= begin + 1.0 and passed < DEADLINE):
         try:
             flood.send_multipart([b"", request], zmq.NOBLOCK)
             sent += 1
         except zmq.Again:
             pass
-        if sent % 5000 == 0:
-            assert sim.getSimulationTime() >= begin
+        if time.monotonic() > looked + 0.1:
+            now, looked = sim.getSimulationTime(), time.monotonic()
     assert sent > 1000
-    assert sim.getSimulationTime() > begin + 1.0
+    assert now > begin + 1.0
     flood.close()
 
 

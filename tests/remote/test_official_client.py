@@ -10,6 +10,7 @@ import pytest
 from coppeliasim_zmqremoteapi_client.asyncio import RemoteAPIClient as AsyncClient
 
 from door_support import TIMEOUT, Door, refusal
+from ros_support import DEADLINE
 
 
 def test_the_flow_of_the_clients_simple_test(tmp_path: Path) -> None:
@@ -24,7 +25,7 @@ def test_the_flow_of_the_clients_simple_test(tmp_path: Path) -> None:
         sim.startSimulation()
         while (now := sim.getSimulationTime()) < 3:
             sim.addLog(sim.verbosity_scriptinfos, f"Simulation time: {now:.2f} [s]")
-        assert 2.5 < time.monotonic() - begin < 10
+        assert 2.5 < time.monotonic() - begin < 3 * DEADLINE  # a busy machine may be slower than real time
         sim.stopSimulation()
         while sim.getSimulationState() != sim.simulation_stopped:
             time.sleep(0.1)

@@ -13,7 +13,7 @@ import pytest
 
 from door_support import Door
 from node_support import run_sim, write
-from ros_support import wait_until
+from ros_support import DEADLINE, wait_until
 
 
 def test_two_clients_step_together(door: Door) -> None:
@@ -102,13 +102,15 @@ def test_a_client_killed_at_any_moment_releases_the_simulation(door: Door, tmp_p
 def test_a_client_that_is_silent_for_its_timeout_is_released(door: Door) -> None:
     sim = door.sim()
     silent = door.raw()
+    begin = time.monotonic()
     for message in (
         {"func": "sim.setStepping", "args": [True], "uuid": "silent", "ver": 2, "timeout": 1},
         {"func": "sim.startSimulation", "args": [], "uuid": "silent"},
     ):
         silent.send(cbor2.dumps(message))
         assert "ret" in cbor2.loads(silent.recv())
-    assert sim.getSimulationTime() == 0
+    # A machine that is busy for longer than the timeout releases it before.
+    assert sim.getSimulationTime() == 0 or time.monotonic() - begin > 1
     wait_until(lambda: sim.getSimulationTime() > 0, "the release")
     assert "is silent for 1 s and was released" in door.output
     silent.close()
@@ -117,8 +119,9 @@ def test_a_client_that_is_silent_for_its_timeout_is_released(door: Door) -> None
 def test_a_silent_client_changes_nothing(tmp_path: Path) -> None:
     options = ["--no-ros", "--speed", "max", "--until", 3, "--state-hash", "--seed", 5]
     alone = run_sim("tricycle", *options).stdout.split()[-1]
-    with Door(tmp_path, "--speed", 2, "--start", *options[3:]) as door:
+    with Door(tmp_path, "--speed", 2, *options[3:]) as door:
         sim = door.sim()
         sim.getObject("/Tricycle")
-        door.process.wait(20)
+        sim.startSimulation()  # not before: the run is short
+        door.process.wait(3 * DEADLINE)
         assert door.output.split()[-1] == alone

@@ -20,6 +20,7 @@ NAME = "/sim_ros_interface"
 MEGABYTE = 1_000_000
 RATE = 50
 QUEUE = 10
+PART = QUEUE // 2
 CYCLES = 200
 MASTER_CONNECTIONS = 2  # roscpp may keep these open between calls; a leak would show CYCLES times
 
@@ -35,10 +36,13 @@ def open_descriptors(probe: Probe) -> int:
     return len(list(Path(f"/proc/{probe.process.pid}/fd").iterdir()))
 
 
-def flood(probe: Probe, publisher: str, seconds: int) -> None:
-    """Publish one megabyte 50 times a second; in parts, so that no answer exceeds the test's timeout."""
-    for _ in range(seconds):
-        probe.ask("flood", publisher, MEGABYTE, RATE)
+def flood(probe: Probe, publisher: str, live: Probe, subscriber: str, count: int) -> None:
+    """Publish one megabyte 50 times a second; in parts that fit into the queue, until each has reached a subscriber."""
+    for left in range(count, 0, -PART):
+        part = min(left, PART)
+        wanted = len(live.messages(subscriber)) + part
+        probe.ask("flood", publisher, MEGABYTE, part)
+        live.wait_for(lambda wanted=wanted: len(live.messages(subscriber)) >= wanted, "all messages")
 
 
 @pytest.mark.parametrize("seconds", [10, pytest.param(60, marks=pytest.mark.long)])
@@ -52,8 +56,7 @@ def test_stopped_subscriber_costs_its_queue_and_the_others_nothing(roscore: RosC
         subscriber = live.ask("subscribe", "/big", "string", "size")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the live subscriber to connect")
         wait_until(lambda: "/live" in roscore.state()["subscribers"].get("/big", []), "the live subscriber")
-        flood(probe, publisher, 1)
-        live.wait_for(lambda: len(live.messages(subscriber)) == RATE, "the first messages")
+        flood(probe, publisher, live, subscriber, RATE)
         before = resident_megabytes(probe)
 
         late = stuck.ask("subscribe", "/big", "string", "size")
@@ -61,11 +64,11 @@ def test_stopped_subscriber_costs_its_queue_and_the_others_nothing(roscore: RosC
         end = time.monotonic() + DEADLINE
         while not stuck.messages(late):
             assert time.monotonic() < end, "the second subscriber did not connect"
-            probe.ask("flood", publisher, MEGABYTE, 1)
+            flood(probe, publisher, live, subscriber, 1)
             sent += 1
         os.kill(stuck.process.pid, signal.SIGSTOP)
-        flood(probe, publisher, seconds)
-        live.wait_for(lambda: len(live.messages(subscriber)) == sent + seconds * RATE, "all messages")
+        flood(probe, publisher, live, subscriber, seconds * RATE)
+        assert len(live.messages(subscriber)) == sent + seconds * RATE
         os.kill(stuck.process.pid, signal.SIGCONT)
         # The queue, one message in progress, and as much again for the allocator.
         assert resident_megabytes(probe) - before < 2 * (QUEUE + 1)

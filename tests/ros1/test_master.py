@@ -94,9 +94,10 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
         Probe(restartable.core.env, "__name:=peer") as peer,
     ):
         publisher, subscriber = make_endpoints(probe)
-        both = probe.ask("subscribe", "/out", "float")
         received, said = peer.ask("subscribe", "/out", "float"), peer.ask("advertise", "/in", "float")
         peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
+        probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the peer to connect")
+        both = probe.ask("subscribe", "/out", "float")
         wait_until(lambda: len(restartable.core.state()["subscribers"].get("/out", [])) == 2, "the subscribers")
         os.kill(peer.process.pid, signal.SIGSTOP)  # it must not register again by itself
         restartable.kill()
@@ -140,7 +141,9 @@ def test_node_that_the_master_forgot_comes_back(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         publisher, subscriber = make_endpoints(probe)
         wait_until(lambda: is_back(roscore), "the registrations")
+        os.kill(probe.process.pid, signal.SIGSTOP)  # it would come back while the master still forgets
         forget(roscore, NAME)
+        os.kill(probe.process.pid, signal.SIGCONT)
         wait_until(lambda: is_back(roscore), "the registrations to come back")
         check_delivery(roscore, probe, publisher, subscriber, "peer")
 

@@ -18,14 +18,17 @@ SLACK = 1.5
 
 def test_node_is_listed_under_its_name(roscore: RosCore) -> None:
     with Probe(roscore.env):
+        wait_until(lambda: NAME in roscore.nodes(), "the node")
         assert NAME in roscore.run("rosnode", "list").split()
 
 
 def test_start_says_where_it_connected(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         expected = f"plugin 'ROSInterface': load succeeded: node {NAME} at ROS master http://localhost:{roscore.port}"
-        probe.wait_for(lambda: probe.errors == [expected], "the line")
-        assert probe.ask("connected") == "yes"
+        probe.wait_for(lambda: expected in probe.errors, "the line")
+        # A master that takes more than a second, as on a busy machine, is missed at first.
+        assert [line for line in probe.errors if "load failed" not in line] == [expected]
+        probe.wait_for(lambda: probe.ask("connected") == "yes", "the connection")
 
 
 def test_name_remapping_renames_the_node(roscore: RosCore) -> None:
@@ -85,8 +88,13 @@ def test_clock_is_published(roscore: RosCore) -> None:
         wait_until(lambda: NAME in roscore.state()["publishers"].get("/clock", []), "/clock to be advertised")
         subscriber = probe.ask("subscribe", "/clock", "clock")
         wait_until(lambda: NAME in roscore.state()["subscribers"].get("/clock", []), "the subscriber")
-        probe.ask("clock", 3.25)
-        probe.wait_for(lambda: probe.messages(subscriber) == ["3 250000000"], "the clock")
+
+        def arrives() -> bool:  # the node connects to itself after the master knows both
+            probe.ask("clock", 3.25)
+            return bool(probe.messages(subscriber))
+
+        probe.wait_for(arrives, "the clock")
+        assert probe.messages(subscriber)[0] == "3 250000000"
 
 
 def test_clock_is_left_to_a_script_that_advertises_it(roscore: RosCore) -> None:
@@ -109,13 +117,15 @@ def test_clock_is_left_to_a_script_that_advertises_it(roscore: RosCore) -> None:
 def test_now_is_the_wall_clock_without_use_sim_time(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         probe.ask("clock", 12.5)
+        before = time.time()
         seconds, nanoseconds = map(int, probe.ask("now").split())
-        assert abs(seconds + nanoseconds * 1e-9 - time.time()) < 5.0
+        assert before - 1e-3 < seconds + nanoseconds * 1e-9 < time.time() + 1e-3
 
 
 def test_now_is_simulation_time_under_use_sim_time(roscore: RosCore) -> None:
     roscore.set_param("/use_sim_time", True)
     with Probe(roscore.env) as probe:
+        probe.wait_for(lambda: probe.ask("connected") == "yes", "the parameter to be read")
         assert probe.ask("now") == "0 0"
         probe.ask("clock", 12.05)
         assert probe.ask("now") == "12 50000000"
@@ -123,6 +133,7 @@ def test_now_is_simulation_time_under_use_sim_time(roscore: RosCore) -> None:
 
 def test_pause_services_notify_the_application(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
+        wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the services")
         roscore.run("rosservice", "call", f"{NAME}/pause")
         probe.wait_for(lambda: "paused" in probe.events, "the call")
         roscore.run("rosservice", "call", f"{NAME}/unpause")

@@ -14,6 +14,7 @@ from ros_support import RosCore, start, stop, wait_until
 @contextmanager
 def rostopic_echo(core: RosCore, topic: str, log: Path) -> Iterator[None]:
     """Write `rostopic echo` of an advertised topic to a file, from its subscription until the end of the block."""
+    wait_until(lambda: topic in core.state()["publishers"], f"{topic} to be advertised")  # rostopic warns otherwise
     with log.open("w") as file:
         echo = start(["rostopic", "echo", topic], core.env, stdout=file, stderr=subprocess.STDOUT)
         try:
@@ -157,7 +158,7 @@ def test_drain_serves_the_others_before_it_throws(roscore: RosCore) -> None:
         other = probe.ask("subscribe", "/loop", "string")
         publisher = probe.ask("advertise", "/loop", "string")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the connection to itself")
-        probe.ask("publish", publisher, "hello")
+        probe.ask("publish", publisher, "hello", other)  # returns when both have it in their queue
         probe.wait_for(lambda: f"process_input threw subscriber {thrower}" in probe.events, "the error")
         assert probe.messages(other) == ["hello"]
 

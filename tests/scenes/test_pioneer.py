@@ -99,9 +99,10 @@ truths = {}
 rospy.Subscriber('/ground_truth', Odometry, lambda m: truths.setdefault(m.header.stamp, m))
 while True:
     odom = rospy.wait_for_message('/odom', Odometry)
-    if odom.header.stamp in truths:
+    truth = truths.get(odom.header.stamp)
+    # A robot that gets no command for a while, from a busy machine, stops and starts again.
+    if truth and abs(truth.twist.twist.linear.x - 0.4) < 0.004 and abs(truth.twist.twist.angular.z - 0.5) < 0.005:
         break
-truth = truths[odom.header.stamp]
 place = lambda m: [m.pose.pose.position.x, m.pose.pose.position.y, m.pose.pose.orientation.z]
 print(json.dumps({'odom': place(odom), 'truth': place(truth), 'frames': [odom.header.frame_id, odom.child_frame_id],
     'speeds': [odom.twist.twist.linear.x, odom.twist.twist.angular.z],

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import DEADLINE, SUPPORT, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, SUPPORT, RosCore, start, stop_launch, wait_until
 
 # Heights of the frames from the robots' dimensions, metres.
 FRAMES = {
@@ -55,7 +55,7 @@ def test_all_frames_of_a_robot_hang_together(roscore: RosCore, tmp_path: Path, r
             check=True,
         )
     finally:
-        stop(launched)
+        stop_launch(launched)
     heights = {frame: float(z) for frame, _, _, z in (line.split() for line in probe.stdout.splitlines())}
     assert heights == pytest.approx(FRAMES[robot], abs=1e-3)
 
@@ -71,7 +71,7 @@ def test_use_sim_time_is_put_back_at_the_end(roscore: RosCore, before: bool | No
         launched.send_signal(signal.SIGINT)
         launched.wait(timeout=2 * DEADLINE)
     finally:
-        stop(launched)
+        stop_launch(launched)
     parameters = roscore.run("rosparam", "list").split()
     assert "/sim_ros_interface/use_sim_time_before" not in parameters
     if before is None:

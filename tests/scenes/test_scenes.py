@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import yaml
 
 from node_support import NAME, Node, processes_with
 from ros_support import DEADLINE, RosCore, start, stop, wait_until
@@ -52,6 +53,11 @@ def pose(core: RosCore) -> tuple[float, float, float]:
     return x, y, 2 * math.atan2(number(rotation, "z"), number(rotation, "w"))
 
 
+def joint_position(core: RosCore, name: str) -> float:
+    states = yaml.safe_load(echo(core, "/joint_states").partition("---")[0])
+    return float(states["position"][states["name"].index(name)])
+
+
 def test_the_tricycle_takes_velocities_and_stops_when_none_come(
     roscore: RosCore, node: StartNode, tmp_path: Path
 ) -> None:
@@ -62,7 +68,7 @@ def test_the_tricycle_takes_velocities_and_stops_when_none_come(
     driver = start(command, roscore.env)
     wait_until(lambda: pose(roscore)[0] > x + 0.5, "the tricycle to drive")
     _, _, before = pose(roscore)
-    wait_until(lambda: pose(roscore)[2] > before + 0.1, "the tricycle to turn left")
+    wait_until(lambda: math.remainder(pose(roscore)[2] - before, math.tau) > 0.1, "the tricycle to turn left")
     stop(driver)
 
     def stands() -> bool:
@@ -84,10 +90,11 @@ def test_standard_tools_see_the_node(roscore: RosCore, node: StartNode) -> None:
 def test_tricycle_turns_as_it_is_steered(roscore: RosCore, node: StartNode) -> None:
     node("tricycle", "--speed", "2")
     wait_until(lambda: "/steering" in roscore.state()["subscribers"], "the steering's topic")
-    roscore.run("rostopic", "pub", "-1", "/steering", "std_msgs/Float32", "--", "-1.0")
-    roscore.run("rostopic", "pub", "-1", "/speed", "std_msgs/Float32", "0.5")
-    x, y, heading = pose(roscore)
-    wait_until(lambda: math.dist(pose(roscore)[:2], (x, y)) > 0.02, "the tricycle to move")
+    with roscore.publishing("/steering", "std_msgs/Float32", "--", "-1.0"):
+        wait_until(lambda: joint_position(roscore, "Steering") < -0.9, "the front wheel to be steered")
+    with roscore.publishing("/speed", "std_msgs/Float32", "0.5"):
+        x, y, heading = pose(roscore)
+        wait_until(lambda: math.dist(pose(roscore)[:2], (x, y)) > 0.02, "the tricycle to move")
     turned = math.remainder(pose(roscore)[2] - heading, math.tau)
     assert turned < 0  # clockwise, to the right
     assert math.isinf(number(echo(roscore, "/front_sonar"))) or number(echo(roscore, "/front_sonar")) > 0

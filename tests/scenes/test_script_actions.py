@@ -194,6 +194,7 @@ def test_goals_that_are_over_leave_the_status_after_a_while(script: Script, rosc
         """\
         lists = []
         rospy.Subscriber('/test/status', GoalStatusArray, lambda message: lists.append(len(message.status_list)))
+        wait(lambda: lists)
         assert end(send(0)) == ('SUCCEEDED', 42)
         wait(lambda: 1 in lists)
         wait(lambda: lists[-1] == 0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """simROS.imageTransport* in child scripts, with rospy and cv_bridge."""
 
+import re
 import subprocess
 from collections.abc import Callable
 
@@ -125,9 +126,15 @@ def test_the_quality_of_jpeg_is_that_of_the_parameter_and_arrays_are_images(scri
     node.wait_for_output("received 64 32 True")
     sizes: dict[str, int] = {}
     for topic in ("/fine", "/coarse"):
-        node.wait_for_output(f"\n{topic} ")
-        sizes[topic] = int(node.output.split(f"\n{topic} ")[1].split()[0])
+        wait_until(lambda topic=topic: size(node, topic) is not None, f"an image on {topic}")
+        sizes[topic] = size(node, topic) or 0
     assert sizes["/coarse"] < sizes["/fine"] / 2
+
+
+def size(node: Node, topic: str) -> int | None:
+    """Return the first size that the script has printed; it prints a line in pieces."""
+    found = re.search(rf"^{topic} (\d+)\n", node.output, re.MULTILINE)
+    return int(found[1]) if found else None
 
 
 def test_images_of_all_encodings_arrive_as_rgb8_with_the_bottom_row_first(script: Script, roscore: RosCore) -> None:
@@ -192,7 +199,7 @@ def test_image_topics_end_with_their_script(script: Script, roscore: RosCore) ->
     topics = {"/camera", "/camera/compressed"}
     wait_until(lambda: topics <= roscore.state()["publishers"].keys(), "the publishers")
     wait_until(lambda: "/end_now" in roscore.state()["subscribers"], "the subscribers")
-    roscore.run("rostopic", "pub", "-1", "/end_now", "std_msgs/Empty")
-    node.wait_for_output("is disabled")
+    with roscore.publishing("/end_now", "std_msgs/Empty"):
+        node.wait_for_output("is disabled")
     wait_until(lambda: not topics & roscore.state()["publishers"].keys(), "the publishers to go")
     wait_until(lambda: "/end" not in roscore.state()["subscribers"], "the subscriber to go")

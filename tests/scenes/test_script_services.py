@@ -43,9 +43,9 @@ def test_a_script_calls_its_own_service_without_a_deadlock(script: Script) -> No
 def test_a_script_calls_the_services_of_other_nodes(script: Script) -> None:
     node = script("""\
         def sysCall_init():
-            assert simROS2.waitForService('/rosout/get_loggers', 5)
+            assert simROS2.waitForService('/rosout/get_loggers', 20)
             client = simROS2.createClient('/rosout/get_loggers', 'roscpp/GetLoggers')
-            assert simROS2.waitForService(client, 5)
+            assert simROS2.waitForService(client, 20)
             print('loggers:', len(simROS2.call(client, {})['loggers']) > 0)
         """)
     node.wait_for_output("loggers: True")
@@ -59,8 +59,10 @@ def test_a_call_that_nobody_answers_is_an_error_that_a_script_can_catch(script: 
                 simROS.call(client, {}, 1.0)
             except RuntimeError as error:
                 print('caught:', error)
+                print('done')
         """)
-    node.wait_for_output("caught: ")
+    node.wait_for_output("done")
+    assert "caught: " in node.output
     assert "/nobody" in node.output
 
 

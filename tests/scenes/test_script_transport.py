@@ -52,12 +52,13 @@ def test_publishers_are_asked_for_what_the_script_wants(script: Script, roscore:
                 simROS.subscribe('/fast', 'std_msgs/String', print, 1, {'transports': ['smoke']})
             except ValueError as error:
                 print('reported:', error)
+            print('done')
         """)
     with talker(roscore, log):
         for topic in ("/fast", "/slow", "/either"):
             node.wait_for_output(f"received {topic} hello")
         wanted = {"/either 1", "/fast 1", "/slow 0"}
         wait_until(lambda: set(log.read_text().splitlines()) - {"/rosout 1", "/rosout 0"} == wanted, "the headers")
-    node.wait_for_output("reported: ")
+    node.wait_for_output("done")
     assert "'/either' is subscribed over TCP: UDP is not supported" in node.output
     assert "reported: transports must hold 'reliable', 'tcp', 'unreliable', 'udp'; found str 'smoke'" in node.output

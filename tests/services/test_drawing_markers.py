@@ -89,15 +89,15 @@ def sysCall_init():
     sim.addDrawingObjectItem(self.dots, sim.getObjectPosition(self.ball))
     self.other = sim.addDrawingObject(sim.drawing_points, 3)
     sim.addDrawingObjectItem(self.other, [1, 2, 3])
-def sysCall_sensing():
-    if sim.getSimulationTime() > 2.0 and self.other:
-        sim.removeDrawingObject(self.other)
-        self.other = None
+    simROS.advertiseService('/remove_other', 'std_srvs/Empty', 'remove_other')
+def remove_other(request):
+    sim.removeDrawingObject(self.other)
 """
 
 PROBE = """
 import json
 import rospy
+from std_srvs.srv import Empty
 from visualization_msgs.msg import MarkerArray
 
 deleted = False
@@ -114,7 +114,11 @@ def receive(array):
 
 rospy.init_node('probe')
 rospy.Subscriber('/bubblesim/drawings', MarkerArray, receive)
-while not (deleted and len(shown) == 2) and not rospy.is_shutdown():
+rospy.wait_for_service('/remove_other')
+while len(shown) < 2 and not rospy.is_shutdown():
+    rospy.sleep(0.05)
+rospy.ServiceProxy('/remove_other', Empty)()
+while not deleted and not rospy.is_shutdown():
     rospy.sleep(0.05)
 print(json.dumps({'shown': shown}), flush=True)
 rospy.spin()

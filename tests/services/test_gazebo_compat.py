@@ -78,7 +78,8 @@ def gazebo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Gazebo]:
         Node(core.env, folder / "log", scene, "--gazebo-compat", "--paused") as node,
         ServiceCaller(core) as caller,
     ):
-        wait_until(lambda: "/gazebo/get_world_properties" in core.state()["services"], "the services")
+        # Registered one after the other; this is the last one.
+        wait_until(lambda: "/gazebo/link_states" in core.state()["publishers"], "services and topics")
         yield Gazebo(core, caller)
         assert node.end() == 0
         assert "error" not in node.output
@@ -304,7 +305,9 @@ def test_topics_have_the_poses_of_all_objects(gazebo: Gazebo) -> None:
 
 
 def test_without_the_option_there_is_nothing_of_gazebo(roscore: RosCore, tmp_path: Path) -> None:
-    with Node(roscore.env, tmp_path / "log", "ball"):
-        wait_until(lambda: f"{NAME}/delete_object" in roscore.state()["services"], "the services")
+    script = write(tmp_path / "script.py", "def sysCall_init(): simROS.advertise('/last', 'std_msgs/Empty')\n")
+    with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}"):
+        # Registered one after the other; what a script advertises comes after all services and topics of the node.
+        wait_until(lambda: "/last" in roscore.state()["publishers"], "services and topics")
         names = [name for book in roscore.state().values() for name in book]
         assert not [name for name in names if name.startswith("/gazebo")]

@@ -30,7 +30,8 @@ def start(roscore: RosCore, tmp_path: Path) -> Iterator[Start]:
 
 
 def times(output: str, what: str) -> list[float]:
-    return [float(time) for time in re.findall(rf"^{what} (\S+)", output, re.MULTILINE)]
+    # Whole lines only: each word is written on its own.
+    return [float(time) for time in re.findall(rf"^{what} (\S+).*\n", output, re.MULTILINE)]
 
 
 def test_reset_puts_the_world_back_and_lets_time_and_scripts_go_on(start: Start, roscore: RosCore) -> None:
@@ -107,7 +108,7 @@ def test_after_a_reset_stamps_start_at_0_at_once(start: Start, roscore: RosCore)
         """)
     expected = ["stamp in init 0.0", "stamp in actuation 0.0", "stamp in sensing 0.05"]
     for starts in (1, 2):
-        wait_until(lambda starts=starts: node.output.count("stamp in sensing") == starts, "the first step")
+        wait_until(lambda starts=starts: len(times(node.output, "stamp in sensing")) == starts, "the first step")
         if starts == 1:
             roscore.run("rosservice", "call", f"{NAME}/reset_simulation")
     reported = [line for line in PREFIX.sub("", node.output).splitlines() if line.startswith("stamp")]

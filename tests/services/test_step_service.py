@@ -57,8 +57,13 @@ def test_scripts_receive_messages_in_the_steps(paused: Paused, roscore: RosCore)
     step(roscore, 1)  # the script subscribes
     wait_until(lambda: "/in" in roscore.state()["subscribers"], "the script's subscriber")
     command = [sys.executable, "-c", PUBLISH_WHILE_STEPPING.format(service=f"{NAME}/step")]
-    subprocess.run(command, env=roscore.env, check=True, timeout=60)
-    assert "received at" in node.output
+    stepping = start(command, roscore.env, stderr=subprocess.DEVNULL)  # the service ends with the node
+    try:
+        node.wait_for_output("received at")
+        assert stepping.poll() is None, "the steps have ended"
+        assert node.end() == 0
+    finally:
+        stop(stepping)
 
 
 # The message is sent while the service runs: an earlier message would prove nothing.
@@ -71,7 +76,7 @@ rospy.init_node("stepping")
 topic = rospy.Publisher("/in", Float32, queue_size=100)
 while topic.get_num_connections() == 0:
     time.sleep(0.01)
-threading.Thread(target=rospy.ServiceProxy("{service}", Step), args=(20000,)).start()
+threading.Thread(target=rospy.ServiceProxy("{service}", Step), args=(4000000000,)).start()
 rospy.wait_for_message("/clock", Clock)
 topic.publish(1.0)
 """

@@ -76,6 +76,7 @@ def test_a_stop_by_topic_breaks_it_off_and_a_start_begins_anew(
     node, remote = run(code)
     if "request" in where:
         node.wait_for_output("ready")
+        wait_until(lambda: f"{NAME}/stick" in roscore.state()["services"], "the service of the script")
         caller = start(["rosservice", "call", f"{NAME}/stick"], roscore.env)
     node.wait_for_output("stuck")
     remote.press("stop")

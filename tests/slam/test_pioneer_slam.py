@@ -14,7 +14,7 @@ import pytest
 
 from bubblesim.navigation.grid_map import GridMap
 from room_truth import Comparison, compare, outlines, picture, truth_of
-from ros_support import DEADLINE, REPOSITORY, SUPPORT, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, REPOSITORY, SUPPORT, RosCore, start, stop_launch, wait_until
 
 HEIGHTS = (0.1, 0.36)  # m, as in launch/pioneer_slam.launch
 RADIUS = 0.3  # m, of the robot plus a margin
@@ -57,7 +57,7 @@ def explore(roscore: RosCore, tmp_path: Path) -> Iterator[Run]:
 
     yield run
     for process in launched:
-        stop(process)
+        stop_launch(process)
 
 
 def check(outcome: Outcome) -> None:

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from display_support import Display
-from ros_support import DEADLINE, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, RosCore, start, stop_launch, wait_until
 
 PATIENCE = 6 * DEADLINE  # software rendering is slow
 
@@ -58,4 +58,4 @@ def test_rviz_shows_robot_scan_cloud_map_and_image(display: Display, roscore: Ro
         wait_until(lambda: "/rviz" in roscore.nodes(), "RViz", PATIENCE)
         wait_until(complete, f"RViz to show all, see {tmp_path}/rviz.png", PATIENCE)
     finally:
-        stop(launched)
+        stop_launch(launched)

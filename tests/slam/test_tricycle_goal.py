@@ -13,7 +13,14 @@ import yaml
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 
 RESOLUTION = 0.1  # m
-DRIVER = ["_turning_radius:=0.6", "_lookahead:=0.9", "_radius:=0.7", "_max_speed:=0.8", "_tolerance:=0.25"]
+DRIVER = [
+    "_turning_radius:=0.6",
+    "_lookahead:=0.9",
+    "_radius:=0.7",
+    "_max_speed:=0.8",
+    "_tolerance:=0.25",
+    "_patience:=60",
+]
 GOAL = "{header: {frame_id: map}, pose: {position: {x: -3, y: -2}, orientation: {w: 1}}}"
 
 
@@ -53,9 +60,14 @@ def arrivals(roscore: RosCore, tmp_path: Path) -> Iterator[Path]:
 def test_a_tricycle_comes_to_a_goal_behind_it(arrivals: Path, roscore: RosCore, tmp_path: Path) -> None:
     wait_until(lambda: "/go_to/arrived" in roscore.state()["subscribers"], "the listener")
     wait_until(lambda: "/move_base_simple/goal" in roscore.state()["subscribers"], "go_to.py")
-    goal = ["rostopic", "pub", "-1", "/move_base_simple/goal", "geometry_msgs/PoseStamped", GOAL]
-    subprocess.run(goal, env=roscore.env, check=True, timeout=3 * DEADLINE, stdout=subprocess.DEVNULL)
-    wait_until(lambda: "data" in arrivals.read_text(), "the end of the drive", 6 * DEADLINE)
+    wait_until(lambda: "/map" in roscore.state()["publishers"], "the map")
+    # Latched until go_to.py has it, however late it connects.
+    goal = ["rostopic", "pub", "/move_base_simple/goal", "geometry_msgs/PoseStamped", GOAL]
+    commander = start(goal, roscore.env, stdout=subprocess.DEVNULL)
+    try:
+        wait_until(lambda: "data: " in arrivals.read_text(), "the end of the drive", 6 * DEADLINE)
+    finally:
+        stop(commander)
     assert "data: True" in arrivals.read_text()
     reported = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
     place = yaml.safe_load(reported)["pose"]["position"]

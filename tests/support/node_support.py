@@ -41,6 +41,11 @@ def run_sim(
 _SLOWNESS = re.compile(r"^warning: .* has not returned from .*\n", re.MULTILINE)
 
 
+def without_slowness(text: str) -> str:
+    """Remove the warnings about slow callbacks, which a busy machine causes."""
+    return _SLOWNESS.sub("", text)
+
+
 def run_script(
     folder: Path,
     code: str,
@@ -60,7 +65,7 @@ def run_script(
     options = ["--no-ros", "--speed", "max", "--until", until, "--child-script", f"{target}={file}"]
     run = run_sim(scene, *options, *arguments, prefixed=prefixed)
     if not slowness:
-        run.stderr = _SLOWNESS.sub("", run.stderr)
+        run.stderr = without_slowness(run.stderr)
     return run
 
 
@@ -124,6 +129,11 @@ class Node(Background):
 
     def wait_until_listed(self, core: RosCore) -> None:
         wait_until(lambda: NAME in core.nodes(), "the node to be listed")
+
+    def wait_until_ready(self, core: RosCore, name: str = NAME) -> None:
+        """Return when it offers services of the simulation. It is listed before it loads Python: a signal in that time
+        may kill it."""
+        wait_until(lambda: f"{name}/get_object_state" in core.state()["services"], f"the services of {name}")
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Send a signal to the node only and return its exit code."""

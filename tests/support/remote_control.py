@@ -4,12 +4,29 @@
 import re
 import subprocess
 import sys
+import xmlrpc.client
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
-from node_support import Node
+from node_support import NAME, Node
 from ros_support import start, stop, wait_until
+
+
+def wait_until_sent(env: dict[str, str], *topics: str) -> None:
+    """Return when the node has a subscriber of each topic: what it publishes from now on arrives there."""
+
+    def are_sent() -> bool:
+        master: Any
+        node: Any
+        with xmlrpc.client.ServerProxy(env["ROS_MASTER_URI"]) as master:
+            address = master.lookupNode("/test", NAME)[2]
+        with xmlrpc.client.ServerProxy(address) as node:
+            connections = node.getBusInfo("/test")[2]
+        return set(topics) <= {topic for _, _, direction, _, topic, *_ in connections if direction == "o"}
+
+    wait_until(are_sent, f"{', '.join(topics)} to be sent")
 
 
 class Remote:
@@ -34,7 +51,7 @@ class Remote:
 
     def received(self, topic: str) -> list[str]:
         """Return the values received so far, as printed."""
-        return re.findall(rf"^{topic} (\S+)$", self._log.read_text(), re.MULTILINE)
+        return re.findall(rf"^{topic} (\S+)\n", self._log.read_text(), re.MULTILINE)
 
     def __enter__(self) -> "Remote":
         return self

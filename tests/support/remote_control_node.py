@@ -21,7 +21,7 @@ for argument in sys.argv[1:]:
     )
 while not all(publisher.get_num_connections() for publisher in publishers.values()):
     time.sleep(0.01)
-print("connected", flush=True)
+sys.stdout.write("connected\n")  # at once: print() writes the end of the line on its own
 for line in sys.stdin:
     pressed, value, count = line.split()
     for _ in range(int(count)):

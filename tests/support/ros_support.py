@@ -4,11 +4,14 @@
 Use as a pytest fixture: ``from ros_support import roscore`` in a conftest.py or test module.
 """
 
+import contextlib
+import fcntl
 import itertools
 import os
 import signal
 import socket
 import subprocess
+import tempfile
 import time
 import xmlrpc.client
 from collections.abc import Callable, Iterator
@@ -65,6 +68,14 @@ def _is_free(port: int) -> bool:
     return True
 
 
+@contextlib.contextmanager
+def alone_on_port(port: int) -> Iterator[None]:
+    """Keep the other test processes from a port that is fixed, because a page or a program names it."""
+    with Path(tempfile.gettempdir(), f"bubblesim_tests_{os.getuid()}_port_{port}").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:
     """Return as soon as `condition` holds; fail the test with `what` at the timeout."""
     end = time.monotonic() + timeout
@@ -93,16 +104,21 @@ def start(command: list[str], env: dict[str, str], **options: object) -> "subpro
     )
 
 
-def stop(process: "subprocess.Popen[str]") -> None:
-    """End a process of start() and everything that it started."""
+def stop(process: "subprocess.Popen[str]", patience: float = 10.0) -> None:
+    """End a process of start() and everything that it started; kill it after `patience` seconds."""
     if process.poll() is None:
         assert os.getpgid(process.pid) == process.pid, "only start() makes a group to end"
     for number in (signal.SIGINT, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
-            process.wait(timeout=10)
+            process.wait(timeout=patience)
         except (ProcessLookupError, subprocess.TimeoutExpired):
             continue
+
+
+def stop_launch(process: "subprocess.Popen[str]") -> None:
+    """End a roslaunch. Its nodes have groups of their own and would outlive it: it waits up to 17 s for them."""
+    stop(process, 2 * DEADLINE)
 
 
 OF_ONE_TYPE = ("/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static")
@@ -169,6 +185,16 @@ class RosCore:
         return subprocess.run(
             command, env=self.env, text=True, stdout=subprocess.PIPE, timeout=2 * DEADLINE, check=True
         ).stdout
+
+    @contextlib.contextmanager
+    def publishing(self, topic: str, message_type: str, *message: str) -> Iterator[None]:
+        """Publish a message once, latched during the block: `rostopic pub -1` ends after 3 s, when a subscriber may not
+        have connected yet."""
+        process = start(["rostopic", "pub", topic, message_type, *message], self.env, stdout=subprocess.DEVNULL)
+        try:
+            yield
+        finally:
+            stop(process)
 
     def pause(self) -> None:
         """Make the master hang, like an overloaded machine: it accepts connections but does not answer."""

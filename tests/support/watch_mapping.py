@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Monitors the Pioneer's mapping of its room; run by test_pioneer_slam.py. Arguments: simulated seconds, map file.
+"""Monitors the Pioneer's mapping of its room; run by test_pioneer_slam.py. Arguments: simulated seconds from when the
+robot explores and all topics arrive, map file.
 
 Prints as JSON: when the explorer finished (None if it did not), the errors of the estimated poses, the gaps between
 scans, the number of scans, and the number that the mapper lost. If exploration ends before the time is up, the robot
@@ -15,7 +16,7 @@ import numpy as np
 import rospy
 import tf2_ros
 from geometry_msgs.msg import PoseStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool
 from tf2_msgs.msg import TFMessage
@@ -23,7 +24,7 @@ from tf2_msgs.msg import TFMessage
 PLACES = [(-2.5, 2.2), (2.7, 2.2), (0.5, -2.4), (-2.4, -2.3), (3.3, 0.3), (0.0, 1.0)]
 
 rospy.init_node("watch_mapping")
-truth, maps, stamps, corrections, arrivals = [], [], [], [], []
+truth, maps, stamps, corrections, arrivals, paths = [], [], [], [], [], []
 done_at = None
 transforms = tf2_ros.Buffer(rospy.Duration(1000))
 tf2_ros.TransformListener(transforms)
@@ -31,6 +32,7 @@ rospy.Subscriber("/tf", TFMessage, lambda m: corrections.extend(t for t in m.tra
 rospy.Subscriber("/ground_truth", Odometry, truth.append)
 rospy.Subscriber("/map", OccupancyGrid, maps.append)
 rospy.Subscriber("/scan", LaserScan, lambda scan: stamps.append(scan.header.stamp.to_sec()))
+rospy.Subscriber("/go_to/path", Path, paths.append)
 rospy.Subscriber("/go_to/arrived", Bool, arrivals.append)
 done = []
 rospy.Subscriber("/explore/done", Bool, done.append)
@@ -38,7 +40,11 @@ goals = rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=1)
 
 end = time.monotonic() + 900
 sent = 0
-while rospy.get_time() < float(sys.argv[1]) and time.monotonic() < end:
+# Nodes start slowly on a busy machine: the time counts from here.
+while not (truth and maps and stamps and corrections and paths) and time.monotonic() < end:
+    time.sleep(0.1)
+begin = rospy.get_time()
+while rospy.get_time() < begin + float(sys.argv[1]) and time.monotonic() < end:
     if done and done_at is None:
         done_at = rospy.get_time()
         arrivals.clear()

@@ -28,6 +28,11 @@ add_library(bubblesim_options INTERFACE)
 add_subdirectory(meta)
 add_subdirectory(src/codec)
 """
+# Without the packages that take most of a build's time: those of Gazebo's messages and others.
+_OWN_PACKAGES = """include(own_packages.cmake)
+add_own_packages(used test_msgs)
+set(BUBBLESIM_MESSAGE_PACKAGES "${used}" PARENT_SCOPE)
+"""
 _USERS_PACKAGE = """cmake_minimum_required(VERSION 3.18)
 project({name})
 find_package(catkin REQUIRED COMPONENTS message_generation)
@@ -60,8 +65,11 @@ class Workspace:
         """Make the workspace with a list of messages."""
         self.project.mkdir(parents=True)
         shutil.copytree(REPOSITORY / "meta", self.project / "meta")
-        for name in ("include", "msg", "python", "src"):
+        (self.project / "msg").mkdir()
+        parts = [f"msg/{name}" for name in ("own_packages.cmake", "find_workspace_package.py", "test_msgs")]
+        for name in ("include", "python", "src", *parts):
             (self.project / name).symlink_to(REPOSITORY / name)
+        self.write("bubblesim/msg/CMakeLists.txt", _OWN_PACKAGES)
         self.write("bubblesim/meta/messages.txt", messages)
         self.write("bubblesim/meta/services.txt", "")
         self.write("bubblesim/package.xml", _MANIFEST.format(name="bubblesim"))

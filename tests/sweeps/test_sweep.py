@@ -3,10 +3,8 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -16,6 +14,7 @@ from bubblesim.sweeps.programs import FileProgram, SceneProgram
 from bubblesim.sweeps.sweep import run_sweep
 from bubblesim.sweeps.tasks import SweepError, tasks_of
 from node_support import write
+from ros_support import wait_until
 
 TRICYCLE = """
 def run(run):
@@ -94,27 +93,46 @@ from bubblesim.sweeps.tasks import tasks_of
 program = FileProgram.read(Path(sys.argv[1]))
 run_sweep(program, tasks_of(range(60), {}), LocalWorkers(program, 2), Path(sys.argv[2]))
 """
+HELD = """
+import os, pathlib, time
+def run(run):
+    folder = pathlib.Path({folder!r})
+    if run.seed >= 20 and not (folder / "go_on").exists():
+        (folder / f"held{{run.seed}}").write_text(str(os.getpid()))
+        time.sleep(60.0)
+    with (folder / "log").open("a") as log:
+        log.write(f"{{run.seed}}\\n")
+    return {{"cube": run.seed ** 3}}
+"""
+
+
+def runs(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes() != b""  # that of a zombie is empty
+    except OSError:
+        return False
 
 
 def test_a_killed_driver_continues_and_its_workers_end(tmp_path: Path) -> None:
     log, journal = tmp_path / "log", tmp_path / "j"
-    found = program(tmp_path, SLOW.format(log=str(log)))
+    held = [tmp_path / "held20", tmp_path / "held21"]
+    found = program(tmp_path, HELD.format(folder=str(tmp_path)))
     driver = subprocess.Popen([sys.executable, "-c", DRIVER, found.file, str(journal)])
-    deadline = time.monotonic() + 60
-    while not log.exists() or log.read_text().count("\n") < 10:
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-    driver.send_signal(signal.SIGKILL)
-    driver.wait()
-    time.sleep(0.3)
-    ended = log.read_text().count("\n")
-    time.sleep(0.3)
-    assert log.read_text().count("\n") == ended < 60  # the workers ended with it
+    try:
+        wait_until(lambda: all(mark.exists() and mark.read_text() for mark in held), "the runs in work", timeout=60.0)
+        wait_until(lambda: journal.read_text().count("\n") == 1 + 20, "the finished runs in the journal")
+        workers = [int(mark.read_text()) for mark in held]
+        assert all(map(runs, workers))
+    finally:
+        driver.kill()
+        driver.wait()
+    wait_until(lambda: not any(map(runs, workers)), "the end of the workers, which end with the driver")
     with journal.open("ab") as stream:
         stream.write(b'{"seed": 59, "para')  # a line that was being written
+    (tmp_path / "go_on").touch()
     rows = run_sweep(found, tasks_of(range(60), {}), LocalWorkers(found, 2), journal)
     assert [row["cube"] for row in rows] == [seed**3 for seed in range(60)]
-    assert log.read_text().count("\n") <= 60 + 2  # only the runs in work were repeated
+    assert sorted(map(int, log.read_text().split())) == [*range(60)]  # no finished run was repeated
 
 
 def test_more_seeds_use_what_the_journal_has(tmp_path: Path) -> None:

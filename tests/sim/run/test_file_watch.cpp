@@ -32,7 +32,7 @@ struct FileWatchTest : testing::Test {
     return read(counter, &count, sizeof count) < 0 ? 0 : count;
   }
   static void wait_until(const std::atomic<std::uint64_t>& value, std::uint64_t least) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (value < least && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     EXPECT_GE(value, least);
   }
