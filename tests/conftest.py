@@ -17,7 +17,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 # The tests start with these, in this order: files that take minutes, so that no process waits for another one at the
-# end, then pages that are drawn without a GPU.
+# end, then pages that are drawn without a GPU, then long files that would be the last ones by their names.
 START_WITH = [
     "tests/test_workspaces.py",
     "meta/test_workspace.py",
@@ -25,6 +25,8 @@ START_WITH = [
     "test_docs.py",
     "services/test_stuck_scripts.py",
     "tests/web/",
+    "slam/test_pioneer_slam.py",
+    "testing/test_plugin.py",
 ]
 
 
