@@ -61,13 +61,8 @@ def test_a_tricycle_comes_to_a_goal_behind_it(arrivals: Path, roscore: RosCore, 
     wait_until(lambda: "/go_to/arrived" in roscore.state()["subscribers"], "the listener")
     wait_until(lambda: "/move_base_simple/goal" in roscore.state()["subscribers"], "go_to.py")
     wait_until(lambda: "/map" in roscore.state()["publishers"], "the map")
-    # Latched until go_to.py has it, however late it connects.
-    goal = ["rostopic", "pub", "/move_base_simple/goal", "geometry_msgs/PoseStamped", GOAL]
-    commander = start(goal, roscore.env, stdout=subprocess.DEVNULL)
-    try:
+    with roscore.publishing("/move_base_simple/goal", "geometry_msgs/PoseStamped", GOAL):
         wait_until(lambda: "data: " in arrivals.read_text(), "the end of the drive", 6 * DEADLINE)
-    finally:
-        stop(commander)
     assert "data: True" in arrivals.read_text()
     reported = roscore.run("rosservice", "call", "/sim_ros_interface/get_object_state", "{object: /Tricycle}")
     place = yaml.safe_load(reported)["pose"]["position"]

@@ -44,17 +44,13 @@ class Probe:
     def ask(self, *words: object) -> str:
         """Return the answer to a command; it begins with `! ` if the bridge threw."""
         self.send(*words)
-        return self.answer()
+        answer = self._answers.get(timeout=DEADLINE)
+        return answer[2:] if answer.startswith("= ") else answer
 
     def send(self, *words: object) -> None:
         """Send a command without waiting for its answer."""
         assert self.process.stdin is not None
         print(*words, file=self.process.stdin, flush=True)
-
-    def answer(self) -> str:
-        """Return the answer to the oldest command that has none."""
-        answer = self._answers.get(timeout=DEADLINE)
-        return answer[2:] if answer.startswith("= ") else answer
 
     def messages(self, endpoint: str) -> list[str]:
         """Return what a subscriber has received so far."""
