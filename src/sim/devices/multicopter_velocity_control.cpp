@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/multicopter_velocity_control.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -33,7 +33,7 @@ double mass_of_model(const World& world, ObjectId link) {
 /// The pseudo-inverse of the map from squared speeds to torques about the link's axes at the centre of mass of its
 /// model, and to the thrust.
 std::vector<double> mixing_of(const World& world, ObjectId link, const std::vector<std::shared_ptr<Rotor>>& rotors) {
-  Eigen::MatrixXd effect(4, static_cast<Eigen::Index>(rotors.size()));
+  Eigen::Matrix<double, 4, Eigen::Dynamic> effect(4, static_cast<Eigen::Index>(rotors.size()));
   const Pose frame(motion_of(world, link).centre, world.pose(link).Rot());
   for (std::size_t i = 0; i < rotors.size(); ++i) {
     const RotorDescription& rotor = rotors[i]->description();
@@ -42,13 +42,14 @@ std::vector<double> mixing_of(const World& world, ObjectId link, const std::vect
     effect.col(static_cast<Eigen::Index>(i)) =
         Eigen::Vector4d(place.Y(), -place.X(), -turning * rotor.torque_length, 1) * rotor.thrust_coefficient;
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> rank(effect);
-  if (rank.rank() < 4) {
+  Eigen::FullPivLU<Eigen::Matrix4d> gram(effect * effect.transpose());
+  gram.setThreshold(1e-12);  // levers of a micrometre are none
+  if (gram.rank() < 4) {
     throw InvalidInput(
         world.tree().short_path(link) + ": its " + std::to_string(rotors.size()) +
         " rotors cannot exert thrust and torques about all axes: it needs at least four, some clockwise");
   }
-  const Eigen::MatrixXd inverse = effect.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::Matrix<double, Eigen::Dynamic, 4> inverse = effect.transpose() * gram.inverse();
   std::vector<double> rows;
   for (Eigen::Index row = 0; row < inverse.rows(); ++row) {
     for (Eigen::Index column = 0; column < 4; ++column) rows.push_back(inverse(row, column));
