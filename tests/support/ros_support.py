@@ -177,6 +177,11 @@ class RosCore:
     def nodes(self) -> set[str]:
         return {node for book in self.state().values() for nodes in book.values() for node in nodes}
 
+    def pid_of(self, node: str) -> int:
+        """Return the process of a node."""
+        api: Any = xmlrpc.client.ServerProxy(self._ask_master("lookupNode", "/test", node))
+        return int(api.getPid("/test")[2])
+
     def set_param(self, name: str, value: object) -> None:
         self._ask_master("setParam", "/test", name, value)
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Panels of the window that need a scene or a master of their own, in a real browser."""
 
+import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -167,6 +169,26 @@ def test_a_field_of_a_topic_is_plotted_and_a_bag_recorded(roscore: RosCore, tmp_
         assert window.errors == []
     # The second one ends with the server.
     wait_until(lambda: len(list(tmp_path.glob("bubblesim_*.bag"))) == 2, "the second bag")
+
+
+def test_a_bag_is_recorded_when_its_file_is_closed(roscore: RosCore, tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
+        window.call("server.startRecording", ["/clock"])
+        wait_until(lambda: any("record" in node for node in roscore.state()["subscribers"].get("/clock", [])), "rosbag")
+        recorder = next(node for node in roscore.state()["subscribers"]["/clock"] if "record" in node)
+        pid = roscore.pid_of(recorder)
+        os.kill(pid, signal.SIGSTOP)  # as on a slow disk
+        window.page.evaluate(
+            """() => {
+              window.ended = false;
+              bubblesim.link.call("server.stopRecording", []).then(() => { window.ended = true; });
+            }"""
+        )
+        window.page.wait_for_timeout(1500)
+        assert not window.page.evaluate("window.ended")
+        os.kill(pid, signal.SIGCONT)
+        window.wait_for("window.ended")
+        assert len(list(tmp_path.glob("bubblesim_*.bag"))) == 1
 
 
 MARKERS = """

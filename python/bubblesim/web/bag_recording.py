@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import asyncio
 import datetime
-import shutil
 import signal
 import subprocess
 import time
@@ -16,6 +15,21 @@ from bubblesim.web import ros_topics
 
 _BEGIN = 30.0  # s until rosbag has opened its file
 _GRACE = 30.0  # s for the index of the bag
+
+
+def _recorder() -> str:
+    """Return the program that ``rosbag record`` starts: after a signal rosbag itself does not wait until it has closed
+    the bag."""
+    import rospkg
+    from roslib.packages import find_node
+
+    try:
+        found = find_node("rosbag", "record")
+    except rospkg.ResourceNotFound:
+        found = []
+    if not found:
+        raise RuntimeError("rosbag is not installed: apt install python3-rosbag")
+    return str(found[0])
 
 
 class Recording:
@@ -38,15 +52,13 @@ class Recording:
         if self._is_busy():
             raise RuntimeError(f"{self._file or 'a bag'} is being recorded already")
         await asyncio.to_thread(ros_topics.node)
-        program = shutil.which("rosbag")
-        if program is None:
-            raise RuntimeError("rosbag is not installed: apt install rosbag")
+        program = await asyncio.to_thread(_recorder)
         for topic in topics:
             if not topic.startswith("/"):
                 raise ValueError(f"'{topic}' is not the name of a topic: it must begin with /")
         now = datetime.datetime.now().astimezone()
         file = str(Path.cwd() / f"bubblesim_{now:%Y-%m-%d_%H-%M-%S}.bag")
-        command = [program, "record", "-q", "-O", file, *(topics or ["-a"])]
+        command = [program, "-q", "-O", file, *(topics or ["-a"])]
         self._file = ""
         self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
         await self._wait_for(file)
