@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from node_support import write
-from ros_peer import Message, Peer
-from ros_support import DEADLINE, wait_until
+from ros_peer import Message, Messages, Peer
+from ros_support import wait_until
 
 RADIUS, TRACK, WHEELBASE = 0.1, 0.4, 0.5  # m
 INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
@@ -347,19 +347,10 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
     ]
     command = {"joint_names": ["arm_joint"], "points": points}
     peer.next("/joint_states", "sensor_msgs/JointState")  # it stands at the first angle for half a second only
-    since = len(peer.received("/joint_states"))
+    states = Messages(peer, "/joint_states", "sensor_msgs/JointState")
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
-
-    def at(angle: float) -> Message:
-        def found() -> list[Message]:
-            states = peer.received("/joint_states")[since:]
-            return [state for state in states if state["position"] == pytest.approx([angle], abs=0.01)]
-
-        wait_until(lambda: bool(found()), f"the joint to stand at {angle} rad", 3 * DEADLINE)
-        return found()[0]
-
-    first = at(0.5)
-    assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]
+    for angle in (0.5, -0.3):
+        states.next(lambda state, at=angle: state["position"] == pytest.approx([at], abs=0.01), f"{angle} rad")
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
     running.node.wait_for_output("cannot process a message on /set_joint_trajectory")
     assert peer.next("/joint_states")["position"] == pytest.approx([-0.3], abs=0.01), "the rest goes on"

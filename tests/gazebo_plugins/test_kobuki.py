@@ -10,8 +10,7 @@ import pytest
 from bubblesim import _core
 from bubblesim.gazebo_plugins.drives.kobuki_events import bumpers_pressed, cliff_reading
 from node_support import write
-from ros_peer import Message, Peer
-from ros_support import DEADLINE, wait_until
+from ros_peer import Messages, Peer
 
 WHEEL, TRACK = 0.035, 0.23  # m
 INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
@@ -89,27 +88,6 @@ WORLD = (
 def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Peer:
     peer: Peer = run(write(tmp_path_factory.mktemp("kobuki") / "home.sdf", WORLD), "--speed", "2").peer
     return peer
-
-
-class Messages:
-    """The messages of a topic from the construction on; none is left out between two calls."""
-
-    def __init__(self, peer: Peer, topic: str, message_type: str) -> None:
-        self._peer, self._topic = peer, topic
-        self._seen = len(peer.received(topic, message_type))
-
-    def next(self, holds: Callable[[Message], bool], what: str) -> Message:
-        """Return the first message for which `holds` is true, after the one that it returned before."""
-        found: list[int] = []
-
-        def look() -> bool:
-            messages = self._peer.received(self._topic)
-            found.extend(i for i in range(self._seen, len(messages)) if holds(messages[i]))
-            return bool(found)
-
-        wait_until(look, what, 3 * DEADLINE)
-        self._seen = found[0] + 1
-        return self._peer.received(self._topic)[found[0]]
 
 
 class Odometry(Messages):

@@ -54,15 +54,7 @@ class Peer:
 
     def wait_for(self, topic: str, message_type: str, holds: Callable[[Message], bool], what: str) -> Message:
         """Return the first message from now on for which `holds` is true."""
-        before = len(self.received(topic, message_type))
-        found: list[Message] = []
-
-        def look() -> bool:
-            found.extend(message for message in self.received(topic)[before:] if holds(message))
-            return bool(found)
-
-        wait_until(look, what, 3 * DEADLINE)
-        return found[0]
+        return Messages(self, topic, message_type).next(holds, what)
 
     def call(self, service: str, **request: Any) -> Message:
         """Return the response of a service, once it is available."""
@@ -93,6 +85,27 @@ class Peer:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         stop(self._process)
+
+
+class Messages:
+    """The messages of a topic from the construction on; none is left out between two calls."""
+
+    def __init__(self, peer: Peer, topic: str, message_type: str) -> None:
+        self._peer, self._topic = peer, topic
+        self._seen = len(peer.received(topic, message_type))
+
+    def next(self, holds: Callable[[Message], bool], what: str) -> Message:
+        """Return the first message for which `holds` is true, after the one that it returned before."""
+        found: list[int] = []
+
+        def look() -> bool:
+            messages = self._peer.received(self._topic)
+            found.extend(i for i in range(self._seen, len(messages)) if holds(messages[i]))
+            return bool(found)
+
+        wait_until(look, what, 3 * DEADLINE)
+        self._seen = found[0] + 1
+        return self._peer.received(self._topic)[found[0]]
 
 
 def _with_bytes(found: dict[str, Any]) -> Any:
