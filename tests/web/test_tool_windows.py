@@ -87,6 +87,17 @@ def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, 
         wait_until(lambda: velocities()[-1] == [0.0, 0.0], "the robot to be stopped")
 
 
+def test_commands_that_come_at_once_are_carried_out_in_their_order(roscore: RosCore, tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
+        drives = [f"bubblesim.link.call('server.drive', ['/{topic}', 0.5, 0, 0])" for topic in ("left", "driven")]
+        window.page.evaluate(f"Promise.all([{', '.join(drives)}])")  # both while the server becomes a node
+
+        def published() -> dict[str, list[str]]:
+            return roscore.state()["publishers"]
+
+        wait_until(lambda: "/driven" in published() and "/left" not in published(), "the first topic to be left")
+
+
 def test_the_stick_drives_a_robot_and_a_page_without_focus_stops_it(roscore: RosCore, tmp_path: Path) -> None:
     with ToolsPage(tmp_path, "pioneer", env=roscore.env) as window:
         wait_until(lambda: "/cmd_vel" in str(roscore.state()["subscribers"]), "the robot")

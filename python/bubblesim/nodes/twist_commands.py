@@ -44,13 +44,18 @@ class TwistCommands:
         send_last((self._publisher, self._message(STANDING)))
 
     def _message(self, velocity: Velocity) -> Twist | TwistStamped:
-        twist = Twist()
-        twist.linear.x = velocity.forward
-        twist.linear.y = velocity.left
-        twist.angular.z = velocity.turning
-        if not self._stamped:
-            return twist
-        message = TwistStamped(twist=twist)
-        message.header.stamp = rospy.Time.now()
-        message.header.frame_id = self._frame_id
-        return message
+        return velocity_message(velocity, stamped=self._stamped, frame_id=self._frame_id)
+
+
+def velocity_message(velocity: Velocity, *, stamped: bool, frame_id: str = "") -> Twist | TwistStamped:
+    """Return a velocity as a message, with the time of now if it is stamped."""
+    twist = Twist()
+    twist.linear.x = velocity.forward
+    twist.linear.y = velocity.left
+    twist.angular.z = velocity.turning
+    if not stamped:
+        return twist
+    message = TwistStamped(twist=twist)
+    message.header.stamp = rospy.Time.now()
+    message.header.frame_id = frame_id
+    return message

@@ -10,6 +10,8 @@ import time
 from collections import deque
 from typing import Any
 
+from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+
 _lock = threading.Lock()
 _ROS_TYPES = {"geometry_msgs/Twist", "geometry_msgs/TwistStamped"}
 _NUMERIC = {
@@ -145,32 +147,26 @@ class Driver:
         if kind not in (*_ROS_TYPES, "*"):
             raise ValueError(f"{topic} has the type {kind}; velocities are geometry_msgs/Twist or TwistStamped")
         self.topic = topic
-        self._rospy = rospy
-        self._stamped = TwistStamped if kind.endswith("Stamped") else None
-        self._twist = Twist
-        self._publisher = rospy.Publisher(topic, self._stamped or Twist, queue_size=1)
+        self._stamped = kind.endswith("Stamped")
+        self._publisher = rospy.Publisher(topic, TwistStamped if self._stamped else Twist, queue_size=1)
         self._moving = False
         self._last = 0.0
 
-    def send(self, forward: float, left: float, turn: float) -> None:
-        """Publish a velocity: m/s, m/s, rad/s."""
-        self._publisher.publish(self._message(forward, left, turn))
-        self._moving = (forward, left, turn) != (0.0, 0.0, 0.0)
+    def send(self, velocity: Velocity) -> None:
+        """Publish a velocity."""
+        self._publisher.publish(self._message(velocity))
+        self._moving = velocity != STANDING
         self._last = time.monotonic()
 
-    def _message(self, forward: float, left: float, turn: float) -> Any:
-        twist = self._twist()
-        twist.linear.x, twist.linear.y, twist.angular.z = forward, left, turn
-        if self._stamped is None:
-            return twist
-        message = self._stamped(twist=twist)
-        message.header.stamp = self._rospy.get_rostime()
-        return message
+    def _message(self, velocity: Velocity) -> Any:
+        from bubblesim.nodes.twist_commands import velocity_message
+
+        return velocity_message(velocity, stamped=self._stamped)
 
     def stop_if_silent(self) -> None:
         """Stop the robot if the last command is too old."""
         if self._moving and time.monotonic() - self._last > _SILENCE:
-            self.send(0.0, 0.0, 0.0)
+            self.send(STANDING)
 
     def close(self) -> None:
         """Stop the robot, and end publishing: in a thread, because a message is lost if its topic ends too early."""
@@ -180,7 +176,7 @@ class Driver:
         from bubblesim.nodes.last_message import send_last
 
         if self._moving or time.monotonic() - self._last < _RECENT:
-            send_last((self._publisher, self._message(0.0, 0.0, 0.0)))
+            send_last((self._publisher, self._message(STANDING)))
         self._publisher.unregister()
 
 
@@ -192,6 +188,7 @@ class PageTopics:
         self._watches: dict[int, Watch] = {}
         self._created = 0
         self._driver: Driver | None = None
+        self._driving = asyncio.Lock()  # commands are sent in their order, also while the first makes the publisher
         self._guard: asyncio.Task[None] | None = None
 
     async def watch(self, topic: str, path: str) -> int:
@@ -213,14 +210,15 @@ class PageTopics:
         if found is not None:
             await asyncio.to_thread(found.close)
 
-    async def drive(self, topic: str, forward: float, left: float, turn: float) -> None:
+    async def drive(self, topic: str, velocity: Velocity) -> None:
         """Publish a velocity; without another one within 0.4 s, zero follows."""
-        if self._driver is None or self._driver.topic != topic:
-            if self._driver is not None:
-                self._driver.close()
-                self._driver = None
-            self._driver = await asyncio.to_thread(Driver, topic)
-        self._driver.send(forward, left, turn)
+        async with self._driving:
+            if self._driver is None or self._driver.topic != topic:
+                if self._driver is not None:
+                    self._driver.close()
+                    self._driver = None
+                self._driver = await asyncio.to_thread(Driver, topic)
+            self._driver.send(velocity)
         if self._guard is None:
             self._guard = asyncio.get_running_loop().create_task(self._watch_silence())
 
