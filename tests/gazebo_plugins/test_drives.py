@@ -349,8 +349,15 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
     peer.next("/joint_states", "sensor_msgs/JointState")  # it stands at the first angle for half a second only
     states = Messages(peer, "/joint_states", "sensor_msgs/JointState")
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
-    for angle in (0.5, -0.3):
-        states.next(lambda state, at=angle: state["position"] == pytest.approx([at], abs=0.01), f"{angle} rad")
+
+    def at(angle: float) -> Message:
+        return states.next(
+            lambda state: bool(state["position"] == pytest.approx([angle], abs=0.01)),
+            f"the joint to stand at {angle} rad",
+        )
+
+    first = at(0.5)
+    assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]
     peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
     running.node.wait_for_output("cannot process a message on /set_joint_trajectory")
     assert peer.next("/joint_states")["position"] == pytest.approx([-0.3], abs=0.01), "the rest goes on"
