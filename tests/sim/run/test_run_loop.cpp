@@ -48,7 +48,7 @@ TEST_F(Run, InSynchronousModeEachTriggerGivesOneStepAndAStopForgetsThem) {
   runner->run_in_background();
   const auto wait_for_steps = [&](int steps) {
     while (runner->frame()->time < (steps - 0.5) * kStep) std::this_thread::yield();
-    for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+    let_it_go_round();
     EXPECT_DOUBLE_EQ(runner->frame()->time, steps * kStep);
   };
   wait_for_steps(2);
@@ -63,7 +63,7 @@ TEST_F(Run, InSynchronousModeEachTriggerGivesOneStepAndAStopForgetsThem) {
   runner->trigger_step();
   runner->stop();
   runner->start().get();
-  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  let_it_go_round();
   EXPECT_EQ(runner->frame()->time, 0) << "the trigger was forgotten";
 }
 
@@ -75,12 +75,12 @@ TEST_F(Run, AClosedGateHoldsBackStepsUntilInputOpensIt) {
   witness.on_step = [&] { open = arrived = false; };
   runner->add_gate({[&] { return open; }, [] { return "no answer"; }});
   runner->run_in_background();
-  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  let_it_go_round();
   EXPECT_EQ(runner->frame()->time, 0);
   arrived = true;
   runner->wake();
   while (runner->frame()->time == 0) std::this_thread::yield();
-  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  let_it_go_round();
   EXPECT_DOUBLE_EQ(runner->frame()->time, kStep);
 }
 
@@ -92,10 +92,10 @@ TEST_F(Run, AStepWaitsForAllGates) {
   runner->add_gate({[&] { return first; }, reason});
   const GateId other = runner->add_gate({[&] { return second; }, reason});
   runner->run_in_background();
-  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  let_it_go_round();
   EXPECT_EQ(runner->frame()->time, 0);
   runner->call([&] { std::swap(first, second); }).get();
-  for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
+  let_it_go_round();
   EXPECT_EQ(runner->frame()->time, 0);
   runner->call([&] { runner->remove_gate(other); }).get();
   while (runner->frame()->time == 0) std::this_thread::yield();
