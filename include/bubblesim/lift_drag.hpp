@@ -16,8 +16,8 @@ struct LiftDragDescription {
   double area = 1;                          ///< m^2
   double density = 1.2041;                  ///< kg/m^3, of the air
   Vector3 centre_of_pressure;               ///< m
-  Vector3 forward = Vector3::UnitX;         ///< of the chord
-  Vector3 upward = Vector3::UnitZ;          ///< of the lift
+  Vector3 forward = Vector3::UnitX();       ///< of the chord
+  Vector3 upward = Vector3::UnitZ();        ///< of the lift
   bool radial_symmetry = false;             ///< about forward: upward follows the flow
   double alpha0 = 0;                        ///< rad, angle of attack when the air flows along forward
   double lift_slope = 1;                    ///< 1/rad: lift coefficient / angle of attack

@@ -62,9 +62,7 @@ inline Pose operator*(const Pose& frame, const Pose& inner) {
   return {frame.position + frame.orientation * inner.position, frame.orientation * inner.orientation};
 }
 /// A point of the inner frame in the outer one.
-inline Vector3 operator*(const Pose& frame, const Vector3& point) {
-  return frame.position + frame.orientation * point;
-}
+inline Vector3 operator*(const Pose& frame, const Vector3& point) { return frame.position + frame.orientation * point; }
 
 struct Twist {
   Vector3 linear;   ///< m/s, world axes

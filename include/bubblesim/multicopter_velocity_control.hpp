@@ -18,7 +18,7 @@ struct VelocityControlDescription {
   Vector3 velocity_gain;      ///< N s/m
   Vector3 attitude_gain;      ///< N m/rad
   Vector3 rate_gain;          ///< N m s/rad
-  Vector3 max_acceleration = Vector3::One * std::numeric_limits<double>::max();  ///< m/s^2, along the world's axes
+  Vector3 max_acceleration = Vector3::Constant(std::numeric_limits<double>::max());  ///< m/s^2, along the world's axes
 };
 
 /// Commands the speeds of rotors so that the airframe has a velocity along its own axes and a yaw rate: the force is

@@ -44,7 +44,7 @@ struct Ellipsoid {
   Vector3 radii;  ///< along x, y, z
 };
 struct Plane {
-  Vector3 normal = Vector3::UnitZ;  ///< infinite, through the origin; solid below
+  Vector3 normal = Vector3::UnitZ();  ///< infinite, through the origin; solid below
 };
 struct TriangleMesh;  // see triangle_mesh.hpp
 struct Mesh {
@@ -212,7 +212,7 @@ struct LinkDescription {
   double mass = 1;
   Vector3 centre_of_mass;  ///< in the link's frame
   /// About the centre of mass, along the link's axes: xx, yy, zz, then xy, xz, yz. kg m^2
-  Vector3 inertia_diagonal = Vector3::One;
+  Vector3 inertia_diagonal = Vector3::Ones();
   Vector3 inertia_products;
   std::vector<CollisionDescription> collisions;
   std::vector<VisualDescription> visuals;
@@ -238,7 +238,7 @@ struct MimicDescription {
 };
 
 struct AxisDescription {
-  Vector3 direction = Vector3::UnitZ;  ///< unit length, in the joint's frame
+  Vector3 direction = Vector3::UnitZ();  ///< unit length, in the joint's frame
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double max_force = std::numeric_limits<double>::infinity();     ///< of the motor; N or N m

@@ -17,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_axis(Checker& checker, const AxisDescription& axis) {
-  checker.require(within(axis.direction.Length() - 1, 1e-3), "the axis", text(axis.direction), "a direction, not zero");
+  checker.require(within(axis.direction.norm() - 1, 1e-3), "the axis", text(axis.direction), "a direction, not zero");
   checker.require(axis.lower <= axis.upper, "the lower limit", text(axis.lower),
                   "at most the upper limit " + text(axis.upper));
   for (const double limit : {axis.lower, axis.upper}) {
@@ -79,12 +79,12 @@ void check_revolute2(Checker& checker, const JointDescription& joint) {
   if (std::isfinite(joint.axes[1].lower) || std::isfinite(joint.axes[1].upper)) {
     checker.report("the second axis of a revolute2 joint turns freely: it cannot have limits");
   }
-  checker.require(joint.axes[0].direction.Cross(joint.axes[1].direction).Length() > 1e-3, "the second axis",
+  checker.require(joint.axes[0].direction.cross(joint.axes[1].direction).norm() > 1e-3, "the second axis",
                   text(joint.axes[1].direction), "not parallel to the first");
 }
 
 void check_universal(Checker& checker, const JointDescription& joint) {
-  checker.require(within(joint.axes[0].direction.Dot(joint.axes[1].direction), 1e-2), "the second axis",
+  checker.require(within(joint.axes[0].direction.dot(joint.axes[1].direction), 1e-2), "the second axis",
                   text(joint.axes[1].direction), "at right angles to the first");
 }
 

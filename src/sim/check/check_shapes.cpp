@@ -9,9 +9,9 @@ namespace {
 
 void check_geometry(Checker& checker, const ModelDescription& model, const Geometry& geometry) {
   if (const auto* box = std::get_if<Box>(&geometry)) {
-    checker.check_length("the box's x size", box->size.X());
-    checker.check_length("the box's y size", box->size.Y());
-    checker.check_length("the box's z size", box->size.Z());
+    checker.check_length("the box's x size", box->size.x());
+    checker.check_length("the box's y size", box->size.y());
+    checker.check_length("the box's z size", box->size.z());
   } else if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
     checker.check_length("the sphere's radius", sphere->radius);
   } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
@@ -21,13 +21,13 @@ void check_geometry(Checker& checker, const ModelDescription& model, const Geome
     checker.check_length("the capsule's radius", capsule->radius);
     checker.check_length("the capsule's length", capsule->length);
   } else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry)) {
-    checker.check_length("the ellipsoid's x radius", ellipsoid->radii.X());
-    checker.check_length("the ellipsoid's y radius", ellipsoid->radii.Y());
-    checker.check_length("the ellipsoid's z radius", ellipsoid->radii.Z());
+    checker.check_length("the ellipsoid's x radius", ellipsoid->radii.x());
+    checker.check_length("the ellipsoid's y radius", ellipsoid->radii.y());
+    checker.check_length("the ellipsoid's z radius", ellipsoid->radii.z());
   } else if (const auto* mesh = std::get_if<Mesh>(&geometry)) {
     if (mesh->triangles == nullptr) checker.report("the mesh has no triangles");
   } else if (const auto* plane = std::get_if<Plane>(&geometry)) {
-    checker.require(within(plane->normal, 1e6) && plane->normal.Length() > 1e-9, "the plane's normal",
+    checker.require(within(plane->normal, 1e6) && plane->normal.norm() > 1e-9, "the plane's normal",
                     text(plane->normal), "a direction");
     if (!model.is_static) checker.report("a plane is infinite and cannot move; make the model <static>true</static>");
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/checker.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
@@ -25,10 +24,9 @@ void Checker::require(bool fine, const std::string& what, const std::string& fou
 }
 
 void Checker::check_pose(const Pose& pose) {
-  require(within(pose.Pos(), kMaxDistance), "the position", text(pose.Pos()), "finite and within 1e6 m");
-  const Quaternion& q = pose.Rot();
-  const double norm = std::sqrt(q.W() * q.W() + q.X() * q.X() + q.Y() * q.Y() + q.Z() * q.Z());
-  require(within(norm - 1, 1e-3), "the orientation (x, y, z, w)", text(q), "a rotation");
+  require(within(pose.position, kMaxDistance), "the position", text(pose.position), "finite and within 1e6 m");
+  require(within(pose.orientation.norm() - 1, 1e-3), "the orientation (x, y, z, w)", text(pose.orientation),
+          "a rotation");
 }
 
 void Checker::check_length(const char* what, double value) {

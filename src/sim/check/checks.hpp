@@ -23,7 +23,7 @@ constexpr double kMaxPhysicsStep = 1;     ///< s
 /// False for NaN.
 inline bool within(double value, double bound) { return std::abs(value) <= bound; }
 inline bool within(const Vector3& v, double bound) {
-  return within(v.X(), bound) && within(v.Y(), bound) && within(v.Z(), bound);
+  return within(v.x(), bound) && within(v.y(), bound) && within(v.z(), bound);
 }
 
 }  // namespace bubblesim

@@ -25,20 +25,19 @@ bool is_free(const JointDescription& joint) {
 double moment_across(const LinkDescription& link, const Vector3& along, const JointDescription& joint) {
   const Vector3& d = link.inertia_diagonal;
   const Vector3& p = link.inertia_products;
-  const auto product = [&](const Vector3& a, const Vector3& b) {
-    return a.Dot(Vector3(d.X() * b.X() + p.X() * b.Y() + p.Y() * b.Z(), p.X() * b.X() + d.Y() * b.Y() + p.Z() * b.Z(),
-                         p.Y() * b.X() + p.Z() * b.Y() + d.Z() * b.Z()));
-  };
-  const auto in_link = [&](const Vector3& v) { return link.pose.Rot().RotateVectorReverse(v); };
+  Matrix3 inertia;
+  inertia << d.x(), p.x(), p.y(), p.x(), d.y(), p.z(), p.y(), p.z(), d.z();
+  const Quaternion to_link = link.pose.orientation.conjugate();
   if (joint.axes.size() == 1) {
-    const Vector3 axis = in_link(joint.pose.Rot().RotateVector(joint.axes.front().direction));
-    return product(axis, axis);
+    const Vector3 axis = to_link * (joint.pose.orientation * joint.axes.front().direction);
+    return axis.dot(inertia * axis);
   }
-  const Vector3 u = in_link(along);
-  const Vector3 e = u.Cross(std::abs(u.X()) < 0.6 ? Vector3::UnitX : Vector3::UnitY).Normalized();
-  const Vector3 f = u.Cross(e);
-  const double mean = (product(e, e) + product(f, f)) / 2;
-  return mean - std::hypot((product(e, e) - product(f, f)) / 2, product(e, f));
+  const Vector3 u = to_link * along;
+  const Vector3 e = u.unitOrthogonal();
+  const Vector3 f = u.cross(e);
+  const double ee = e.dot(inertia * e);
+  const double ff = f.dot(inertia * f);
+  return (ee + ff) / 2 - std::hypot((ee - ff) / 2, e.dot(inertia * f));
 }
 
 /// The links of a model as a tree whose root is the world, or the heaviest link.
@@ -64,11 +63,11 @@ class Hanging {
       if (link >= model_.links.size() || above == nullptr || !is_free(*above)) continue;
       for (const Edge& edge : at_[link]) {
         if (edge.joint == above || above_[edge.link] != edge.joint || !is_free(*edge.joint)) continue;
-        const Vector3 apart = edge.joint->pose.Pos() - above->pose.Pos();
-        if (apart.Length() <= 0) continue;
+        const Vector3 apart = edge.joint->pose.position - above->pose.position;
+        if (apart.norm() <= 0) continue;
         const double load = mass_[edge.link];
-        const double moment = moment_across(model_.links[link], apart.Normalized(), *above);
-        const double step = 2 / std::sqrt(kTensions * gravity * load * apart.Length() / moment);
+        const double moment = moment_across(model_.links[link], apart.normalized(), *above);
+        const double step = 2 / std::sqrt(kTensions * gravity * load * apart.norm() / moment);
         if (!least || step < least->step) least = NeededSubstep{step, model_.links[link].name, load};
       }
     }

@@ -32,7 +32,7 @@ void check_inertia(Checker& checker, const LinkDescription& link) {
 
 void check_light(Checker& checker, const Light& light) {
   checker.check_color("the light's colour", light.diffuse);
-  checker.require(within(light.direction, 1e6) && light.direction.Length() > 1e-9, "the light's direction",
+  checker.require(within(light.direction, 1e6) && light.direction.norm() > 1e-9, "the light's direction",
                   text(light.direction), "a direction");
   checker.require(within(light.position, kMaxDistance), "the light's position", text(light.position),
                   "finite and within 1e6 m");
@@ -128,10 +128,10 @@ std::vector<Problem> check_scene(const SceneDescription& scene) {
 bool is_positive_definite(const Vector3& d, const Vector3& p) {
   // Sylvester's criterion: a symmetric matrix is positive definite if its leading minors are positive. A matrix that
   // passes only because of rounding counts as flat.
-  const double minor2 = d.X() * d.Y() - p.X() * p.X();
-  const double determinant = d.X() * (d.Y() * d.Z() - p.Z() * p.Z()) - p.X() * (p.X() * d.Z() - p.Z() * p.Y()) +
-                             p.Y() * (p.X() * p.Z() - d.Y() * p.Y());
-  return d.X() > 0 && minor2 > 0 && determinant > kFlat * std::pow(d.Sum() / 3, 3);
+  const double minor2 = d.x() * d.y() - p.x() * p.x();
+  const double determinant = d.x() * (d.y() * d.z() - p.z() * p.z()) - p.x() * (p.x() * d.z() - p.z() * p.y()) +
+                             p.y() * (p.x() * p.z() - d.y() * p.y());
+  return d.x() > 0 && minor2 > 0 && determinant > kFlat * std::pow(d.sum() / 3, 3);
 }
 
 std::vector<Problem> check_model(const ModelDescription& model) {

@@ -39,7 +39,7 @@ Hull convex_hull(const TriangleMesh& mesh) {
       }
       const double* normal = facet.hyperplane().coordinates();
       const Vector3 outwards(normal[0], normal[1], normal[2]);
-      const bool backwards = (places[1] - places[0]).Cross(places[2] - places[0]).Dot(outwards) < 0;
+      const bool backwards = (places[1] - places[0]).cross(places[2] - places[0]).dot(outwards) < 0;
       if (backwards) std::swap(triangle[1], triangle[2]);
       hull.triangles.push_back(triangle);
     }

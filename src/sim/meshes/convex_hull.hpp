@@ -18,7 +18,7 @@ Hull convex_hull(const TriangleMesh& mesh);
 template <class Corner>
 double enclosed_volume(const std::vector<TriangleMesh::Triangle>& triangles, const Corner& corner) {
   double sixfold = 0;
-  for (const auto& [a, b, c] : triangles) sixfold += Vector3(corner(a)).Dot(Vector3(corner(b)).Cross(corner(c)));
+  for (const auto& [a, b, c] : triangles) sixfold += Vector3(corner(a)).dot(Vector3(corner(b)).cross(corner(c)));
   return sixfold / 6;
 }
 

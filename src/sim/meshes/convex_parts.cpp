@@ -157,7 +157,7 @@ class Divider {
         std::vector<MeshPoint> points;
         for (const Hull* hull : {&hulls[i], &hulls[j]}) {
           for (const Vector3& p : hull->corners) {
-            points.push_back({static_cast<float>(p.X()), static_cast<float>(p.Y()), static_cast<float>(p.Z())});
+            points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
           }
         }
         Hull both = convex_hull(cloud(std::move(points)));

@@ -12,11 +12,16 @@
 namespace bubblesim {
 namespace {
 
-using Point = ignition::math::Vector2d;
+using Point = Eigen::Vector2d;
+
+bool coincide(const Point& a, const Point& b) {
+  constexpr double kTolerance = 1e-6;  // m: files round the point that closes an outline
+  return (a - b).lpNorm<Eigen::Infinity>() <= kTolerance;
+}
 
 /// Twice the signed area: positive when the corners run counter-clockwise.
 double turn(const Point& a, const Point& b, const Point& c) {
-  return (b.X() - a.X()) * (c.Y() - a.Y()) - (b.Y() - a.Y()) * (c.X() - a.X());
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
 double area(const std::vector<Point>& outline) {
@@ -28,8 +33,8 @@ double area(const std::vector<Point>& outline) {
 }
 
 void drop_repeated(std::vector<Point>& outline) {
-  outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
-  while (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
+  outline.erase(std::unique(outline.begin(), outline.end(), coincide), outline.end());
+  while (outline.size() > 1 && coincide(outline.front(), outline.back())) outline.pop_back();
 }
 
 bool crosses_itself(const std::vector<Point>& outline) {
@@ -88,7 +93,7 @@ class EarClipper {
     return std::none_of(left_.begin(), left_.end(), [&, a = a, b = b, c = c](std::uint32_t other) {
       if (other == a || other == b || other == c) return false;
       const Point& p = outline_[other];
-      if (p == outline_[a] || p == outline_[b] || p == outline_[c]) return false;
+      if (coincide(p, outline_[a]) || coincide(p, outline_[b]) || coincide(p, outline_[c])) return false;
       const double least = std::min(
           {turn(outline_[a], outline_[b], p), turn(outline_[b], outline_[c], p), turn(outline_[c], outline_[a], p)});
       return may_touch ? least > 0 : least >= 0;
@@ -120,8 +125,8 @@ bool holds(const Outline& outline, const Point& point) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Point& a = outline[i];
     const Point& b = outline[(i + 1) % outline.size()];
-    if ((a.Y() > point.Y()) == (b.Y() > point.Y())) continue;
-    if (point.X() < a.X() + (point.Y() - a.Y()) / (b.Y() - a.Y()) * (b.X() - a.X())) inside = !inside;
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    if (point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
   }
   return inside;
 }
@@ -147,7 +152,7 @@ void join(Outline& outline, const Outline& hole, const std::vector<Outline>& oth
   };
   std::vector<Bridge> bridges;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    for (std::size_t j = 0; j < hole.size(); ++j) bridges.push_back({outline[i].Distance(hole[j]), i, j});
+    for (std::size_t j = 0; j < hole.size(); ++j) bridges.push_back({(outline[i] - hole[j]).norm(), i, j});
   }
   std::sort(bridges.begin(), bridges.end(), [](const Bridge& a, const Bridge& b) { return a.length < b.length; });
   for (const Bridge& bridge : bridges) {
@@ -168,7 +173,7 @@ void join(Outline& outline, const Outline& hole, const std::vector<Outline>& oth
 }
 
 TriangleMesh::Point at_height(const Point& point, double z) {
-  return {static_cast<float>(point.X()), static_cast<float>(point.Y()), static_cast<float>(z)};
+  return {static_cast<float>(point.x()), static_cast<float>(point.y()), static_cast<float>(z)};
 }
 
 /// The side walls; outside is to the right of the outline.

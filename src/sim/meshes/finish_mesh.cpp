@@ -20,8 +20,8 @@ bool has_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle) 
   const Vector3 a = mesh.corner(triangle, 1) - mesh.corner(triangle, 0);
   const Vector3 b = mesh.corner(triangle, 2) - mesh.corner(triangle, 0);
   const Vector3 c = b - a;
-  const double longest = std::max({a.SquaredLength(), b.SquaredLength(), c.SquaredLength()});
-  return longest > 0 && a.Cross(b).Length() > kMinSine * longest;
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
+  return longest > 0 && a.cross(b).norm() > kMinSine * longest;
 }
 
 }  // namespace
@@ -51,12 +51,12 @@ std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
   if (kept == 0) throw MeshError("contains no triangle with an area");
   mesh.triangles.resize(kept);
   if (!mesh.material_of.empty()) mesh.material_of.resize(kept);
-  mesh.low = Vector3::One * std::numeric_limits<double>::infinity();
+  mesh.low = Vector3::Constant(std::numeric_limits<double>::infinity());
   mesh.high = -mesh.low;
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      mesh.low.Min(mesh.corner(triangle, i));
-      mesh.high.Max(mesh.corner(triangle, i));
+      mesh.low = mesh.low.cwiseMin(mesh.corner(triangle, i));
+      mesh.high = mesh.high.cwiseMax(mesh.corner(triangle, i));
     }
   }
   return std::make_shared<const TriangleMesh>(std::move(mesh));

@@ -23,7 +23,7 @@ std::vector<std::size_t> chosen(std::size_t pixels) {
 std::shared_ptr<const TriangleMesh> raise_ground(const Heights& heights, const Vector3& size, const Vector3& middle) {
   if (heights.width < 2 || heights.height < 2) throw MeshError("is smaller than 2 x 2 pixels");
   const float brightest = *std::max_element(heights.values.begin(), heights.values.end());
-  const double scale = brightest > 0 ? size.Z() / static_cast<double>(brightest) : 0;
+  const double scale = brightest > 0 ? size.z() / static_cast<double>(brightest) : 0;
   const std::vector<std::size_t> columns = chosen(heights.width);
   const std::vector<std::size_t> rows = chosen(heights.height);
   TriangleMesh mesh;
@@ -32,9 +32,9 @@ std::shared_ptr<const TriangleMesh> raise_ground(const Heights& heights, const V
       const double right = static_cast<double>(column) / static_cast<double>(heights.width - 1);
       const double down = static_cast<double>(row) / static_cast<double>(heights.height - 1);
       const double height = scale * static_cast<double>(heights.values[row * heights.width + column]);
-      const Vector3 place = middle + Vector3((right - 0.5) * size.X(), (0.5 - down) * size.Y(), height);
+      const Vector3 place = middle + Vector3((right - 0.5) * size.x(), (0.5 - down) * size.y(), height);
       mesh.vertices.push_back(
-          {static_cast<float>(place.X()), static_cast<float>(place.Y()), static_cast<float>(place.Z())});
+          {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z())});
       mesh.texture_coordinates.push_back({static_cast<float>(right), static_cast<float>(1 - down)});
     }
   }

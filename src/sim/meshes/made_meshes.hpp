@@ -2,7 +2,6 @@
 // Generated meshes.
 #pragma once
 
-#include <ignition/math/Vector2.hh>
 #include <memory>
 #include <vector>
 
@@ -11,7 +10,7 @@
 
 namespace bubblesim {
 
-using Outline = std::vector<ignition::math::Vector2d>;
+using Outline = std::vector<Eigen::Vector2d>;
 
 /// Outlines in the xy plane, each extruded from z = 0 to its height. They may be concave, and run in either direction;
 /// an outline inside another is a hole in it. Throws MeshError when one has no area or crosses itself.
@@ -25,11 +24,11 @@ std::shared_ptr<const TriangleMesh> extrude(std::vector<Extrusion> parts);
 /// metres wide, the image's centre is at the origin and its upper edge at +y. Throws MeshError.
 std::shared_ptr<const TriangleMesh> raise_walls(const Heights& picture, double scale, double threshold, double height);
 
-/// A heightmap over a rectangle of `size` about `middle`; the image's upper edge is at +y, black at middle.Z() and the
-/// brightest pixel size.Z() above it. Each pixel is a corner; images over 513 pixels wide or high are downsampled.
+/// A heightmap over a rectangle of `size` about `middle`; the image's upper edge is at +y, black at middle.z() and the
+/// brightest pixel size.z() above it. Each pixel is a corner; images over 513 pixels wide or high are downsampled.
 /// Throws MeshError.
 std::shared_ptr<const TriangleMesh> raise_ground(const Heights& heights, const Vector3& size,
-                                                 const Vector3& middle = Vector3::Zero);
+                                                 const Vector3& middle = {});
 
 /// 1280 triangles with corners on the ellipsoid: at most 0.5 % of its radii below it.
 std::shared_ptr<const TriangleMesh> tessellate(const Ellipsoid& ellipsoid);

@@ -43,7 +43,7 @@ std::shared_ptr<const TriangleMesh> read(const MeshRequest& request, const MeshR
                                          MeshReader& reader) {
   const Vector3& scale = request.scale;
   MeshContent content =
-      reader.read({request.file.string(), file.size, file.digest, {scale.X(), scale.Y(), scale.Z()}, request.submesh});
+      reader.read({request.file.string(), file.size, file.digest, {scale.x(), scale.y(), scale.z()}, request.submesh});
   if (!content.error.empty()) {
     throw MeshError(content.error + did_you_mean(request.submesh, lines_of(content.part_names)));
   }
@@ -66,9 +66,9 @@ std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshRe
   const Key key{(request.file.parent_path() / request.file.extension()).string(),
                 file.size,
                 file.digest,
-                request.scale.X(),
-                request.scale.Y(),
-                request.scale.Z(),
+                request.scale.x(),
+                request.scale.y(),
+                request.scale.z(),
                 request.submesh,
                 request.center};
   if (const auto found = known.find(key); found != known.end()) {

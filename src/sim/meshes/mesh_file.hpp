@@ -13,7 +13,7 @@ namespace bubblesim {
 
 struct MeshRequest {
   std::filesystem::path file{};
-  Vector3 scale = Vector3::One;
+  Vector3 scale = Vector3::Ones();
   std::string submesh{};  ///< name of the part to load; empty: all parts
   bool center = false;    ///< moves the centre of the part's bounding box to the origin
 };

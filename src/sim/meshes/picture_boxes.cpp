@@ -44,9 +44,9 @@ std::vector<Rectangle> cover(std::vector<bool> dark, std::size_t width, std::siz
 void add_box(const Vector3& low, const Vector3& high, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (int corner = 0; corner < 8; ++corner) {
-    mesh.vertices.push_back({static_cast<float>((corner & 1) != 0 ? high.X() : low.X()),
-                             static_cast<float>((corner & 2) != 0 ? high.Y() : low.Y()),
-                             static_cast<float>((corner & 4) != 0 ? high.Z() : low.Z())});
+    mesh.vertices.push_back({static_cast<float>((corner & 1) != 0 ? high.x() : low.x()),
+                             static_cast<float>((corner & 2) != 0 ? high.y() : low.y()),
+                             static_cast<float>((corner & 4) != 0 ? high.z() : low.z())});
   }
   // Corners of the faces, counter-clockwise seen from outside.
   constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {

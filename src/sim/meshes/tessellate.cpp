@@ -24,7 +24,7 @@ UnitSphere icosahedron() {
   for (const Vector3& corner : {Vector3(-1, t, 0), Vector3(1, t, 0), Vector3(-1, -t, 0), Vector3(1, -t, 0),
                                 Vector3(0, -1, t), Vector3(0, 1, t), Vector3(0, -1, -t), Vector3(0, 1, -t),
                                 Vector3(t, 0, -1), Vector3(t, 0, 1), Vector3(-t, 0, -1), Vector3(-t, 0, 1)}) {
-    sphere.corners.push_back(corner.Normalized());
+    sphere.corners.push_back(corner.normalized());
   }
   sphere.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
@@ -37,7 +37,7 @@ void divide(UnitSphere& sphere) {
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const auto [found, is_new] =
         middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(sphere.corners.size()));
-    if (is_new) sphere.corners.push_back((sphere.corners[a] + sphere.corners[b]).Normalized());
+    if (is_new) sphere.corners.push_back((sphere.corners[a] + sphere.corners[b]).normalized());
     return found->second;
   };
   std::vector<TriangleMesh::Triangle> finer;
@@ -57,9 +57,9 @@ std::shared_ptr<const TriangleMesh> tessellate(const Ellipsoid& ellipsoid) {
   for (int i = 0; i < kDivisions; ++i) divide(sphere);
   TriangleMesh mesh;
   for (const Vector3& corner : sphere.corners) {
-    const Vector3 place = corner * ellipsoid.radii;
+    const Vector3 place = corner.cwiseProduct(ellipsoid.radii);
     mesh.vertices.push_back(
-        {static_cast<float>(place.X()), static_cast<float>(place.Y()), static_cast<float>(place.Z())});
+        {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z())});
   }
   mesh.triangles = std::move(sphere.triangles);
   return finish_mesh(std::move(mesh));

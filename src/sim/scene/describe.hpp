@@ -15,11 +15,11 @@ inline std::string text(double value) {
   return out.str();
 }
 
-inline std::string text(const Vector3& v) { return "(" + text(v.X()) + ", " + text(v.Y()) + ", " + text(v.Z()) + ")"; }
+inline std::string text(const Vector3& v) { return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")"; }
 
 /// x, y, z, w
 inline std::string text(const Quaternion& q) {
-  return "(" + text(q.X()) + ", " + text(q.Y()) + ", " + text(q.Z()) + ", " + text(q.W()) + ")";
+  return "(" + text(q.x()) + ", " + text(q.y()) + ", " + text(q.z()) + ", " + text(q.w()) + ")";
 }
 
 }  // namespace bubblesim

@@ -32,8 +32,9 @@ class DescriptionHash {
     hash_.add(bits);
   }
   void add(const std::string& text) { hash_.add(std::string_view(text)); }
-  void add(const Vector3& v) { (*this)(v.X(), v.Y(), v.Z()); }
-  void add(const Pose& p) { (*this)(p.Pos(), p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()); }
+  void add(const Vector3& v) { (*this)(v.x(), v.y(), v.z()); }
+  void add(const Quaternion& q) { (*this)(q.w(), q.x(), q.y(), q.z()); }
+  void add(const Pose& p) { (*this)(p.position, p.orientation); }
   template <class Value>
   void add(const std::vector<Value>& values) {
     add(values.size());

@@ -36,24 +36,15 @@ void StateArchive::require(std::uint64_t present, const char* what) {
                      std::to_string(saved) + ", here " + std::to_string(present));
 }
 
-void transfer(StateArchive& archive, Vector3& value) {
-  double numbers[] = {value.X(), value.Y(), value.Z()};
-  archive.bytes(numbers, sizeof numbers);
-  if (archive.restores()) value.Set(numbers[0], numbers[1], numbers[2]);
-}
+void transfer(StateArchive& archive, Vector3& value) { archive.bytes(value.data(), 3 * sizeof(double)); }
 
 void transfer(StateArchive& archive, Quaternion& value) {
-  double numbers[] = {value.W(), value.X(), value.Y(), value.Z()};
+  double numbers[] = {value.w(), value.x(), value.y(), value.z()};
   archive.bytes(numbers, sizeof numbers);
-  if (archive.restores()) value.Set(numbers[0], numbers[1], numbers[2], numbers[3]);
+  if (archive.restores()) value = Quaternion(numbers[0], numbers[1], numbers[2], numbers[3]);
 }
 
-void transfer(StateArchive& archive, Pose& value) {
-  Vector3 position = value.Pos();
-  Quaternion rotation = value.Rot();
-  archive(position, rotation);
-  if (archive.restores()) value.Set(position, rotation);
-}
+void transfer(StateArchive& archive, Pose& value) { archive(value.position, value.orientation); }
 
 void transfer(StateArchive& archive, Twist& value) { archive(value.linear, value.angular); }
 
