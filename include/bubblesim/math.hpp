@@ -42,6 +42,9 @@ Quaternion from_rpy(double roll, double pitch, double yaw);
 /// The inverse of from_rpy(): roll, pitch and yaw, pitch from -pi/2 to pi/2; at those, the roll is 0.
 Vector3 to_rpy(const Quaternion& rotation);
 
+/// The shortest rotation from the z axis to a direction, which is not zero; to -z, about x.
+Quaternion turn_from_z(const Vector3& direction);
+
 /// A rigid transform from one frame to another: `a * b` is b given in the frame of a.
 struct Pose {
   Vector3 position;

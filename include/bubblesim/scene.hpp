@@ -219,6 +219,12 @@ struct LinkDescription {
   std::vector<SensorDescription> sensors;
   std::vector<Light> lights;  ///< positions and directions in the link's frame
   Source source;
+
+  Matrix3 inertia() const {
+    const Vector3& d = inertia_diagonal;
+    const Vector3& p = inertia_products;
+    return Matrix3{{d.x(), p.x(), p.y()}, {p.x(), d.y(), p.z()}, {p.y(), p.z(), d.z()}};
+  }
 };
 
 enum class MotorMode {

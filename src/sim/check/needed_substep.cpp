@@ -23,10 +23,7 @@ bool is_free(const JointDescription& joint) {
 
 /// The least moment of inertia about an axis across `along`, or that about the axis of a joint with one.
 double moment_across(const LinkDescription& link, const Vector3& along, const JointDescription& joint) {
-  const Vector3& d = link.inertia_diagonal;
-  const Vector3& p = link.inertia_products;
-  Matrix3 inertia;
-  inertia << d.x(), p.x(), p.y(), p.x(), d.y(), p.z(), p.y(), p.z(), d.z();
+  const Matrix3 inertia = link.inertia();
   const Quaternion to_link = link.pose.orientation.conjugate();
   if (joint.axes.size() == 1) {
     const Vector3 axis = to_link * (joint.pose.orientation * joint.axes.front().direction);

@@ -77,7 +77,7 @@ void Buoyancy::find_links(const World& world) {
     } else {
       for (const CollisionDescription& shape : link_description(world, link).collisions) {
         const double reach = reach_of(shape.geometry);
-        Displaced full = displaced_below(shape.geometry, Vector3::UnitZ, 2 * reach);
+        Displaced full = displaced_below(shape.geometry, Vector3::UnitZ(), 2 * reach);
         if (full.volume > 0) floating.solids.push_back({&shape, reach, full});
       }
     }
@@ -93,8 +93,8 @@ double Buoyancy::density_at(double height) const {
 
 void Buoyancy::lift(World& world, const Floating& link, const Solid& solid) const {
   const Pose pose = world.pose(link.link) * solid.shape->pose;
-  const Vector3 up = pose.Rot().RotateVectorReverse(Vector3::UnitZ);
-  const double z = pose.Pos().Z();
+  const Vector3 up = pose.orientation.conjugate() * Vector3::UnitZ();
+  const double z = pose.position.z();
   Displaced below;  // the layers so far
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const double surface = i + 1 < layers_.size() ? layers_[i + 1].above : std::numeric_limits<double>::infinity();
@@ -104,8 +104,7 @@ void Buoyancy::lift(World& world, const Floating& link, const Solid& solid) cons
     const double volume = next.volume - below.volume;
     if (volume > 0) {
       const Vector3 centroid = (next.moment - below.moment) / volume;
-      world.apply_wrench(link.link, {-world.gravity() * (layers_[i].density * volume), {}},
-                         pose.CoordPositionAdd(centroid));
+      world.apply_wrench(link.link, {-world.gravity() * (layers_[i].density * volume), {}}, pose * centroid);
     }
     if (contains_rest) return;
     below = next;
@@ -116,8 +115,8 @@ void Buoyancy::update(World& world, double, double) {
   if (revision_ != world.revision()) find_links(world);
   for (const Floating& link : links_) {
     if (link.given) {
-      const Vector3 centre = world.pose(link.link).CoordPositionAdd(link.given->centre);
-      world.apply_wrench(link.link, {-world.gravity() * (density_at(centre.Z()) * link.given->volume), {}}, centre);
+      const Vector3 centre = world.pose(link.link) * link.given->centre;
+      world.apply_wrench(link.link, {-world.gravity() * (density_at(centre.z()) * link.given->volume), {}}, centre);
     }
     for (const Solid& solid : link.solids) lift(world, link, solid);
   }

@@ -15,13 +15,13 @@ namespace {
 struct HalfSpace {
   Vector3 up;
   double height;
-  double above(const Vector3& point) const { return up.Dot(point) - height; }
+  double above(const Vector3& point) const { return up.dot(point) - height; }
 };
 
 /// Adds the tetrahedron of a triangle and a point of the plane. The triangles of a closed surface below the plane add
 /// up to the volume below it: the missing ones are in the plane and have no volume with the point.
 void add_tetrahedron(Displaced& sum, const Vector3& apex, const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double volume = (a - apex).Dot((b - apex).Cross(c - apex)) / 6;
+  const double volume = (a - apex).dot((b - apex).cross(c - apex)) / 6;
   sum.volume += volume;
   sum.moment += (apex + a + b + c) * (volume / 4);
 }
@@ -52,8 +52,9 @@ Displaced of_mesh(const TriangleMesh& mesh, const HalfSpace& water) {
 
 Displaced of_box(const Vector3& size, const HalfSpace& water) {
   Displaced sum;
-  const auto corner = [&](std::size_t bits) {
-    return Vector3((bits & 1) != 0 ? 0.5 : -0.5, (bits & 2) != 0 ? 0.5 : -0.5, (bits & 4) != 0 ? 0.5 : -0.5) * size;
+  const auto corner = [half = Vector3(size / 2)](std::size_t bits) -> Vector3 {
+    return {(bits & 1) != 0 ? half.x() : -half.x(), (bits & 2) != 0 ? half.y() : -half.y(),
+            (bits & 4) != 0 ? half.z() : -half.z()};
   };
   // Two triangles a side, counter-clockwise seen from outside; bits: x, y, z.
   static constexpr std::size_t kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
@@ -75,11 +76,11 @@ Displaced of_sphere(double radius, const HalfSpace& water) {
 
 /// The unit sphere, stretched.
 Displaced of_ellipsoid(const Vector3& radii, const HalfSpace& water) {
-  const Vector3 stretched = water.up * radii;
-  const double length = stretched.Length();
+  const Vector3 stretched = water.up.cwiseProduct(radii);
+  const double length = stretched.norm();
   const Displaced unit = of_sphere(1, {stretched / length, water.height / length});
-  const double stretch = radii.X() * radii.Y() * radii.Z();
-  return {unit.volume * stretch, unit.moment * radii * stretch};
+  const double stretch = radii.prod();
+  return {unit.volume * stretch, unit.moment.cwiseProduct(radii) * stretch};
 }
 
 /// The part of a disk of radius r in which a coordinate is below t: its area, and the integral of the coordinate.
@@ -100,10 +101,10 @@ void add_disks(Displaced& sum, const HalfSpace& water, double from, double to, c
   static constexpr std::array<double, 8> kWeights = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
                                                      0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                                      0.0622535239386479, 0.0271524594117541};
-  const double slope = std::hypot(water.up.X(), water.up.Y());
-  const Vector3 uphill = slope > 0 ? Vector3(water.up.X(), water.up.Y(), 0) / slope : Vector3::UnitX;
+  const double slope = std::hypot(water.up.x(), water.up.y());
+  const Vector3 uphill = slope > 0 ? Vector3(water.up.x() / slope, water.up.y() / slope, 0) : Vector3::UnitX();
   const auto add = [&](double z, double weight) {
-    const double gap = water.height - z * water.up.Z();  // up to the surface, from the middle of the disk
+    const double gap = water.height - z * water.up.z();  // up to the surface, from the middle of the disk
     const double r = radius(z);
     const double reach = slope > 1e-12 ? gap / slope : std::copysign(2 * r, gap);
     const auto [area, moment] = segment(r, reach);
@@ -131,19 +132,19 @@ void add_parts(Displaced& sum, const HalfSpace& water, double from, double to, s
 }
 
 void add_barrel(Displaced& sum, double r, double length, const HalfSpace& water) {
-  const double slope = std::hypot(water.up.X(), water.up.Y());
+  const double slope = std::hypot(water.up.x(), water.up.y());
   // Where the surface enters and leaves the wall.
-  const std::array<double, 2> changes = {(water.height - r * slope) / water.up.Z(),
-                                         (water.height + r * slope) / water.up.Z()};
+  const std::array<double, 2> changes = {(water.height - r * slope) / water.up.z(),
+                                         (water.height + r * slope) / water.up.z()};
   add_parts(sum, water, -length / 2, length / 2, changes, [r](double) { return r; });
 }
 
 /// A half ball whose flat side is at `base`, above or below it.
 void add_cap(Displaced& sum, double r, double base, bool upper, const HalfSpace& water) {
-  const double slope = std::hypot(water.up.X(), water.up.Y());
-  const double gap = water.height - base * water.up.Z();
+  const double slope = std::hypot(water.up.x(), water.up.y());
+  const double gap = water.height - base * water.up.z();
   const double across = std::sqrt(std::max(r * r - gap * gap, 0.0)) * slope;
-  const std::array<double, 2> changes = {base + gap * water.up.Z() - across, base + gap * water.up.Z() + across};
+  const std::array<double, 2> changes = {base + gap * water.up.z() - across, base + gap * water.up.z() + across};
   const auto radius = [&](double z) { return std::sqrt(std::max(r * r - (z - base) * (z - base), 0.0)); };
   add_parts(sum, water, upper ? base : base - r, upper ? base + r : base, changes, radius);
 }
@@ -171,16 +172,16 @@ struct Displacer {
 };
 
 struct Reach {
-  double operator()(const Box& box) const { return box.size.Length() / 2; }
+  double operator()(const Box& box) const { return box.size.norm() / 2; }
   double operator()(const Sphere& sphere) const { return sphere.radius; }
-  double operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii.Max(); }
+  double operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii.maxCoeff(); }
   double operator()(const Cylinder& cylinder) const { return std::hypot(cylinder.radius, cylinder.length / 2); }
   double operator()(const Capsule& capsule) const { return capsule.radius + capsule.length / 2; }
   double operator()(const Plane&) const { return 0; }
   double operator()(const Mesh& mesh) const {
     const Vector3 low = mesh.triangles->low;
     const Vector3 high = mesh.triangles->high;
-    return Vector3(std::max(-low.X(), high.X()), std::max(-low.Y(), high.Y()), std::max(-low.Z(), high.Z())).Length();
+    return high.cwiseMax(-low).norm();
   }
 };
 

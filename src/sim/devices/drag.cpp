@@ -16,12 +16,8 @@ namespace {
 /// For each axis: -(linear + quadratic |v|) v, but at most what stops the inertia within the time.
 Vector3 resistance(const Vector3& velocity, const Vector3& linear, const Vector3& quadratic, const Vector3& inertia,
                    double duration) {
-  Vector3 force;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double v = velocity[axis];
-    force[axis] = -std::min(linear[axis] + quadratic[axis] * std::abs(v), inertia[axis] / duration) * v;
-  }
-  return force;
+  const Vector3 slope = linear + quadratic.cwiseProduct(velocity.cwiseAbs());
+  return -slope.cwiseMin(inertia / duration).cwiseProduct(velocity);
 }
 
 }  // namespace
@@ -31,7 +27,7 @@ Drag::Drag(const World& world, const DragDescription& description, std::shared_p
   check_pushable(world, description_.link);
   for (const Vector3& coefficients :
        {description_.linear, description_.quadratic, description_.angular_linear, description_.angular_quadratic}) {
-    if (within(coefficients, kMaxEffort) && coefficients.Min() >= 0) continue;
+    if (within(coefficients, kMaxEffort) && coefficients.minCoeff() >= 0) continue;
     throw InvalidInput(world.tree().short_path(description_.link) + ": the drag coefficients " + text(coefficients) +
                        " are not usable: each must be from 0 to 1e9");
   }
@@ -50,15 +46,15 @@ void Drag::update(World& world, double, double duration) {
   const LinkDescription& link = link_description(world, d.link);
   const Pose pose = world.pose(d.link);
   const Twist twist = world.velocity(d.link);
-  const Vector3 fluid = current_ + (d.in_wind ? wind_->velocity() : Vector3::Zero);
-  const Vector3 velocity = pose.Rot().RotateVectorReverse(twist.linear - fluid);
-  const Vector3 turning = pose.Rot().RotateVectorReverse(twist.angular);
-  const Vector3 force = resistance(velocity, d.linear, d.quadratic, Vector3::One * link.mass, duration);
+  const Vector3 fluid = current_ + (d.in_wind ? wind_->velocity() : Vector3::Zero());
+  const Vector3 velocity = pose.orientation.conjugate() * (twist.linear - fluid);
+  const Vector3 turning = pose.orientation.conjugate() * twist.angular;
+  const Vector3 force = resistance(velocity, d.linear, d.quadratic, Vector3::Constant(link.mass), duration);
   const Vector3 torque = resistance(turning, d.angular_linear, d.angular_quadratic, link.inertia_diagonal, duration);
-  world.apply_wrench(d.link, {pose.Rot().RotateVector(force), pose.Rot().RotateVector(torque)}, pose.Pos());
+  world.apply_wrench(d.link, {pose.orientation * force, pose.orientation * torque}, pose.position);
 }
 
-void Drag::reset(World&) { current_ = Vector3::Zero; }
+void Drag::reset(World&) { current_ = Vector3::Zero(); }
 
 void Drag::transfer(StateArchive& archive) { archive(current_); }
 

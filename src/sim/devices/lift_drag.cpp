@@ -38,7 +38,7 @@ void check_wing(const World& world, const LiftDragDescription& d) {
     finite(name, value);
   }
   const bool usable = within(d.forward, kMaxSpeed) && within(d.upward, kMaxSpeed) &&
-                      d.forward.Normalized().Cross(d.upward.Normalized()).Length() > 1e-6;
+                      d.forward.normalized().cross(d.upward.normalized()).norm() > 1e-6;
   require(usable, "forward and upward directions", text(d.forward) + ", " + text(d.upward), "not parallel");
   if (d.control_joint != kNoObject) world.max_force(d.control_joint);  // throws when it has no axis
 }
@@ -60,36 +60,37 @@ double folded(double angle) {
 LiftDrag::LiftDrag(const World& world, const LiftDragDescription& description, std::shared_ptr<const Wind> wind)
     : description_(description), wind_(std::move(wind)) {
   check_wing(world, description_);
-  description_.forward.Normalize();
-  description_.upward.Normalize();
+  description_.forward.normalize();
+  description_.upward.normalize();
 }
 
 void LiftDrag::update(World& world, double, double) {
   const LiftDragDescription& d = description_;
   const Pose pose = world.pose(d.link);
   const Twist twist = world.velocity(d.link);
-  const Vector3 offset = pose.Rot().RotateVector(d.centre_of_pressure);
-  Vector3 velocity = twist.linear + twist.angular.Cross(offset);
+  const Vector3 offset = pose.orientation * d.centre_of_pressure;
+  Vector3 velocity = twist.linear + twist.angular.cross(offset);
   if (wind_) velocity -= wind_->velocity();
-  if (!(velocity.Length() > kSlowest)) return;
+  if (!(velocity.norm() > kSlowest)) return;
 
-  const Vector3 forward = pose.Rot().RotateVector(d.forward);
-  Vector3 upward = pose.Rot().RotateVector(d.upward);
+  const Vector3 forward = pose.orientation * d.forward;
+  Vector3 upward = pose.orientation * d.upward;
   if (d.radial_symmetry) {
-    upward = forward.Cross(forward.Cross(velocity)).Normalized();
-    if (upward.Length() < 0.5) return;  // the flow is along the axis of symmetry
+    upward = forward.cross(forward.cross(velocity));
+    if (upward.norm() < 1e-6) return;  // the flow is along the axis of symmetry
+    upward.normalize();
   }
-  const Vector3 span = forward.Cross(upward).Normalized();
-  const double sine_of_sweep = std::clamp(span.Dot(velocity.Normalized()), -1.0, 1.0);
+  const Vector3 span = forward.cross(upward).normalized();
+  const double sine_of_sweep = std::clamp(span.dot(velocity.normalized()), -1.0, 1.0);
   const double sweep_factor = 1 - sine_of_sweep * sine_of_sweep;
-  const Vector3 in_plane = velocity - span * velocity.Dot(span);
-  const double speed = in_plane.Length();
+  const Vector3 in_plane = velocity - span * velocity.dot(span);
+  const double speed = in_plane.norm();
   if (!(speed > 0)) return;
-  const Vector3 lift_direction = span.Cross(in_plane) / speed;
+  const Vector3 lift_direction = span.cross(in_plane) / speed;
 
   // The lift is across the flow: it leans forward by the angle of attack.
-  const double lean = std::atan2(lift_direction.Cross(upward).Length(), lift_direction.Dot(upward));
-  const double alpha = folded(d.alpha0 + (lift_direction.Dot(forward) >= 0 ? lean : -lean));
+  const double lean = std::atan2(lift_direction.cross(upward).norm(), lift_direction.dot(upward));
+  const double alpha = folded(d.alpha0 + (lift_direction.dot(forward) >= 0 ? lean : -lean));
   double lift = coefficient(alpha, d.lift_slope, d.alpha_stall, d.lift_slope_stall) * sweep_factor;
   if (std::abs(alpha) > d.alpha_stall) lift = alpha > 0 ? std::max(lift, 0.0) : std::min(lift, 0.0);
   if (d.control_joint != kNoObject) lift += d.control_slope * world.joint_position(d.control_joint);
@@ -97,7 +98,7 @@ void LiftDrag::update(World& world, double, double) {
 
   const double pressure = 0.5 * d.density * speed * speed;
   const Vector3 force = (lift_direction * lift - in_plane / speed * drag) * (pressure * d.area);
-  world.apply_wrench(d.link, {force, {}}, pose.Pos() + offset);
+  world.apply_wrench(d.link, {force, {}}, pose.position + offset);
 }
 
 }  // namespace bubblesim

@@ -35,9 +35,9 @@ std::vector<ObjectId> moving_links(const World& world, const std::function<bool(
 
 LinkMotion motion_of(const World& world, ObjectId link) {
   LinkMotion motion{world.pose(link), {}, world.velocity(link)};
-  const Vector3 offset = motion.pose.Rot().RotateVector(link_description(world, link).centre_of_mass);
-  motion.centre = motion.pose.Pos() + offset;
-  motion.twist.linear += motion.twist.angular.Cross(offset);
+  const Vector3 offset = motion.pose.orientation * link_description(world, link).centre_of_mass;
+  motion.centre = motion.pose.position + offset;
+  motion.twist.linear += motion.twist.angular.cross(offset);
   return motion;
 }
 

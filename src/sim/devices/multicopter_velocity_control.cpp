@@ -21,7 +21,7 @@ struct Axes {
 };
 
 Axes axes_of(const Quaternion& turn) {
-  return {turn.RotateVector(Vector3::UnitX), turn.RotateVector(Vector3::UnitY), turn.RotateVector(Vector3::UnitZ)};
+  return {turn * Vector3::UnitX(), turn * Vector3::UnitY(), turn * Vector3::UnitZ()};
 }
 
 double mass_of_model(const World& world, ObjectId link) {
@@ -34,13 +34,13 @@ double mass_of_model(const World& world, ObjectId link) {
 /// model, and to the thrust.
 std::vector<double> mixing_of(const World& world, ObjectId link, const std::vector<std::shared_ptr<Rotor>>& rotors) {
   Eigen::Matrix<double, 4, Eigen::Dynamic> effect(4, static_cast<Eigen::Index>(rotors.size()));
-  const Pose frame(motion_of(world, link).centre, world.pose(link).Rot());
+  const Pose frame(motion_of(world, link).centre, world.pose(link).orientation);
   for (std::size_t i = 0; i < rotors.size(); ++i) {
     const RotorDescription& rotor = rotors[i]->description();
-    const Vector3 place = (frame.Inverse() * world.joint_child_pose(rotor.joint)).Pos();
+    const Vector3 place = (frame.inverse() * world.joint_child_pose(rotor.joint)).position;
     const double turning = rotor.clockwise ? -1 : 1;
     effect.col(static_cast<Eigen::Index>(i)) =
-        Eigen::Vector4d(place.Y(), -place.X(), -turning * rotor.torque_length, 1) * rotor.thrust_coefficient;
+        Eigen::Vector4d(place.y(), -place.x(), -turning * rotor.torque_length, 1) * rotor.thrust_coefficient;
   }
   Eigen::FullPivLU<Eigen::Matrix4d> gram(effect * effect.transpose());
   gram.setThreshold(1e-12);  // levers of a micrometre are none
@@ -62,10 +62,10 @@ Axes attitude(const Vector3& z, const Axes& now) {
   constexpr double kParallel = 1e-3;
   Vector3 x = now.x;
   for (const Vector3& other : {now.y, now.z}) {
-    if (x.Cross(z).SquaredLength() < kParallel) x = other;
+    if (x.cross(z).squaredNorm() < kParallel) x = other;
   }
-  const Vector3 y = z.Cross(x).Normalized();
-  return {y.Cross(z), y, z};
+  const Vector3 y = z.cross(x).normalized();
+  return {y.cross(z), y, z};
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ MulticopterVelocityControl::MulticopterVelocityControl(const World& world,
     : description_(description), rotors_(std::move(rotors)) {
   check_pushable(world, description_.link);
   for (const Vector3& gains : {description_.velocity_gain, description_.attitude_gain, description_.rate_gain}) {
-    if (within(gains, kMaxEffort) && gains.Min() >= 0) continue;
+    if (within(gains, kMaxEffort) && gains.minCoeff() >= 0) continue;
     throw InvalidInput(world.tree().short_path(description_.link) + ": the gains " + text(gains) +
                        " are not usable: each must be from 0 to 1e9");
   }
-  if (!(description_.max_acceleration.Min() >= 0)) {
+  if (!(description_.max_acceleration.minCoeff() >= 0)) {
     throw InvalidInput(world.tree().short_path(description_.link) + ": the greatest acceleration " +
                        text(description_.max_acceleration) + " m/s^2 is not usable: it must be 0 or more");
   }
@@ -105,27 +105,28 @@ void MulticopterVelocityControl::update(World& world, double, double) {
   if (!command_) return;
   const Pose pose = world.pose(description_.link);
   const Twist twist = world.velocity(description_.link);
-  const Axes now = axes_of(pose.Rot());
+  const Axes now = axes_of(pose.orientation);
 
-  const Vector3 error = pose.Rot().RotateVector(command_->linear) - twist.linear;
+  const Vector3 error = pose.orientation * command_->linear - twist.linear;
   Vector3 acceleration;
   for (std::size_t i = 0; i < 3; ++i) {
     const double most = description_.max_acceleration[i];
     acceleration[i] = std::clamp(error[i] * description_.velocity_gain[i] / mass_, -most, most);
   }
   const Vector3 force = (acceleration - world.gravity()) * mass_;
-  if (force.SquaredLength() == 0) return;  // weightless and at the velocity: any attitude will do
+  if (force.squaredNorm() == 0) return;  // weightless and at the velocity: any attitude will do
 
   // e_R = (R_d^T R - R^T R_d)^v / 2, and e_omega with R^T R_d omega_d.
-  const Axes wanted = attitude(force.Normalized(), now);
+  const Axes wanted = attitude(force.normalized(), now);
   const Vector3 attitude_error =
-      pose.Rot().RotateVectorReverse((wanted.x.Cross(now.x) + wanted.y.Cross(now.y) + wanted.z.Cross(now.z)) / 2);
-  const Vector3 rate_error = pose.Rot().RotateVectorReverse(twist.angular - wanted.z * command_->yaw_rate);
-  const Vector3 torque = -attitude_error * description_.attitude_gain - rate_error * description_.rate_gain;
-  const double thrust = force.Dot(now.z);
+      pose.orientation.conjugate() * ((wanted.x.cross(now.x) + wanted.y.cross(now.y) + wanted.z.cross(now.z)) / 2);
+  const Vector3 rate_error = pose.orientation.conjugate() * (twist.angular - wanted.z * command_->yaw_rate);
+  const Vector3 torque =
+      -attitude_error.cwiseProduct(description_.attitude_gain) - rate_error.cwiseProduct(description_.rate_gain);
+  const double thrust = force.dot(now.z);
   for (std::size_t i = 0; i < rotors_.size(); ++i) {
     const double* row = &mixing_[4 * i];
-    const double squared = row[0] * torque.X() + row[1] * torque.Y() + row[2] * torque.Z() + row[3] * thrust;
+    const double squared = row[0] * torque.x() + row[1] * torque.y() + row[2] * torque.z() + row[3] * thrust;
     rotors_[i]->set_speed(std::sqrt(std::max(squared, 0.0)));
   }
 }

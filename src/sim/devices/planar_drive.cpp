@@ -22,7 +22,7 @@ void PlanarDrive::set_velocity(double forward, double leftward, double turning) 
 void PlanarDrive::update(World& world, double, double duration) {
   if (!commanded_) return;
   // The heading in the middle of the time until the next update makes the path the commanded arc.
-  const double yaw = world.pose(model_).Rot().Yaw() + turning_ * duration / 2;
+  const double yaw = to_rpy(world.pose(model_).orientation).z() + turning_ * duration / 2;
   const double along = std::cos(yaw);
   const double across = std::sin(yaw);
   world.set_planar_velocity(model_, along * forward_ - across * leftward_, across * forward_ + along * leftward_,

@@ -22,18 +22,18 @@ void PointSpring::grip(const World& world, ObjectId link, const Vector3& point) 
   if (tree.at(link).kind != ObjectKind::kLink || model.is_static) {
     throw WrongObject(tree.short_path(link) + " is not a link of a moving model");
   }
-  if (!point.IsFinite()) throw InvalidInput("the point that a spring pulls must be finite");
+  if (!point.allFinite()) throw InvalidInput("the point that a spring pulls must be finite");
   mass_ = 0;
   for (const LinkDescription& each : model.links) mass_ += each.mass;
   link_mass_ = model.links[tree.at(link).index].mass;
   const Pose pose = world.pose(link);
   point_ = point;
-  target_ = pose.Pos() + pose.Rot().RotateVector(point);
+  target_ = pose.position + pose.orientation * point;
   link_ = link;
 }
 
 void PointSpring::pull_to(const Vector3& target) {
-  if (!target.IsFinite()) throw InvalidInput("the place that a spring pulls to must be finite");
+  if (!target.allFinite()) throw InvalidInput("the place that a spring pulls to must be finite");
   target_ = target;
 }
 
@@ -41,14 +41,14 @@ void PointSpring::update(World& world, double /*time*/, double duration) {
   if (link_ == kNoObject) return;
   if (!world.tree().contains(link_)) return release();
   const Pose pose = world.pose(link_);
-  const Vector3 arm = pose.Rot().RotateVector(point_);
+  const Vector3 arm = pose.orientation * point_;
   const Twist twist = world.velocity(link_);
-  const Vector3 velocity = twist.linear + twist.angular.Cross(arm);
+  const Vector3 velocity = twist.linear + twist.angular.cross(arm);
   const double damping = std::min(2 * kFrequency * mass_, kMostDamping * link_mass_ / duration);
-  Vector3 force = (target_ - pose.Pos() - arm) * (kFrequency * kFrequency * mass_) - velocity * damping;
+  Vector3 force = (target_ - pose.position - arm) * (kFrequency * kFrequency * mass_) - velocity * damping;
   const double most = kMostForce * mass_;
-  if (force.Length() > most) force *= most / force.Length();
-  world.apply_wrench(link_, {force, {}}, pose.Pos() + arm);
+  if (force.norm() > most) force *= most / force.norm();
+  world.apply_wrench(link_, {force, {}}, pose.position + arm);
 }
 
 void PointSpring::reset(World& /*world*/) { release(); }

@@ -75,12 +75,12 @@ void Rotor::push(World& world) const {
   if (!(std::abs(joint_speed) > kStill)) return;
   const auto [airframe, propeller] = world.joint_links(d.joint);
   const Vector3 axis =
-      world.joint_child_pose(d.joint).Rot().RotateVector(world.joint_description(d.joint).axes.front().direction);
+      world.joint_child_pose(d.joint).orientation * world.joint_description(d.joint).axes.front().direction;
   const double turning = d.clockwise ? -1 : 1;
   const double speed = std::abs(joint_speed);
   const double thrust = turning * joint_speed * speed * d.thrust_coefficient;
-  Vector3 across = motion_of(world, propeller).twist.linear - (wind_ ? wind_->velocity() : Vector3::Zero);
-  across -= axis * across.Dot(axis);
+  Vector3 across = motion_of(world, propeller).twist.linear - (wind_ ? wind_->velocity() : Vector3::Zero());
+  across -= axis * across.dot(axis);
   world.apply_wrench(propeller, {axis * thrust - across * (speed * d.drag_coefficient), {}});
   if (airframe == kNoObject) return;
   const Vector3 torque = axis * (-turning * thrust * d.torque_length) - across * (speed * d.rolling_coefficient);

@@ -40,12 +40,12 @@ void push_joint(World& world, ObjectId joint, double effort, double part) {
   const JointDescription& description = world.joint_description(joint);
   const double limit = world.max_force(joint);
   const Pose frame = world.joint_axes(joint) == 1 ? world.joint_child_pose(joint) : world.pose(joint);
-  const Vector3 axis = frame.Rot().RotateVector(description.axes.front().direction);
+  const Vector3 axis = frame.orientation * description.axes.front().direction;
   const Vector3 push = axis * (std::clamp(effort, -limit, limit) * part);
   const Wrench wrench = description.type == "prismatic" ? Wrench{push, {}} : Wrench{{}, push};
   const auto [parent, child] = world.joint_links(joint);
-  world.apply_wrench(child, wrench, frame.Pos());
-  if (parent != kNoObject) world.apply_wrench(parent, {-wrench.force, -wrench.torque}, frame.Pos());
+  world.apply_wrench(child, wrench, frame.position);
+  if (parent != kNoObject) world.apply_wrench(parent, {-wrench.force, -wrench.torque}, frame.position);
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ void TimedEfforts::update(World& world, double time, double duration) {
     const double part = covered(one.interval, time, duration);
     if (part == 0 || !tree.contains(one.link)) continue;
     const Wrench mean{one.wrench.force * part, one.wrench.torque * part};
-    const auto at = [&](const Vector3& point) { return world.pose(one.link).CoordPositionAdd(point); };
+    const auto at = [&](const Vector3& point) { return world.pose(one.link) * point; };
     world.apply_wrench(one.link, mean, one.point ? std::make_optional(at(*one.point)) : std::nullopt);
   }
   for (const TimedEffort& one : efforts_) {

@@ -8,12 +8,8 @@ namespace {
 
 /// The angular momentum of a link about its centre of mass, world axes.
 Vector3 spin_of(const LinkDescription& link, const LinkMotion& motion) {
-  const Vector3 w = motion.pose.Rot().RotateVectorReverse(motion.twist.angular);
-  const Vector3& d = link.inertia_diagonal;
-  const Vector3& p = link.inertia_products;  // xy, xz, yz
-  return motion.pose.Rot().RotateVector({d.X() * w.X() + p.X() * w.Y() + p.Y() * w.Z(),
-                                         p.X() * w.X() + d.Y() * w.Y() + p.Z() * w.Z(),
-                                         p.Y() * w.X() + p.Z() * w.Y() + d.Z() * w.Z()});
+  const Quaternion& turn = motion.pose.orientation;
+  return turn * (link.inertia() * (turn.conjugate() * motion.twist.angular));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace bubblesim {
 namespace {
 
-double direction_of(const Vector3& wind) { return std::atan2(wind.Y(), wind.X()); }
+double direction_of(const Vector3& wind) { return std::atan2(wind.y(), wind.x()); }
 
 /// The part of the gap to the mean that is closed in a time.
 double closed_part(double duration, double time_constant) { return -std::expm1(-duration / time_constant); }
@@ -74,14 +74,14 @@ void Wind::set_force_factor(double factor) {
 void Wind::restart() {
   speed_ = vertical_ = 0;
   direction_ = direction_of(mean_);
-  velocity_ = variation_ ? Vector3::Zero : mean_;
+  velocity_ = variation_ ? Vector3::Zero() : mean_;
 }
 
 void Wind::blow(double time, double duration) {
   const Variation& v = *variation_;
-  const double mean_speed = std::hypot(mean_.X(), mean_.Y());
+  const double mean_speed = std::hypot(mean_.x(), mean_.y());
   speed_ += (mean_speed - speed_) * closed_part(duration, v.rise_time);
-  vertical_ += (mean_.Z() - vertical_) * closed_part(duration, v.vertical_rise_time);
+  vertical_ += (mean_.z() - vertical_) * closed_part(duration, v.vertical_rise_time);
   const double turn = std::remainder(direction_of(mean_) - direction_, 2 * M_PI);
   direction_ += turn * closed_part(duration, v.turn_time);
   NormalSource normal = noise_at(seed_, time);
@@ -93,7 +93,7 @@ void Wind::blow(double time, double duration) {
 
 void Wind::update(World& world, double time, double duration) {
   if (variation_) blow(time, duration);
-  if (!variation_ && mean_.SquaredLength() == 0) return;
+  if (!variation_ && mean_.squaredNorm() == 0) return;
   if (revision_ != world.revision()) {
     pushed_ = moving_links(world, [](const LinkDescription& link) { return link.wind_enabled; });
     revision_ = world.revision();

@@ -22,16 +22,16 @@ struct SearchData {
 Vector3 turned(dGeomID geom, const Vector3& direction) {
   dQuaternion q;
   dGeomGetQuaternion(geom, q);
-  return Quaternion(q[0], q[1], q[2], q[3]).RotateVector(direction);
+  return to_quaternion(q) * direction;
 }
 
 /// Sets the friction direction, projected on the contact plane; does nothing when it is normal to the plane.
 void direct(const Vector3& wanted, dContact& contact) {
   const dReal* n = contact.geom.normal;
   const Vector3 normal(n[0], n[1], n[2]);
-  Vector3 along = wanted - normal * wanted.Dot(normal);
-  if (along.Length() < 1e-3 * wanted.Length()) return;
-  along.Normalize();
+  Vector3 along = wanted - normal * wanted.dot(normal);
+  if (along.norm() < 1e-3 * wanted.norm()) return;
+  along.normalize();
   contact.surface.mode |= dContactFDir1;
   for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
 }
@@ -161,7 +161,7 @@ namespace {
 /// used at rest only.
 Vector3 torque_about_point(const FoundPair& pair, const FoundContact& point) {
   const Vector3 centre = to_vector(dBodyGetPosition(pair.first->link->body.get()));
-  return to_vector(point.feedback.t1) - (to_vector(point.contact.geom.pos) - centre).Cross(point.force);
+  return to_vector(point.feedback.t1) - (to_vector(point.contact.geom.pos) - centre).cross(point.force);
 }
 
 }  // namespace

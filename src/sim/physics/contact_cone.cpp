@@ -29,14 +29,14 @@ Vector3 velocity_at(const Collider& shape, const dReal* position) {
 
 /// Sets the first friction direction along a tangent of the contact plane.
 void direct_along(const Vector3& tangent, dContact& contact) {
-  const Vector3 unit = tangent / tangent.Length();
+  const Vector3 unit = tangent / tangent.norm();
   contact.surface.mode |= dContactFDir1;
   for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = unit[i];
 }
 
 Vector3 tangential(const Vector3& vector, const dContact& contact) {
   const Vector3 normal = to_vector(contact.geom.normal);
-  return vector - normal * vector.Dot(normal);
+  return vector - normal * vector.dot(normal);
 }
 
 /// Whether the friction is the same in all directions, so that its directions may be chosen.
@@ -48,7 +48,7 @@ bool is_isotropic(const dContact& contact) {
 void direct_along_slip(const FoundPair& pair, dContact& contact) {
   const dReal* position = contact.geom.pos;
   const Vector3 slip = tangential(velocity_at(*pair.first, position) - velocity_at(*pair.second, position), contact);
-  if (slip.Length() > kSlides) direct_along(slip, contact);
+  if (slip.norm() > kSlides) direct_along(slip, contact);
 }
 
 Vector3 spin_of(const Collider& shape) {
@@ -63,10 +63,10 @@ void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dCont
   if (surface.rho == 0) return;
   Vector3 along = tangential(spin_of(*pair.first) - spin_of(*pair.second), contact);
   double least = kRollsAcross;
-  if (along.Length() < kRolls) {
+  if (along.norm() < kRolls) {
     along = tangential(expected.torque, contact);
     const double limit = surface.rho * expected.normal;
-    const double share = limit > 0 ? std::min(along.Length() / limit, 1.0) : 0;
+    const double share = limit > 0 ? std::min(along.norm() / limit, 1.0) : 0;
     least = std::max(std::sqrt(1 - share * share), kRollsAcross);
   }
   dVector3 axis;
@@ -76,8 +76,8 @@ void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dCont
   } else {
     dPlaneSpace(contact.geom.normal, axis, other);  // as ODE
   }
-  const double length = along.Length();
-  const double first = length > 0 ? std::min(std::abs(along.Dot(to_vector(axis))) / length, 1.0) : 1;
+  const double length = along.norm();
+  const double first = length > 0 ? std::min(std::abs(along.dot(to_vector(axis))) / length, 1.0) : 1;
   surface.rho2 = surface.rho * std::max(std::sqrt(1 - first * first), least);
   surface.rho *= std::max(first, least);
 }
@@ -90,7 +90,7 @@ void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool it
   const bool isotropic = is_isotropic(contact);
   if (isotropic && limit > 0 && std::isfinite(limit)) {
     const Vector3 friction = tangential(expected.friction, contact);
-    const double share = friction.Length() / limit;
+    const double share = friction.norm() / limit;
     if (share > kNotable) {
       direct_along(friction, contact);
       first = kAlong;

@@ -47,11 +47,11 @@ void ContactMemory::add_to(Fnv1a& hash) const {
     hash.add(&pair.load_before, 1);
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
       const RememberedPoint& point = points[i];
-      const double values[] = {point.position.X(), point.position.Y(), point.position.Z(), point.normal,
-                               point.friction.X(), point.friction.Y(), point.friction.Z()};
+      const double values[] = {point.position.x(), point.position.y(), point.position.z(), point.normal,
+                               point.friction.x(), point.friction.y(), point.friction.z()};
       hash.add(values, 7);
-      if (point.torque == Vector3::Zero) continue;
-      const double torque[] = {point.torque.X(), point.torque.Y(), point.torque.Z()};
+      if (point.torque == Vector3::Zero()) continue;
+      const double torque[] = {point.torque.x(), point.torque.y(), point.torque.z()};
       hash.add(torque, 3);
     }
   }
@@ -79,10 +79,10 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
   for (int i = 0; i < pair.count; ++i) {
     const Vector3 position = to_vector(points[i].contact.geom.pos) - moved;
     const RememberedPoint* nearest = &memory.points[remembered.begin];
-    double least = (nearest->position - position).SquaredLength();
+    double least = (nearest->position - position).squaredNorm();
     for (std::size_t j = 1; j < static_cast<std::size_t>(remembered.count); ++j) {
       const RememberedPoint& other = memory.points[remembered.begin + j];
-      const double distance = (other.position - position).SquaredLength();
+      const double distance = (other.position - position).squaredNorm();
       if (distance >= least) continue;
       least = distance;
       nearest = &other;
@@ -139,9 +139,9 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
     for (int i = 0; i < pair.count; ++i) {
       const FoundContact& point = found.points[pair.begin + static_cast<std::size_t>(i)];
       const Vector3 normal = to_vector(point.contact.geom.normal);
-      const double load = std::max(point.force.Dot(normal), 0.0);
+      const double load = std::max(point.force.dot(normal), 0.0);
       memory.points.push_back(
-          {to_vector(point.contact.geom.pos), load, point.force - normal * point.force.Dot(normal), point.torque});
+          {to_vector(point.contact.geom.pos), load, point.force - normal * point.force.dot(normal), point.torque});
       now.load += load;
     }
     memory.pairs.push_back(now);

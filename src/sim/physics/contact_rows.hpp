@@ -31,7 +31,7 @@ struct Coupling {
 inline Coupling couple(const std::array<SolvedRow, 2>& rows) {
   const auto& [first, second] = rows;
   Coupling made;
-  made.mixed = second.arm_a.Dot(first.turned_a) + second.arm_b.Dot(first.turned_b);
+  made.mixed = second.arm_a.dot(first.turned_a) + second.arm_b.dot(first.turned_b);
   made.determinant = first.admittance * second.admittance - made.mixed * made.mixed;
   const double half = (first.admittance - second.admittance) / 2;
   made.slide = 1 / (first.admittance - half + std::hypot(half, made.mixed));

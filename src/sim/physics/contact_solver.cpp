@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "physics/contact_defaults.hpp"
-#include "physics/symmetric_matrix.hpp"
+#include "physics/ode_math.hpp"
 #include "physics/world_state.hpp"
 
 namespace bubblesim {
@@ -50,30 +50,31 @@ void ContactSolver::add_body(const Link& link, const Vector3& gravity, double st
   dMass mass;
   dBodyGetMass(body, &mass);
   made.inverse_mass = 1 / mass.mass;
-  const SymmetricMatrix inertia = turned(dBodyGetRotation(body), inertia_of(body));
-  made.inverse_inertia = inverse(inertia);
+  const Matrix3 turn = to_matrix(dBodyGetRotation(body));
+  const Matrix3 inertia = turn * to_matrix(mass.I) * turn.transpose();
+  made.inverse_inertia = inertia.inverse();
   made.velocity = to_vector(dBodyGetLinearVel(body)) + to_vector(dBodyGetForce(body)) * (step * made.inverse_mass);
   if (dBodyGetGravityMode(body) != 0) made.velocity += gravity * step;
   const Vector3 spin = to_vector(dBodyGetAngularVel(body));
-  const Vector3 torque = to_vector(dBodyGetTorque(body)) - spin.Cross(times(inertia, spin));
-  made.spin = spin + times(made.inverse_inertia, torque) * step;
+  const Vector3 torque = to_vector(dBodyGetTorque(body)) - spin.cross(inertia * spin);
+  made.spin = spin + made.inverse_inertia * torque * step;
 }
 
 void ContactSolver::finish_row(int a, int b, SolvedRow& row) const {
   const SolvedBody& first = bodies_[static_cast<std::size_t>(a)];
   const SolvedBody& second = bodies_[static_cast<std::size_t>(b)];
-  row.turned_a = times(first.inverse_inertia, row.arm_a);
-  row.turned_b = times(second.inverse_inertia, row.arm_b);
-  row.admittance = row.direction.SquaredLength() * (first.inverse_mass + second.inverse_mass) +
-                   row.arm_a.Dot(row.turned_a) + row.arm_b.Dot(row.turned_b);
+  row.turned_a = first.inverse_inertia * row.arm_a;
+  row.turned_b = second.inverse_inertia * row.arm_b;
+  row.admittance = row.direction.squaredNorm() * (first.inverse_mass + second.inverse_mass) +
+                   row.arm_a.dot(row.turned_a) + row.arm_b.dot(row.turned_b);
 }
 
 SolvedRow ContactSolver::make_row(int a, int b, const Vector3& direction, const Vector3& lever_a,
                                   const Vector3& lever_b) const {
   SolvedRow row;
   row.direction = direction;
-  row.arm_a = lever_a.Cross(direction);
-  row.arm_b = lever_b.Cross(direction);
+  row.arm_a = lever_a.cross(direction);
+  row.arm_b = lever_b.cross(direction);
   finish_row(a, b, row);
   return row;
 }
@@ -90,9 +91,10 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
   const dSurfaceParameters& surface = found.contact.surface;
   const Vector3 position = to_vector(found.contact.geom.pos);
   const Vector3 n = to_vector(found.contact.geom.normal);
-  const auto lever = [&](int body) {
+  const auto lever = [&](int body) -> Vector3 {
     const SolvedBody& at = bodies_[static_cast<std::size_t>(body)];
-    return at.body == nullptr ? Vector3::Zero : position - to_vector(dBodyGetPosition(at.body));
+    if (at.body == nullptr) return {};
+    return position - to_vector(dBodyGetPosition(at.body));
   };
   const Vector3 lever_a = lever(a);
   const Vector3 lever_b = lever(b);
@@ -112,7 +114,7 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
     dPlaneSpace(found.contact.geom.normal, p, q);
     t1 = to_vector(p);
   }
-  point.tangent = {make_row(a, b, t1, lever_a, lever_b), make_row(a, b, n.Cross(t1), lever_a, lever_b)};
+  point.tangent = {make_row(a, b, t1, lever_a, lever_b), make_row(a, b, n.cross(t1), lever_a, lever_b)};
   if ((surface.mode & dContactSlip1) != 0) soften(point.tangent[0], surface.slip1 / step);
   if ((surface.mode & dContactSlip2) != 0) soften(point.tangent[1], surface.slip2 / step);
   point.coupling = couple(point.tangent);
@@ -128,7 +130,7 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
   if ((surface.mode & dContactBounce) != 0) {
     const auto now = [&](const SolvedBody& body, const Vector3& arm) {
       if (body.body == nullptr) return 0.0;
-      return n.Dot(to_vector(dBodyGetLinearVel(body.body))) + arm.Dot(to_vector(dBodyGetAngularVel(body.body)));
+      return n.dot(to_vector(dBodyGetLinearVel(body.body))) + arm.dot(to_vector(dBodyGetAngularVel(body.body)));
     };
     const double incoming = now(bodies_[static_cast<std::size_t>(b)], point.normal.arm_b) -
                             now(bodies_[static_cast<std::size_t>(a)], point.normal.arm_a);
@@ -136,10 +138,10 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
   }
   const Vector3 force = n * start.normal + start.friction;
   // A rigid contact yields only to what it did not bear before: a stack does not sink.
-  if (!found.has_own_correction) point.target += point.normal.softness * std::max(force.Dot(n), 0.0) * step;
+  if (!found.has_own_correction) point.target += point.normal.softness * std::max(force.dot(n), 0.0) * step;
   const Vector3 impulse = force * step;
-  apply(point, point.normal, std::max(impulse.Dot(n), 0.0));
-  for (SolvedRow& row : point.tangent) apply(point, row, impulse.Dot(row.direction));
+  apply(point, point.normal, std::max(impulse.dot(n), 0.0));
+  for (SolvedRow& row : point.tangent) apply(point, row, impulse.dot(row.direction));
   if ((surface.mode & dContactRolling) != 0) add_spin(point, surface, start.torque * step);
 }
 
@@ -153,14 +155,14 @@ void ContactSolver::add_spin(SolvedPoint& point, const dSurfaceParameters& surfa
   made.spin = row(point.normal);
   made.coupling = couple(made.roll);
   for (SolvedRow* turning : {&made.roll[0], &made.roll[1], &made.spin}) {
-    apply(point, *turning, expected.Dot(turning->arm_a));
+    apply(point, *turning, expected.dot(turning->arm_a));
   }
 }
 
 double ContactSolver::speed(const SolvedPoint& point, const SolvedRow& row) const {
   const SolvedBody& a = bodies_[static_cast<std::size_t>(point.a)];
   const SolvedBody& b = bodies_[static_cast<std::size_t>(point.b)];
-  return row.direction.Dot(a.velocity - b.velocity) + row.arm_a.Dot(a.spin) - row.arm_b.Dot(b.spin);
+  return row.direction.dot(a.velocity - b.velocity) + row.arm_a.dot(a.spin) - row.arm_b.dot(b.spin);
 }
 
 void ContactSolver::apply(const SolvedPoint& point, SolvedRow& row, double impulse) {
@@ -282,8 +284,8 @@ void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
     const auto push = [&](int number, const Vector3& force, const Vector3& torque) {
       dBodyID body = bodies_[static_cast<std::size_t>(number)].body;
       if (body == nullptr) return;
-      dBodyAddForce(body, force.X(), force.Y(), force.Z());
-      dBodyAddTorque(body, torque.X(), torque.Y(), torque.Z());
+      dBodyAddForce(body, force.x(), force.y(), force.z());
+      dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
     };
     push(point.a, impulse / step, turn_a / step);
     push(point.b, -impulse / step, -turn_b / step);

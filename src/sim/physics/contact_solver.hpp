@@ -20,11 +20,11 @@ struct Link;
 /// A body during the solution.
 struct SolvedBody {
   dBodyID body = nullptr;
-  int link = 0;                            // Link::number
-  double inverse_mass = 0;                 // 1/kg
-  std::array<Vector3, 3> inverse_inertia;  // rows, 1/(kg m^2), in world axes
-  Vector3 velocity;                        // m/s, of the centre of mass, at the end of the substep
-  Vector3 spin;                            // rad/s, likewise
+  int link = 0;                               // Link::number
+  double inverse_mass = 0;                    // 1/kg
+  Matrix3 inverse_inertia = Matrix3::Zero();  // 1/(kg m^2), in world axes
+  Vector3 velocity;                           // m/s, of the centre of mass, at the end of the substep
+  Vector3 spin;                               // rad/s, likewise
 };
 
 struct SolvedPoint {

@@ -201,7 +201,7 @@ void put_back(const World::State& state, const PlacedModel& model, double fracti
     dBodySetRotation(body, rotation);
     if (dBodyGetGravityMode(body) == 0) continue;
     const dReal* v = dBodyGetLinearVel(body);
-    dBodySetLinearVel(body, v[0] - excess.X(), v[1] - excess.Y(), v[2] - excess.Z());
+    dBodySetLinearVel(body, v[0] - excess.x(), v[1] - excess.y(), v[2] - excess.z());
   }
 }
 
@@ -221,9 +221,9 @@ Size size_of(const Collider& collider) {
     }
     return size;
   }
-  if (const auto* box = std::get_if<Box>(&collider.geometry)) return {box->size.Min() / 2, box->size.Length() / 2};
+  if (const auto* box = std::get_if<Box>(&collider.geometry)) return {box->size.minCoeff() / 2, box->size.norm() / 2};
   if (const auto* sphere = std::get_if<Sphere>(&collider.geometry)) return {sphere->radius, sphere->radius};
-  if (const auto* ball = std::get_if<Ellipsoid>(&collider.geometry)) return {ball->radii.X(), ball->radii.X()};
+  if (const auto* ball = std::get_if<Ellipsoid>(&collider.geometry)) return {ball->radii.x(), ball->radii.x()};
   if (const auto* capsule = std::get_if<Capsule>(&collider.geometry)) {
     return {capsule->radius, capsule->radius + capsule->length / 2};
   }
@@ -240,7 +240,7 @@ void measure(const Collider& collider, Sweep& sweep) {
   const Size size = size_of(collider);
   if (size.half == Sweep::kNoSize) return;
   sweep.half_size = std::min(sweep.half_size, size.half);
-  const double lever = (collider.in_link.Pos() - collider.link->centre_of_mass).Length();
+  const double lever = (collider.in_link.position - collider.link->centre_of_mass).norm();
   sweep.spin_reach = std::max(sweep.spin_reach, lever + size.reach - size.half);
 }
 

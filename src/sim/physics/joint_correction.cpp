@@ -29,7 +29,7 @@ bool swings(const PlacedModel& model, double step) {
 
 void note_lever(PlacedModel& model, dBodyID body, const Vector3& anchor) {
   if (body == nullptr) return;
-  const double length = anchor.Distance(to_vector(dBodyGetPosition(body)));
+  const double length = (anchor - to_vector(dBodyGetPosition(body))).norm();
   if (length > kLeastLever) model.levers.push_back({body, length});
 }
 

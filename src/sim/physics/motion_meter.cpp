@@ -12,8 +12,8 @@ void MotionMeter::clear() {
 
 void MotionMeter::begin() {
   const Pose pose = body_pose(body_);
-  orientation_ = pose.Rot() * in_body_.Rot();
-  lever_ = pose.Rot().RotateVector(in_body_.Pos());
+  orientation_ = pose.orientation * in_body_.orientation;
+  lever_ = pose.orientation * in_body_.position;
   before_ = body_velocity(body_);
 }
 
@@ -24,15 +24,15 @@ void MotionMeter::end(double step, const Vector3& gravity) {
   const Vector3 angular = (after.angular - before_.angular) / step;
   const Vector3 turning = (after.angular + before_.angular) / 2;
   const Vector3 acceleration =
-      (after.linear - before_.linear) / step + angular.Cross(lever_) + turning.Cross(turning.Cross(lever_));
-  specific_force_.add(orientation_.RotateVectorReverse(acceleration - gravity), step);
-  if (bandwidth_ > 0) angular_velocity_.add(orientation_.RotateVectorReverse(turning), step);
+      (after.linear - before_.linear) / step + angular.cross(lever_) + turning.cross(turning.cross(lever_));
+  specific_force_.add(orientation_.conjugate() * (acceleration - gravity), step);
+  if (bandwidth_ > 0) angular_velocity_.add(orientation_.conjugate() * turning, step);
 }
 
 Vector3 MotionMeter::angular_velocity() const {
   if (angular_velocity_.has_value()) return angular_velocity_.value();
   const Pose pose = body_pose(body_);
-  return (pose.Rot() * in_body_.Rot()).RotateVectorReverse(body_velocity(body_).angular);
+  return (pose.orientation * in_body_.orientation).conjugate() * body_velocity(body_).angular;
 }
 
 }  // namespace bubblesim

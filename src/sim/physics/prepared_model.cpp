@@ -48,7 +48,7 @@ std::shared_ptr<const CollisionMesh> mesh_of(const CollisionDescription& collisi
 
 bool is_ball(const Ellipsoid& ellipsoid) {
   const Vector3& radii = ellipsoid.radii;
-  return radii.X() == radii.Y() && radii.Y() == radii.Z();
+  return radii.x() == radii.y() && radii.y() == radii.z();
 }
 
 std::shared_ptr<const PreparedModel> prepare_model(std::shared_ptr<const ModelDescription> description,

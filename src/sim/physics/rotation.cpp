@@ -30,20 +30,6 @@ constexpr double kMaxTurn = 1.5;
 constexpr double kFineTurn = 0.05;
 constexpr int kMaxFineSteps = 1000;
 
-/// The axes of a body in the world.
-struct Axes {
-  explicit Axes(dBodyID body) : r(dBodyGetRotation(body)) {}
-  Vector3 to_body(const Vector3& v) const {
-    return {r[0] * v.X() + r[4] * v.Y() + r[8] * v.Z(), r[1] * v.X() + r[5] * v.Y() + r[9] * v.Z(),
-            r[2] * v.X() + r[6] * v.Y() + r[10] * v.Z()};
-  }
-  Vector3 to_world(const Vector3& v) const {
-    return {r[0] * v.X() + r[1] * v.Y() + r[2] * v.Z(), r[4] * v.X() + r[5] * v.Y() + r[6] * v.Z(),
-            r[8] * v.X() + r[9] * v.Y() + r[10] * v.Z()};
-  }
-  const dReal* r;  // three rows of four
-};
-
 /// The angle by which ODE rotates a body in a substep, rad.
 double turn_of(dBodyID body, double speed, double step) {
   return dBodyGetFiniteRotationMode(body) != 0 ? speed * step : 2 * std::atan(speed * step / 2);
@@ -52,25 +38,25 @@ double turn_of(dBodyID body, double speed, double step) {
 /// The change of `v` when it is rotated about `axis` by an angle in rad.
 Vector3 change_by_turn(const Vector3& v, const Vector3& axis, double angle) {
   const double half = std::sin(angle / 2);
-  const Vector3 across = axis.Cross(v);
-  return across * std::sin(angle) + axis.Cross(across) * (2 * half * half);
+  const Vector3 across = axis.cross(v);
+  return across * std::sin(angle) + axis.cross(across) * (2 * half * half);
 }
 
 }  // namespace
 
-Rotation::Rotation(dBodyID body) : body_(body), inertia_(inertia_of(body)), inverse_(inverse(inertia_)) {}
+Rotation::Rotation(dBodyID body) : body_(body), inertia_(inertia_of(body)), inverse_(inertia_.inverse()) {}
 
 bool Rotation::is_needed(dBodyID body) {
-  const SymmetricMatrix inertia = inertia_of(body);
-  const Vector3 diagonal(inertia[0].X(), inertia[1].Y(), inertia[2].Z());
-  const Vector3 products(inertia[0].Y(), inertia[0].Z(), inertia[1].Z());
-  const double size = diagonal.Max();
-  return size - diagonal.Min() > kRounding * size || products.Length() > kRounding * size;
+  const Matrix3 inertia = inertia_of(body);
+  const Vector3 diagonal = inertia.diagonal();
+  const Vector3 products(inertia(0, 1), inertia(0, 2), inertia(1, 2));
+  const double size = diagonal.maxCoeff();
+  return size - diagonal.minCoeff() > kRounding * size || products.norm() > kRounding * size;
 }
 
 void Rotation::scale(double factor) {
   inertia_ = inertia_of(body_);
-  inverse_ = inverse(inertia_);
+  inverse_ = inertia_.inverse();
   ahead_ *= factor;
 }
 
@@ -88,17 +74,18 @@ bool Rotation::was_moved() const {
 void Rotation::begin(double step) {
   const bool carried = constrained_ && !was_moved();
   free_ = constrained_ = false;
-  const Vector3 before = std::exchange(ahead_, Vector3::Zero);
+  const Vector3 before = std::exchange(ahead_, {});
   if (dBodyIsEnabled(body_) == 0) return;
-  const Axes axes(body_);
+  const Matrix3 axes = to_matrix(dBodyGetRotation(body_));
   const Vector3 velocity = to_vector(dBodyGetAngularVel(body_));
-  const Vector3 momentum = axes.to_world(times(inertia_, axes.to_body(velocity)));
-  const bool steady = velocity.Cross(momentum).Length() * step <= kRounding * momentum.Length();
+  const Vector3 momentum = axes * (inertia_ * (axes.transpose() * velocity));
+  const bool steady = velocity.cross(momentum).norm() * step <= kRounding * momentum.norm();
   if (steady && !carried) return;
   // The change of P - I w since the last substep, by the rotation of the inertia.
-  const double speed = velocity.Length();
-  const Vector3 axis = speed > 0 ? velocity / speed : Vector3::UnitX;
-  Vector3 change = carried ? change_by_turn(momentum, axis, -turn_of(body_, speed, step_)) - before : Vector3::Zero;
+  const double speed = velocity.norm();
+  const Vector3 axis = speed > 0 ? Vector3(velocity / speed) : Vector3::UnitX();
+  Vector3 change;
+  if (carried) change = change_by_turn(momentum, axis, -turn_of(body_, speed, step_)) - before;
   if (dBodyGetNumJoints(body_) == 0) {
     free_ = true;
     std::copy_n(dBodyGetQuaternion(body_), 4, orientation_);
@@ -110,19 +97,15 @@ void Rotation::begin(double step) {
     change += ahead_;
   }
   const Vector3 torque = change / step;
-  dBodyAddTorque(body_, torque.X(), torque.Y(), torque.Z());
+  dBodyAddTorque(body_, torque.x(), torque.y(), torque.z());
 }
 
 Vector3 Rotation::implicit_change(const Vector3& momentum, double step) const {
-  const Axes axes(body_);
-  const Vector3 l = axes.to_body(momentum);
-  // The columns of the matrix; Cramer's rule.
-  const Vector3 x = inertia_[0] - l.Cross(Vector3::UnitX) * step;
-  const Vector3 y = inertia_[1] - l.Cross(Vector3::UnitY) * step;
-  const Vector3 z = inertia_[2] - l.Cross(Vector3::UnitZ) * step;
-  const Vector3 yz = y.Cross(z);
-  const Vector3 velocity = Vector3(l.Dot(yz), x.Dot(l.Cross(z)), x.Dot(y.Cross(l))) / x.Dot(yz);
-  return axes.to_world(times(inertia_, velocity)) - momentum;
+  const Matrix3 axes = to_matrix(dBodyGetRotation(body_));
+  const Vector3 l = axes.transpose() * momentum;
+  Matrix3 matrix = inertia_;
+  for (int i = 0; i < 3; ++i) matrix.col(i) -= l.cross(Vector3::Unit(i)) * step;
+  return axes * (inertia_ * (matrix.inverse() * l)) - momentum;
 }
 
 void Rotation::end(double step) {
@@ -135,28 +118,29 @@ void Rotation::end(double step) {
 
 void Rotation::turn_freely(double step) {
   // ODE has rotated the body by its new velocity; its momentum is that at the orientation before.
-  Quaternion q(orientation_[0], orientation_[1], orientation_[2], orientation_[3]);
+  Quaternion q = to_quaternion(orientation_);
   const Vector3 turned = to_vector(dBodyGetAngularVel(body_));
-  const Vector3 momentum = q.RotateVector(times(inertia_, q.RotateVectorReverse(turned)));
-  const auto velocity_at = [&](const Quaternion& at) { return times(inverse_, at.RotateVectorReverse(momentum)); };
-  const auto rate = [&](const Quaternion& at) {
-    const Vector3 w = velocity_at(at) / 2;
-    return at * Quaternion(0, w.X(), w.Y(), w.Z());
+  const Vector3 momentum = q * (inertia_ * (q.conjugate() * turned));
+  const auto velocity_at = [&](const Quaternion& at) -> Vector3 { return inverse_ * (at.conjugate() * momentum); };
+  const auto rate = [&](const Eigen::Vector4d& at) -> Eigen::Vector4d {
+    const Quaternion turn(at[3], at[0], at[1], at[2]);  // not quite of unit length within a step
+    const Vector3 w = velocity_at(turn.normalized()) / 2;
+    return (turn * Quaternion(0, w.x(), w.y(), w.z())).coeffs();
   };
-  const int steps = std::clamp(static_cast<int>(turned.Length() * step / kFineTurn) + 1, 1, kMaxFineSteps);
+  const int steps = std::clamp(static_cast<int>(turned.norm() * step / kFineTurn) + 1, 1, kMaxFineSteps);
   const double h = step / steps;
   for (int i = 0; i < steps; ++i) {
-    const Quaternion k1 = rate(q);
-    const Quaternion k2 = rate(q + k1 * (h / 2));
-    const Quaternion k3 = rate(q + k2 * (h / 2));
-    const Quaternion k4 = rate(q + k3 * h);
-    q = q + (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6);
-    q.Normalize();
+    const Eigen::Vector4d at = q.coeffs();
+    const Eigen::Vector4d k1 = rate(at);
+    const Eigen::Vector4d k2 = rate(at + k1 * (h / 2));
+    const Eigen::Vector4d k3 = rate(at + k2 * (h / 2));
+    const Eigen::Vector4d k4 = rate(at + k3 * h);
+    q.coeffs() += (k1 + k2 * 2 + k3 * 2 + k4) * (h / 6);
+    q.normalize();
   }
-  const Vector3 velocity = q.RotateVector(velocity_at(q));
-  const dQuaternion rotation = {q.W(), q.X(), q.Y(), q.Z()};
-  dBodySetQuaternion(body_, rotation);
-  dBodySetAngularVel(body_, velocity.X(), velocity.Y(), velocity.Z());
+  const Vector3 velocity = q * velocity_at(q);
+  dBodySetQuaternion(body_, to_ode(q).data());
+  dBodySetAngularVel(body_, velocity.x(), velocity.y(), velocity.z());
 }
 
 void begin_rotations(World::State& state, double step) {

@@ -7,7 +7,6 @@
 
 #include "bubblesim/math.hpp"
 #include "bubblesim/state_archive.hpp"
-#include "physics/symmetric_matrix.hpp"
 
 namespace bubblesim {
 
@@ -38,8 +37,8 @@ class Rotation {
   bool was_moved() const;
 
   dBodyID body_;
-  SymmetricMatrix inertia_;  // body axes
-  SymmetricMatrix inverse_;
+  Matrix3 inertia_;  // body axes
+  Matrix3 inverse_;
   bool free_ = false;         // in this substep it has no joint or contact, and does not rotate about a principal axis
   bool constrained_ = false;  // in this substep it has, and is rotated by the torque of begin()
   Vector3 ahead_;

@@ -32,10 +32,8 @@ void wake_group(World::State& state, ObjectId group) {
 
 bool has_stayed(const Link& link) {
   const Pose now = body_pose(link.body.get());
-  const Quaternion& a = now.Rot();
-  const Quaternion& b = link.rest_pose.Rot();
-  const double cosine = a.W() * b.W() + a.X() * b.X() + a.Y() * b.Y() + a.Z() * b.Z();
-  return now.Pos().Distance(link.rest_pose.Pos()) < kWay && std::abs(cosine) > std::cos(kAngle / 2);
+  const double cosine = now.orientation.dot(link.rest_pose.orientation);  // of half the angle between them
+  return (now.position - link.rest_pose.position).norm() < kWay && std::abs(cosine) > std::cos(kAngle / 2);
 }
 
 void measure(PlacedModel& model, double step) {
@@ -112,9 +110,9 @@ void add_rest(Fnv1a& hash, const PlacedModel& model) {
   hash.add(&model.rest.time, 1);
   hash.add(static_cast<std::uint64_t>(model.rest.group));
   for (const Link& link : model.links) {
-    const Vector3& p = link.rest_pose.Pos();
-    const Quaternion& q = link.rest_pose.Rot();
-    const double values[] = {p.X(), p.Y(), p.Z(), q.W(), q.X(), q.Y(), q.Z()};
+    const Vector3& p = link.rest_pose.position;
+    const Quaternion& q = link.rest_pose.orientation;
+    const double values[] = {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
     hash.add(values, 7);
   }
 }

@@ -16,7 +16,7 @@ class SubstepSignal {
 
   /// Call at the start of a simulation step. The filter continues.
   void clear() {
-    sum_ = Vector3::Zero;
+    sum_ = Vector3::Zero();
     time_ = 0;
   }
   void add(const Vector3& value, double step) {
@@ -29,7 +29,8 @@ class SubstepSignal {
   /// Zero before the first value.
   Vector3 value() const {
     if (bandwidth_ > 0) return filtered_;
-    return time_ > 0 ? sum_ / time_ : Vector3::Zero;
+    if (time_ > 0) return sum_ / time_;
+    return {};
   }
   void transfer(StateArchive& archive) { archive(sum_, time_, filtered_, started_); }
   bool has_value() const { return bandwidth_ > 0 ? started_ : time_ > 0; }

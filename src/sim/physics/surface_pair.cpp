@@ -60,8 +60,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.mu = std::min({a.mu, b.mu, kMostFriction});
   made.mu2 = std::min({a.mu2.value_or(a.mu), b.mu2.value_or(b.mu), kMostFriction});
   if (made.mu2 != made.mu) made.mode |= dContactMu2;
-  const bool a_directed = a.fdir1 != Vector3::Zero;
-  const bool b_directed = b.fdir1 != Vector3::Zero;
+  const bool a_directed = a.fdir1 != Vector3::Zero();
+  const bool b_directed = b.fdir1 != Vector3::Zero();
   if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
 
   // Like Gazebo since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).

@@ -117,7 +117,7 @@ ObjectId World::add_model(ModelDescription model, std::vector<Problem>* warnings
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   ode::prepare_this_thread();
-  model.pose.Rot().Normalize();
+  model.pose.orientation.normalize();
   const bool is_static = model.is_static;
   const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
   // The scene and its other simulations keep their tree.
@@ -203,8 +203,8 @@ namespace {
 
 void add_wrenches(Fnv1a& hash, const Wrenches& wrenches) {
   for (const auto& [link, wrench] : wrenches) {
-    const double values[] = {wrench.force.X(),  wrench.force.Y(),  wrench.force.Z(),
-                             wrench.torque.X(), wrench.torque.Y(), wrench.torque.Z()};
+    const double values[] = {wrench.force.x(),  wrench.force.y(),  wrench.force.z(),
+                             wrench.torque.x(), wrench.torque.y(), wrench.torque.z()};
     hash.add(static_cast<std::uint64_t>(link));
     hash.add(values, 6);
   }
@@ -244,7 +244,7 @@ std::uint64_t World::state_hash() const {
       hash.add(static_cast<std::uint64_t>(dBodyIsEnabled(body)));
     }
     for (const Rotation& rotation : model->rotations) {
-      const double ahead[] = {rotation.ahead().X(), rotation.ahead().Y(), rotation.ahead().Z()};
+      const double ahead[] = {rotation.ahead().x(), rotation.ahead().y(), rotation.ahead().z()};
       hash.add(ahead, 3);
     }
     add_planar_motor(hash, model->planar_motor);

@@ -18,9 +18,8 @@ constexpr unsigned kLeastMemory = 4096;  // bytes of working memory of a world; 
 constexpr int kIterations = 50;          // of the iterative solver
 
 void set_pose(dGeomID geom, const Pose& pose) {
-  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
-  dGeomSetPosition(geom, pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
-  dGeomSetQuaternion(geom, rotation);
+  dGeomSetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
+  dGeomSetQuaternion(geom, to_ode(pose.orientation).data());
 }
 
 /// `mesh` is that of the prepared model.
@@ -28,19 +27,19 @@ dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pos
   struct Maker {
     const CollisionMesh* mesh;
     const Pose& pose;
-    dGeomID operator()(const Box& box) const { return dCreateBox(nullptr, box.size.X(), box.size.Y(), box.size.Z()); }
+    dGeomID operator()(const Box& box) const { return dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z()); }
     dGeomID operator()(const Sphere& sphere) const { return dCreateSphere(nullptr, sphere.radius); }
     dGeomID operator()(const Cylinder& cylinder) const {
       return dCreateCylinder(nullptr, cylinder.radius, cylinder.length);
     }
     dGeomID operator()(const Capsule& capsule) const { return dCreateCapsule(nullptr, capsule.radius, capsule.length); }
     dGeomID operator()(const Ellipsoid& ellipsoid) const {
-      return is_ball(ellipsoid) ? dCreateSphere(nullptr, ellipsoid.radii.X()) : surface();
+      return is_ball(ellipsoid) ? dCreateSphere(nullptr, ellipsoid.radii.x()) : surface();
     }
     dGeomID operator()(const Mesh&) const { return surface(); }
     dGeomID operator()(const Plane& plane) const {
-      const Vector3 normal = pose.Rot().RotateVector(plane.normal.Normalized());
-      return dCreatePlane(nullptr, normal.X(), normal.Y(), normal.Z(), normal.Dot(pose.Pos()));
+      const Vector3 normal = pose.orientation * plane.normal.normalized();
+      return dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), normal.dot(pose.position));
     }
 
    private:
@@ -53,10 +52,9 @@ dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pos
 }
 
 void place_body(dBodyID body, const LinkDescription& link, const Pose& pose) {
-  const Vector3 centre = pose.CoordPositionAdd(link.centre_of_mass);
-  const dQuaternion rotation = {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()};
-  dBodySetPosition(body, centre.X(), centre.Y(), centre.Z());
-  dBodySetQuaternion(body, rotation);
+  const Vector3 centre = pose * link.centre_of_mass;
+  dBodySetPosition(body, centre.x(), centre.y(), centre.z());
+  dBodySetQuaternion(body, to_ode(pose.orientation).data());
 }
 
 ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pose& pose) {
@@ -86,7 +84,7 @@ class ModelBuilder {
 
   std::unique_ptr<PlacedModel> build() {
     const ModelDescription& description = model_.description;
-    model_.rest.may_sleep = model_.prepared->is_prop && state_.gravity != Vector3::Zero;
+    model_.rest.may_sleep = model_.prepared->is_prop && state_.gravity != Vector3::Zero();
     const std::vector<ObjectId> links = state_.tree().parts(id_, ObjectKind::kLink);
     for (std::size_t i = 0; i < links.size(); ++i) add_link(description.links[i], links[i]);
     const std::vector<ObjectId> joints = state_.tree().parts(id_, ObjectKind::kJoint);
@@ -110,7 +108,7 @@ class ModelBuilder {
 
   ModelFrame frame_at(const std::string& canonical_link, const Pose& pose) const {
     const Link* canonical = canonical_link.empty() ? &model_.links.front() : link_named(canonical_link);
-    return {canonical->object, link_pose(*canonical).Inverse() * pose};
+    return {canonical->object, link_pose(*canonical).inverse() * pose};
   }
 
   void add_link(const LinkDescription& description, ObjectId id) {
@@ -136,7 +134,7 @@ class ModelBuilder {
   void add_link_sensor(const Link& link, const SensorDescription& sensor) {
     const auto* imu = std::get_if<ImuDescription>(&sensor.kind);
     if (imu != nullptr && link.body != nullptr) {
-      const Pose in_body(sensor.pose.Pos() - link.centre_of_mass, sensor.pose.Rot());
+      const Pose in_body(sensor.pose.position - link.centre_of_mass, sensor.pose.orientation);
       model_.motion_meters.emplace(model_.sensors.size(), MotionMeter(link.body.get(), in_body, imu->bandwidth));
     }
     model_.sensors.push_back(sensor.pose);
@@ -169,11 +167,9 @@ class ModelBuilder {
     } else {
       dSpaceAdd(model_.space.get(), geom);
       dGeomSetBody(geom, link.body.get());
-      const Vector3 offset = description.pose.Pos() - link.centre_of_mass;
-      const Quaternion& turn = description.pose.Rot();
-      const dQuaternion rotation = {turn.W(), turn.X(), turn.Y(), turn.Z()};
-      dGeomSetOffsetPosition(geom, offset.X(), offset.Y(), offset.Z());
-      dGeomSetOffsetQuaternion(geom, rotation);
+      const Vector3 offset = description.pose.position - link.centre_of_mass;
+      dGeomSetOffsetPosition(geom, offset.x(), offset.y(), offset.z());
+      dGeomSetOffsetQuaternion(geom, to_ode(description.pose.orientation).data());
     }
   }
 
@@ -185,8 +181,8 @@ class ModelBuilder {
     joint.object = id;
     joint.parent = parent == nullptr ? kNoObject : parent->object;
     joint.child = child.object;
-    joint.in_parent = parent == nullptr ? pose : link_pose(*parent).Inverse() * pose;
-    joint.in_child = link_pose(child).Inverse() * pose;
+    joint.in_parent = parent == nullptr ? pose : link_pose(*parent).inverse() * pose;
+    joint.in_child = link_pose(child).inverse() * pose;
     if (!model_.description.is_static) {
       JointSite site;
       site.pose = pose;
@@ -203,7 +199,7 @@ class ModelBuilder {
       for (dBodyID body : {body_named(description.parent), child.body.get()}) {
         // A pendulum keeps its energy better with ODE's other rotation: it is shorter, as the tangent is than its arc.
         if (body != nullptr) dBodySetFiniteRotationMode(body, 0);
-        note_lever(model_, body, pose.Pos());
+        note_lever(model_, body, pose.position);
       }
       meter_motors(joint, description, pose);
     }
@@ -232,8 +228,8 @@ class ModelBuilder {
       axis.child = body_named(description.child);
       // With two axes, the first is fixed in the parent and the second in the child.
       axis.carrier = i == axes - 1 ? axis.child : body_named(description.parent);
-      axis.direction = pose.Rot().RotateVector(joint.joint->axis(i).direction);
-      axis.origin = pose.Pos();
+      axis.direction = pose.orientation * joint.joint->axis(i).direction;
+      axis.origin = pose.position;
       axis.slides = description.type == "prismatic";
       meter = std::make_unique<MotorMeter>(axis);
     }
@@ -242,7 +238,7 @@ class ModelBuilder {
   /// A point, in the world, on the axis of a link in the reference body of a gearbox.
   Vector3 shaft_point(const std::string& reference, const std::string& link) const {
     const JointDescription* hinge = hinge_between(model_.description, reference, link);
-    return (model_.description.pose * hinge->pose).Pos();
+    return (model_.description.pose * hinge->pose).position;
   }
 
   dBodyID body_named(const std::string& name) const {
@@ -285,7 +281,7 @@ World::State::State(const Vector3& gravity_, std::uint64_t seed_)
   memory.reserve_factor = 1.2F;  // ODE's default
   memory.reserve_minimum = kLeastMemory;
   dWorldSetStepMemoryReservationPolicy(world.get(), &memory);
-  dWorldSetGravity(world.get(), gravity.X(), gravity.Y(), gravity.Z());
+  dWorldSetGravity(world.get(), gravity.x(), gravity.y(), gravity.z());
   dWorldSetCFM(world.get(), kConstraintSoftness);
   dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
   movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));

@@ -42,7 +42,7 @@ Wrench on_child(dJointID joint, const dJointFeedback& feedback, dBodyID child) {
 Quaternion axes_of(ForceTorqueDescription::Frame frame, const WrenchAccumulator& meter, const Quaternion& sensor) {
   switch (frame) {
     case ForceTorqueDescription::Frame::kChild:
-      return meter.child.Rot();
+      return meter.child.orientation;
     case ForceTorqueDescription::Frame::kParent:
       return meter.parent;
     case ForceTorqueDescription::Frame::kSensor:
@@ -60,18 +60,18 @@ void gather_wrench(const World::State& state, const PlacedJoint& placed, double 
     total.force += wrench.force;
     total.torque += wrench.torque;
   }
-  const auto torque_about = [&](const Vector3& point) {
-    return total.torque + (meter.child_centre - point).Cross(total.force);
+  const auto torque_about = [&](const Vector3& point) -> Vector3 {
+    return total.torque + (meter.child_centre - point).cross(total.force);
   };
   // The child exerts the opposite wrench on the parent.
   meter.sum.force -= total.force * step;
-  meter.sum.torque -= torque_about((meter.child * placed.in_child).Pos()) * step;
+  meter.sum.torque -= torque_about((meter.child * placed.in_child).position) * step;
   for (WrenchSignal& signal : meter.signals) {
     const Pose sensor = meter.child * signal.in_child;
     const double sign = signal.description.of_child ? -1 : 1;
-    const Quaternion axes = axes_of(signal.description.frame, meter, sensor.Rot());
-    signal.force.add(axes.RotateVectorReverse(total.force * sign), step);
-    signal.torque.add(axes.RotateVectorReverse(torque_about(sensor.Pos()) * sign), step);
+    const Quaternion axes = axes_of(signal.description.frame, meter, sensor.orientation);
+    signal.force.add(axes.conjugate() * (total.force * sign), step);
+    signal.torque.add(axes.conjugate() * (torque_about(sensor.position) * sign), step);
   }
 }
 
@@ -90,7 +90,7 @@ void aim_meter(const World::State& state, const PlacedJoint& placed) {
   const Link& child = state.link(placed.child);
   meter.child = link_pose(child);
   meter.child_centre = to_vector(dBodyGetPosition(child.body.get()));
-  if (placed.parent != kNoObject) meter.parent = link_pose(state.link(placed.parent)).Rot();
+  if (placed.parent != kNoObject) meter.parent = link_pose(state.link(placed.parent)).orientation;
 }
 
 }  // namespace
@@ -203,8 +203,8 @@ Inertial World::sensor_motion(ObjectId sensor) const {
   if (found != meters.end() && found->second.has_value()) {
     return {found->second.angular_velocity(), found->second.specific_force()};
   }
-  const Quaternion axes = pose(sensor).Rot();
-  return {axes.RotateVectorReverse(velocity(sensor).angular), axes.RotateVectorReverse(-state_->gravity)};
+  const Quaternion axes = pose(sensor).orientation;
+  return {axes.conjugate() * velocity(sensor).angular, axes.conjugate() * -state_->gravity};
 }
 
 }  // namespace bubblesim

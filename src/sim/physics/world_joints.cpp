@@ -167,10 +167,14 @@ void World::set_joint_position(ObjectId joint, double position) {
   check_target(*state_, joint, "position", position);
   const double way = position - joint_position(joint);
   const Pose frame = pose(joint);
-  const Vector3 axis = frame.Rot().RotateVector(description.axes.front().direction);
-  const Pose to_frame(frame.Pos(), Quaternion::Identity);
-  const Pose motion = slides ? Pose(way * axis, Quaternion::Identity)
-                             : to_frame * Pose(Vector3::Zero, Quaternion(axis, way)) * to_frame.Inverse();
+  const Vector3 axis = frame.orientation * description.axes.front().direction;
+  Pose motion;
+  if (slides) {
+    motion.position = way * axis;
+  } else {
+    motion.orientation = Quaternion(Eigen::AngleAxisd(way, axis.normalized()));
+    motion.position = frame.position - motion.orientation * frame.position;
+  }
   const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
   if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
     throw WrongObject(state_->shown(joint) + " belongs to a closed chain of links: its position cannot be set");

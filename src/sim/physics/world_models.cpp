@@ -30,8 +30,8 @@ struct Extent {
   void include(dGeomID geom) {
     dReal box[6];
     dGeomGetAABB(geom, box);
-    low.Min({box[0], box[2], box[4]});
-    high.Max({box[1], box[3], box[5]});
+    low = low.cwiseMin(Vector3(box[0], box[2], box[4]));
+    high = high.cwiseMax(Vector3(box[1], box[3], box[5]));
   }
 };
 
@@ -45,9 +45,9 @@ double total_mass(const PlacedModel& model) {
 }
 
 void lower_bottom(World::State& state) {
-  const Vector3 down = state.gravity.Normalized();
+  const Vector3 down = state.gravity.normalized();
   for (const auto& model : state.models) {
-    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).Pos().Dot(down));
+    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).position.dot(down));
   }
 }
 
@@ -126,8 +126,8 @@ void gather_statics(World::State& state) {
   }
   const Vector3 centre = (extent.low + extent.high) / 2;
   const Vector3 half = (extent.high - extent.low) / 2;
-  const dVector3 ode_centre = {centre.X(), centre.Y(), centre.Z()};
-  const dVector3 ode_half = {half.X(), half.Y(), half.Z()};
+  const dVector3 ode_centre = {centre.x(), centre.y(), centre.z()};
+  const dVector3 ode_half = {half.x(), half.y(), half.z()};
   state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(geoms.size())));
   for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
   state.statics_stale = false;

@@ -54,26 +54,17 @@ void check_velocity(const World::State& state, ObjectId object, const Twist& vel
 
 }  // namespace
 
-Vector3 to_vector(const dReal* values) { return {values[0], values[1], values[2]}; }
-
-Pose body_pose(dBodyID body) {
-  const dReal* q = dBodyGetQuaternion(body);
-  return {to_vector(dBodyGetPosition(body)), Quaternion(q[0], q[1], q[2], q[3])};
-}
-
-Twist body_velocity(dBodyID body) { return {to_vector(dBodyGetLinearVel(body)), to_vector(dBodyGetAngularVel(body))}; }
-
 Pose link_pose(const Link& link) {
   if (link.body == nullptr) return link.pose;
   Pose pose = body_pose(link.body.get());
-  pose.Pos() -= pose.Rot().RotateVector(link.centre_of_mass);
+  pose.position -= pose.orientation * link.centre_of_mass;
   return pose;
 }
 
 Pose World::pose(ObjectId object) const {
   const Object& found = state_->tree().at(object);
   const ObjectId link = carrier(*state_, found);
-  const Pose base = link == kNoObject ? Pose::Zero : link_pose(state_->link(link));
+  const Pose base = link == kNoObject ? Pose() : link_pose(state_->link(link));
   switch (found.kind) {
     case ObjectKind::kModel:
       return base * state_->frame(object).in_canonical_link;
@@ -96,9 +87,9 @@ Twist World::velocity(ObjectId object) const {
   const ObjectId link = carrier(*state_, state_->tree().at(object));
   dBodyID body = link == kNoObject ? nullptr : state_->link(link).body.get();
   if (body == nullptr) return {};
-  const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
+  const Vector3 lever = pose(object).position - to_vector(dBodyGetPosition(body));
   const Twist of_body = body_velocity(body);
-  return {of_body.linear + of_body.angular.Cross(lever), of_body.angular};
+  return {of_body.linear + of_body.angular.cross(lever), of_body.angular};
 }
 
 Vector3 World::acceleration(ObjectId object) const {
@@ -108,47 +99,45 @@ Vector3 World::acceleration(ObjectId object) const {
   dBodyID body = link.body.get();
   if (body == nullptr) return {};
   const Twist now = body_velocity(body);
-  const Vector3 lever = pose(object).Pos() - to_vector(dBodyGetPosition(body));
+  const Vector3 lever = pose(object).position - to_vector(dBodyGetPosition(body));
   const Vector3 of_centre = (now.linear - link.before.linear) / state_->last_duration;
   const Vector3 angular = (now.angular - link.before.angular) / state_->last_duration;
   // Acceleration of a point of a rigid body: that of its centre, the Euler and the centripetal acceleration.
-  return of_centre + angular.Cross(lever) + now.angular.Cross(now.angular.Cross(lever));
+  return of_centre + angular.cross(lever) + now.angular.cross(now.angular.cross(lever));
 }
 
 void World::set_pose(ObjectId object, const Pose& pose) {
   const std::vector<const Link*> links = moving_links(*state_, object);
-  if (!within(pose.Pos(), kMaxDistance)) {
-    throw InvalidInput(state_->shown(object) + ": the position " + text(pose.Pos()) +
+  if (!within(pose.position, kMaxDistance)) {
+    throw InvalidInput(state_->shown(object) + ": the position " + text(pose.position) +
                        " is not usable: it must be finite and within 1e6 m of the origin");
   }
-  const Quaternion& q = pose.Rot();
-  if (!within(std::sqrt(q.W() * q.W() + q.X() * q.X() + q.Y() * q.Y() + q.Z() * q.Z()) - 1, 1e-3)) {
-    throw InvalidInput(state_->shown(object) + ": the orientation " + text(q) +
+  if (!within(pose.orientation.norm() - 1, 1e-3)) {
+    throw InvalidInput(state_->shown(object) + ": the orientation " + text(pose.orientation) +
                        " (x, y, z, w) is not usable: it must be a quaternion of length 1");
   }
-  const Pose wanted(pose.Pos(), q.Normalized());
+  const Pose wanted(pose.position, pose.orientation.normalized());
   const Pose before = this->pose(object);
   wake(*state_);
   forget_contacts(*state_, state_->tree().outermost_model_of(object));
   for (const Link* link : links) {
-    const Pose moved = wanted * (before.Inverse() * link_pose(*link));
-    const Vector3 centre = moved.CoordPositionAdd(link->centre_of_mass);
-    const dQuaternion rotation = {moved.Rot().W(), moved.Rot().X(), moved.Rot().Y(), moved.Rot().Z()};
-    dBodySetPosition(link->body.get(), centre.X(), centre.Y(), centre.Z());
-    dBodySetQuaternion(link->body.get(), rotation);
+    const Pose moved = wanted * (before.inverse() * link_pose(*link));
+    const Vector3 centre = moved * link->centre_of_mass;
+    dBodySetPosition(link->body.get(), centre.x(), centre.y(), centre.z());
+    dBodySetQuaternion(link->body.get(), to_ode(moved.orientation).data());
   }
 }
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
   const std::vector<const Link*> links = moving_links(*state_, object);
   check_velocity(*state_, object, velocity);
-  const Vector3 origin = pose(object).Pos();
+  const Vector3 origin = pose(object).position;
   for (const Link* link : links) dBodyEnable(link->body.get());
   for (const Link* link : links) {
     dBodyID body = link->body.get();
-    const Vector3 linear = velocity.linear + velocity.angular.Cross(to_vector(dBodyGetPosition(body)) - origin);
-    dBodySetLinearVel(body, linear.X(), linear.Y(), linear.Z());
-    dBodySetAngularVel(body, velocity.angular.X(), velocity.angular.Y(), velocity.angular.Z());
+    const Vector3 linear = velocity.linear + velocity.angular.cross(to_vector(dBodyGetPosition(body)) - origin);
+    dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
+    dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
   }
 }
 
@@ -164,8 +153,8 @@ std::vector<Light> World::link_lights() const {
     for (std::size_t i = 0; i < model->links.size(); ++i) {
       for (Light light : model->description.links[i].lights) {
         const Pose pose = link_pose(model->links[i]);
-        light.position = pose.CoordPositionAdd(light.position);
-        light.direction = pose.Rot().RotateVector(light.direction);
+        light.position = pose * light.position;
+        light.direction = pose.orientation * light.direction;
         lights.push_back(std::move(light));
       }
     }

@@ -57,9 +57,9 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
     placed.planar_motor = make_planar_motor(*state_, placed);
   }
   // ODE's motor moves the centre of mass, which moves in a circle around the model's origin.
-  const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).Pos();
-  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel, x - turning * arm.Y());
-  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel2, y + turning * arm.X());
+  const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).position;
+  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel, x - turning * arm.y());
+  dJointSetLMotorParam(placed.planar_motor.linear.get(), dParamVel2, y + turning * arm.x());
   dJointSetAMotorParam(placed.planar_motor.angular.get(), dParamVel, turning);
   dBodyEnable(body);
 }

@@ -57,8 +57,8 @@ void set_inertia(dBodyID body, const LinkDescription& link, double mass) {
   const Vector3 diagonal = link.inertia_diagonal * factor;
   const Vector3 products = link.inertia_products * factor;
   dMass made;
-  dMassSetParameters(&made, mass, 0, 0, 0, diagonal.X(), diagonal.Y(), diagonal.Z(), products.X(), products.Y(),
-                     products.Z());
+  dMassSetParameters(&made, mass, 0, 0, 0, diagonal.x(), diagonal.y(), diagonal.z(), products.x(), products.y(),
+                     products.z());
   dBodySetMass(body, &made);
 }
 
@@ -77,9 +77,9 @@ void apply_mass(PlacedModel& model, Link& link, double mass) {
 
 void apply_gravity(World::State& state, const Vector3& gravity) {
   state.gravity = gravity;
-  dWorldSetGravity(state.world.get(), gravity.X(), gravity.Y(), gravity.Z());
+  dWorldSetGravity(state.world.get(), gravity.x(), gravity.y(), gravity.z());
   for (PlacedModel* model : state.moving) {
-    model->rest.may_sleep = model->prepared->is_prop && gravity != Vector3::Zero;
+    model->rest.may_sleep = model->prepared->is_prop && gravity != Vector3::Zero();
   }
 }
 
@@ -119,13 +119,13 @@ void World::set_gravity(const Vector3& gravity) {
   if (!within(gravity, kMaxGravity)) {
     throw InvalidInput("the gravity " + text(gravity) + " is not usable: it must be finite and at most 1e4 m/s^2");
   }
-  const Vector3 before = state_->gravity.Normalized();
+  const Vector3 before = state_->gravity.normalized();
   wake(*state_);
   apply_gravity(*state_, gravity);
   for (PlacedModel* model : state_->moving) {
     for (Link& link : model->links) link.rest_pose = body_pose(link.body.get());
   }
-  if (gravity.Normalized().Dot(before) > 1 - 1e-9) return;
+  if (gravity.normalized().dot(before) > 1 - 1e-9) return;
   state_->bottom = 0;
   lower_bottom(*state_);
 }

@@ -13,10 +13,10 @@ std::optional<RayHit> World::cast_ray(const Vector3& origin, const Vector3& unit
     if (model->object == ignored_model) continue;
     for (const Collider& collider : model->colliders) {
       const Pose pose = link_pose(*collider.link) * collider.in_link;
-      const Ray ray{pose.Rot().RotateVectorReverse(origin - pose.Pos()),
-                    pose.Rot().RotateVectorReverse(unit_direction)};
+      const Ray ray{pose.orientation.conjugate() * (origin - pose.position),
+                    pose.orientation.conjugate() * unit_direction};
       const std::optional<ShapeHit> hit = intersect(ray, collider.geometry, nearest ? nearest->distance : max_distance);
-      if (hit) nearest = RayHit{hit->distance, pose.Rot().RotateVector(hit->normal), collider.link->object};
+      if (hit) nearest = RayHit{hit->distance, pose.orientation * hit->normal, collider.link->object};
     }
   }
   return nearest;

@@ -47,7 +47,7 @@ void solve_free_contacts(World::State& state, double step) {
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const FreePair& a, const FreePair& b) { return a.island < b.island; });
   ContactSolver& solver = state.contact_solver;
-  const Vector3 up = -state.gravity.Normalized();
+  const Vector3 up = -state.gravity.normalized();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const FreePair& free = pairs[i];
     if (i == 0 || free.island != pairs[i - 1].island) solver.clear();
@@ -60,7 +60,7 @@ void solve_free_contacts(World::State& state, double step) {
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(pair.count); ++j) {
       const FoundContact& point = state.found.points[pair.begin + j];
-      const double height = up.Dot(to_vector(point.contact.geom.pos));
+      const double height = up.dot(to_vector(point.contact.geom.pos));
       solver.add_point(a, b, point, pair.begin + j, expected[j], height, step);
     }
     if (i + 1 == pairs.size() || pairs[i + 1].island != free.island) solver.solve(state.found.points, step);

@@ -25,6 +25,7 @@
 #include "physics/joints/motor_meter.hpp"
 #include "physics/motion_meter.hpp"
 #include "physics/ode_handles.hpp"
+#include "physics/ode_math.hpp"
 #include "physics/prepared_model.hpp"
 #include "physics/rotation.hpp"
 #include "physics/sleep.hpp"
@@ -328,13 +329,6 @@ void limit_planar_motor(const PlanarMotor& motor, const PlacedModel& model);
 void push_links(const World::State& state, const Wrenches& wrenches);
 /// Removes the wrenches of links that do not exist any more.
 void forget_wrenches(World::State& state);
-
-Vector3 to_vector(const dReal* values);
-
-/// Pose of an ODE body; its origin is the centre of mass.
-Pose body_pose(dBodyID body);
-/// Velocity of the centre of mass.
-Twist body_velocity(dBodyID body);
 
 /// Pose in the world.
 Pose link_pose(const Link& link);

@@ -117,11 +117,11 @@ const std::vector<ObjectId>& World::diverged_models() const { return state_->los
 
 std::vector<ObjectId> World::fallen_models() const {
   std::vector<ObjectId> fallen;
-  const Vector3 down = state_->gravity.Normalized();
-  if (down == Vector3::Zero) return fallen;
+  const Vector3 down = state_->gravity.normalized();
+  if (down == Vector3::Zero()) return fallen;
   for (const auto& model : state_->models) {
     const bool all_below = std::all_of(model->links.begin(), model->links.end(), [&](const Link& link) {
-      return link.body != nullptr && to_vector(dBodyGetPosition(link.body.get())).Dot(down) > state_->bottom + kFall;
+      return link.body != nullptr && to_vector(dBodyGetPosition(link.body.get())).dot(down) > state_->bottom + kFall;
     });
     if (all_below) fallen.push_back(model->object);
   }
@@ -133,13 +133,13 @@ void World::write_last_states(std::ostream& out) const {
   for (const StateSample& sample : state_->history) {
     for (const LinkState& link : sample.links) {
       if (!state_->tree().contains(link.object)) continue;
-      const Vector3& p = link.pose.Pos();
-      const Quaternion& q = link.pose.Rot();
+      const Vector3& p = link.pose.position;
+      const Quaternion& q = link.pose.orientation;
       const Vector3& v = link.velocity.linear;
       const Vector3& w = link.velocity.angular;
       out << sample.time << ',' << state_->tree().path(link.object);
       for (const double value :
-           {p.X(), p.Y(), p.Z(), q.X(), q.Y(), q.Z(), q.W(), v.X(), v.Y(), v.Z(), w.X(), w.Y(), w.Z()}) {
+           {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}) {
         out << ',' << value;
       }
       out << '\n';

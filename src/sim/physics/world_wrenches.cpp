@@ -47,14 +47,13 @@ void World::apply_wrench(ObjectId object, const Wrench& wrench, const std::optio
                          WrenchFrame frame) {
   check_wrench(object, wrench, point);
   const ObjectId link = pushed_link(*state_, object);
-  // Not by ==, which has a tolerance of 1e-3.
-  if (wrench.force.SquaredLength() == 0 && wrench.torque.SquaredLength() == 0) return;  // does not wake it
-  const Pose axes = frame == WrenchFrame::kObject ? pose(object) : Pose::Zero;
-  const Vector3 force = axes.Rot().RotateVector(wrench.force);
-  Vector3 torque = axes.Rot().RotateVector(wrench.torque);
+  if (wrench.force == Vector3::Zero() && wrench.torque == Vector3::Zero()) return;  // does not wake it
+  const Pose axes = frame == WrenchFrame::kObject ? pose(object) : Pose();
+  const Vector3 force = axes.orientation * wrench.force;
+  Vector3 torque = axes.orientation * wrench.torque;
   if (point) {
     const Vector3 centre = to_vector(dBodyGetPosition(state_->link(link).body.get()));
-    torque += (axes.CoordPositionAdd(*point) - centre).Cross(force);
+    torque += (axes * *point - centre).cross(force);
   }
   Wrench& sum = receiving(*state_)[link];
   sum.force += force;
@@ -65,8 +64,8 @@ void World::clear_wrench(ObjectId object, bool force, bool torque) {
   Wrenches& wrenches = receiving(*state_);
   const auto found = wrenches.find(pushed_link(*state_, object));
   if (found == wrenches.end()) return;
-  if (force) found->second.force = Vector3::Zero;
-  if (torque) found->second.torque = Vector3::Zero;
+  if (force) found->second.force = Vector3::Zero();
+  if (torque) found->second.torque = Vector3::Zero();
   if (force && torque) wrenches.erase(found);
 }
 
@@ -74,8 +73,8 @@ void push_links(const World::State& state, const Wrenches& wrenches) {
   for (const auto& [link, wrench] : wrenches) {
     dBodyID body = state.link(link).body.get();
     dBodyEnable(body);
-    dBodyAddForce(body, wrench.force.X(), wrench.force.Y(), wrench.force.Z());
-    dBodyAddTorque(body, wrench.torque.X(), wrench.torque.Y(), wrench.torque.Z());
+    dBodyAddForce(body, wrench.force.x(), wrench.force.y(), wrench.force.z());
+    dBodyAddTorque(body, wrench.torque.x(), wrench.torque.y(), wrench.torque.z());
   }
 }
 

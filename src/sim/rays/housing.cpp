@@ -11,14 +11,14 @@ namespace bubblesim::rays {
 std::vector<Vector3> sensor_positions(const ModelDescription& model) {
   std::vector<Vector3> positions;
   for (const LinkDescription& link : model.links) {
-    for (const SensorDescription& sensor : link.sensors) positions.push_back((link.pose * sensor.pose).Pos());
+    for (const SensorDescription& sensor : link.sensors) positions.push_back((link.pose * sensor.pose).position);
   }
   return positions;
 }
 
 bool houses(const Geometry& geometry, const Pose& pose, const std::vector<Vector3>& sensors) {
   return std::any_of(sensors.begin(), sensors.end(), [&](const Vector3& sensor) {
-    const Vector3 place = pose.Rot().RotateVectorReverse(sensor - pose.Pos());
+    const Vector3 place = pose.orientation.conjugate() * (sensor - pose.position);
     const auto* mesh = std::get_if<Mesh>(&geometry);
     if (mesh == nullptr) return is_inside(place, geometry);
     const Vector3& low = mesh->triangles->low;

@@ -3,25 +3,21 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <ignition/math/Matrix3.hh>
 
 #include "bubblesim/math.hpp"
 
 namespace bubblesim::rays {
 
 struct LinkFrame {
-  ignition::math::Matrix3d turn;
+  Matrix3 turn = Matrix3::Identity();
   Vector3 position;
 };
 
 /// For Embree: column-major, 3 rows and 4 columns.
 inline std::array<float, 12> to_matrix(const LinkFrame& frame) {
   std::array<float, 12> matrix;
-  for (std::size_t column = 0; column < 3; ++column) {
-    for (std::size_t row = 0; row < 3; ++row) matrix[3 * column + row] = static_cast<float>(frame.turn(row, column));
-  }
-  for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(frame.position[row]);
+  Eigen::Map<Eigen::Matrix3f>(matrix.data()) = frame.turn.cast<float>();
+  Eigen::Map<Eigen::Vector3f>(matrix.data() + 9) = frame.position.cast<float>();
   return matrix;
 }
 

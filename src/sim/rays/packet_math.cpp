@@ -18,18 +18,18 @@ BUBBLESIM_SIMD void along_row(double base, double side, const double* left, floa
 
 }  // namespace
 
-void aim(RTCRay16& rays, const ignition::math::Matrix3d& turn, const DirectionLanes& directions) {
+void aim(RTCRay16& rays, const Matrix3& turn, const DirectionLanes& directions) {
   float* const out[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
-  for (std::size_t row = 0; row < 3; ++row) {
-    const double r[3] = {turn(row, 0), turn(row, 1), turn(row, 2)};
-    turned(r, directions.x, directions.y, directions.z, out[row]);
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    const Vector3 r = turn.row(row).transpose();
+    turned(r.data(), directions.x, directions.y, directions.z, out[row]);
   }
 }
 
 void aim(RTCRay16& rays, const Vector3& base, const Vector3& side, const double* left) {
-  along_row(base.X(), side.X(), left, rays.dir_x);
-  along_row(base.Y(), side.Y(), left, rays.dir_y);
-  along_row(base.Z(), side.Z(), left, rays.dir_z);
+  along_row(base.x(), side.x(), left, rays.dir_x);
+  along_row(base.y(), side.y(), left, rays.dir_y);
+  along_row(base.z(), side.z(), left, rays.dir_z);
 }
 
 namespace {
@@ -105,13 +105,11 @@ BUBBLESIM_SIMD int from_inside(const RTCRay16& ray, const RTCHit16& hit, const i
 
 void meet_plane(const PlaneEquation& plane, unsigned geometry, unsigned instance, const RayMask& mask,
                 RTCRayHit16& packet) {
-  const double normal[3] = {plane.normal.X(), plane.normal.Y(), plane.normal.Z()};
-  meet(normal, plane.offset, geometry, instance, mask.use, packet);
+  meet(plane.normal.data(), plane.offset, geometry, instance, mask.use, packet);
 }
 
 bool can_meet_sphere(const RTCRay16& rays, const int* use, const Vector3& centre, double radius, RayMask& can) {
-  const double place[3] = {centre.X(), centre.Y(), centre.Z()};
-  return reach_sphere(rays, use, place, radius * (1 + 1e-4) + 1e-4, can.use);
+  return reach_sphere(rays, use, centre.data(), radius * (1 + 1e-4) + 1e-4, can.use);
 }
 
 int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned first_other, RayMask& inside,

@@ -3,8 +3,6 @@
 // error of a millimetre on ground at a distance of 100 m.
 #pragma once
 
-#include <ignition/math/Matrix3.hh>
-
 #include "bubblesim/math.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "rays/ray_packet.hpp"
@@ -19,7 +17,7 @@ struct DirectionLanes {
 };
 
 /// Sets the directions of all rays: `turn` times the given ones.
-void aim(RTCRay16& rays, const ignition::math::Matrix3d& turn, const DirectionLanes& directions);
+void aim(RTCRay16& rays, const Matrix3& turn, const DirectionLanes& directions);
 
 /// Sets the direction of ray `i` to `base` + left[i] * `side`.
 void aim(RTCRay16& rays, const Vector3& base, const Vector3& side, const double* left);

@@ -21,8 +21,8 @@ RayShape make_shape(const VisualDescription& visual, const Pose& pose) {
   RayShape shape;
   shape.geometry = visual.geometry;
   shape.pose = pose;
-  shape.turn = ignition::math::Matrix3d(pose.Rot());
-  shape.turn_back = shape.turn.Transposed();
+  shape.turn = pose.orientation.toRotationMatrix();
+  shape.turn_back = shape.turn.transpose();
   shape.material = visual.material;
   shape.keeps_mesh_materials = visual.keeps_mesh_materials;
   shape.cast_shadows = visual.cast_shadows;
@@ -32,8 +32,8 @@ RayShape make_shape(const VisualDescription& visual, const Pose& pose) {
 
 void add_static(RayModel& model, const RayShape& shape) {
   if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
-    const Vector3 normal = shape.pose.Rot().RotateVector(plane->normal.Normalized());
-    model.planes.push_back({&shape, {normal, normal.Dot(shape.pose.Pos())}});
+    const Vector3 normal = shape.pose.orientation * plane->normal.normalized();
+    model.planes.push_back({&shape, {normal, normal.dot(shape.pose.position)}});
   } else {
     model.fixed.push_back({&shape, make_geometry(shape)});
   }
@@ -63,7 +63,7 @@ SharedRayModel prepare_rays(const SceneTree& tree, ObjectId model, const ModelDe
   const std::vector<Vector3> sensors = sensor_positions(description);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const LinkDescription& link = description.links[i];
-    const Pose pose = description.is_static ? description.pose * link.pose : Pose::Zero;
+    const Pose pose = description.is_static ? description.pose * link.pose : Pose();
     std::vector<const RayShape*> shapes;
     const auto add = [&](const VisualDescription& visual) {
       RayShape shape = make_shape(visual, pose * visual.pose);

@@ -19,12 +19,12 @@ struct alignas(64) RayMask {
 
 /// Sets origin and direction of ray `i`.
 inline void aim(RTCRay16& rays, std::size_t i, const Vector3& origin, const Vector3& direction) {
-  rays.org_x[i] = static_cast<float>(origin.X());
-  rays.org_y[i] = static_cast<float>(origin.Y());
-  rays.org_z[i] = static_cast<float>(origin.Z());
-  rays.dir_x[i] = static_cast<float>(direction.X());
-  rays.dir_y[i] = static_cast<float>(direction.Y());
-  rays.dir_z[i] = static_cast<float>(direction.Z());
+  rays.org_x[i] = static_cast<float>(origin.x());
+  rays.org_y[i] = static_cast<float>(origin.y());
+  rays.org_z[i] = static_cast<float>(origin.z());
+  rays.dir_x[i] = static_cast<float>(direction.x());
+  rays.dir_y[i] = static_cast<float>(direction.y());
+  rays.dir_z[i] = static_cast<float>(direction.z());
 }
 
 /// Distances are multiples of each ray's direction, which need not have length 1.
@@ -34,9 +34,9 @@ struct RayPacket {
 
   /// Sets origin and range (`near` to `far`) of the first `count` rays. The caller sets the directions.
   void start(const Vector3& origin, float near, float far, std::size_t count) {
-    const auto x = static_cast<float>(origin.X());
-    const auto y = static_cast<float>(origin.Y());
-    const auto z = static_cast<float>(origin.Z());
+    const auto x = static_cast<float>(origin.x());
+    const auto y = static_cast<float>(origin.y());
+    const auto z = static_cast<float>(origin.z());
     for (std::size_t i = 0; i < kPacket; ++i) {
       data.ray.org_x[i] = x;
       data.ray.org_y[i] = y;

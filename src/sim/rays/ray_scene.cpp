@@ -28,10 +28,7 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
 /// Whether two poses are equal to the bit. The == of poses allows a difference, with which rays would depend on where a
 /// link was before.
 bool is_same(const Pose& a, const Pose& b) {
-  const Quaternion& p = a.Rot();
-  const Quaternion& q = b.Rot();
-  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() && p.W() == q.W() &&
-         p.X() == q.X() && p.Y() == q.Y() && p.Z() == q.Z();
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
 }
 
 /// Rejects hits from inside and on the ignored model.
@@ -127,7 +124,7 @@ void RayScene::refresh(const World& world) {
     const Pose pose = world.pose(link->link->id);
     if (link->placed && is_same(pose, link->pose)) continue;
     link->pose = pose;
-    link->frame = {ignition::math::Matrix3d(pose.Rot()), pose.Pos()};
+    link->frame = {pose.orientation.toRotationMatrix(), pose.position};
     link->placed = true;
     const std::array<float, 12> matrix = to_matrix(link->frame);
     rtcSetGeometryTransform(link->instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
@@ -154,7 +151,7 @@ bool RayScene::starts_in_housings(const RayPacket& packet, const QueryContext& c
   const RTCRay16& ray = packet.data.ray;
   const Vector3 start(ray.org_x[0], ray.org_y[0], ray.org_z[0]);
   return std::all_of(housings.begin(), housings.end(), [&](const RayShape* shape) {
-    return is_inside(shape->turn_back * (start - shape->pose.Pos()), shape->geometry);
+    return is_inside(shape->turn_back * (start - shape->pose.position), shape->geometry);
   });
 }
 
@@ -180,7 +177,7 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (packet.mask.use[i] == 0 || hit.instID[0][i] >= kPlaneInstance) continue;
     const Vector3 normal = links_[hit.instID[0][i]]->frame.turn * Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]);
-    if (normal.Dot(Vector3(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i])) <= 0) continue;
+    if (normal.dot(Vector3(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i])) <= 0) continue;
     inside.use[i] = any = kUsed;
   }
   return any != 0;
@@ -223,7 +220,7 @@ const RayShape& RayScene::shape(const RayPacket& packet, std::size_t i) const {
 Vector3 RayScene::normal(const RayPacket& packet, std::size_t i) const {
   const RTCHit16& hit = packet.data.hit;
   if (hit.instID[0][i] == kPlaneInstance) return planes_[hit.geomID[i]].equation.normal;
-  const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).Normalized();
+  const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).normalized();
   if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) return normal;
   return links_[hit.instID[0][i]]->frame.turn * normal;
 }

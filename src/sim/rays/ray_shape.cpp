@@ -16,28 +16,27 @@ namespace {
 /// Half the size of the bounding box of a shape, in the shape's frame.
 struct HalfExtent {
   Vector3 operator()(const Box& box) const { return box.size / 2; }
-  Vector3 operator()(const Sphere& sphere) const { return Vector3::One * sphere.radius; }
+  Vector3 operator()(const Sphere& sphere) const { return Vector3::Constant(sphere.radius); }
   Vector3 operator()(const Cylinder& cylinder) const { return {cylinder.radius, cylinder.radius, cylinder.length / 2}; }
   Vector3 operator()(const Capsule& capsule) const {
     return {capsule.radius, capsule.radius, capsule.radius + capsule.length / 2};
   }
   Vector3 operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii; }
-  Vector3 operator()(const Plane&) const { return Vector3::Zero; }
-  Vector3 operator()(const Mesh&) const { return Vector3::Zero; }  // Embree computes the bounds of triangles itself
+  Vector3 operator()(const Plane&) const { return Vector3::Zero(); }
+  Vector3 operator()(const Mesh&) const { return Vector3::Zero(); }  // Embree computes the bounds of triangles itself
 };
 
 void bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
   const Vector3 half = std::visit(HalfExtent{}, shape.geometry);
+  const Vector3 reach = shape.turn.cwiseAbs() * half;
   float low[3];
   float high[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double reach = std::abs(shape.turn(axis, 0)) * half.X() + std::abs(shape.turn(axis, 1)) * half.Y() +
-                         std::abs(shape.turn(axis, 2)) * half.Z();
-    const double centre = shape.pose.Pos()[axis];
-    const double margin = 1e-6 * (1 + std::abs(centre) + reach);  // for rounding in single precision
-    low[axis] = static_cast<float>(centre - reach - margin);
-    high[axis] = static_cast<float>(centre + reach + margin);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double centre = shape.pose.position[axis];
+    const double margin = 1e-6 * (1 + std::abs(centre) + reach[axis]);  // for rounding in single precision
+    low[axis] = static_cast<float>(centre - reach[axis] - margin);
+    high[axis] = static_cast<float>(centre + reach[axis] + margin);
   }
   RTCBounds& box = *arguments->bounds_o;
   box.lower_x = low[0];
@@ -50,14 +49,14 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
 
 Vector3 origin_in_shape(const RayShape& shape, RTCRayN* rays, unsigned count, unsigned i) {
   const Vector3 start(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i));
-  return shape.turn_back * (start - shape.pose.Pos());
+  return shape.turn_back * (start - shape.pose.position);
 }
 
 /// Where ray `i` of a packet enters the shape, as a multiple of the ray's direction; the normal is in the shape's outer
 /// frame. `origin` is its start in the shape's frame.
 std::optional<ShapeHit> meet(const RayShape& shape, const Vector3& origin, RTCRayN* rays, unsigned count, unsigned i) {
   const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
-  const double length = direction.Length();
+  const double length = direction.norm();
   const Ray ray{origin, shape.turn_back * (direction / length)};
   std::optional<ShapeHit> hit = intersect(ray, shape.geometry, RTCRayN_tfar(rays, count, i) * length);
   if (!hit) return std::nullopt;
@@ -77,8 +76,8 @@ bool near_shape(const RayShape& shape, const int* valid, unsigned count, const R
     std::copy_n(valid, count, near.use);
     return true;
   }
-  const double radius = std::visit(HalfExtent{}, shape.geometry).Length();
-  return can_meet_sphere(*reinterpret_cast<const RTCRay16*>(rays), valid, shape.pose.Pos(), radius, near);
+  const double radius = std::visit(HalfExtent{}, shape.geometry).norm();
+  return can_meet_sphere(*reinterpret_cast<const RTCRay16*>(rays), valid, shape.pose.position, radius, near);
 }
 
 void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
@@ -103,9 +102,9 @@ void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
     const std::optional<ShapeHit> hit = meet(shape, origin, rays, count, i);
     if (!hit) continue;
     RTCRayN_tfar(rays, count, i) = static_cast<float>(hit->distance);
-    RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.X());
-    RTCHitN_Ng_y(hits, count, i) = static_cast<float>(hit->normal.Y());
-    RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit->normal.Z());
+    RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.x());
+    RTCHitN_Ng_y(hits, count, i) = static_cast<float>(hit->normal.y());
+    RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit->normal.z());
     RTCHitN_geomID(hits, count, i) = arguments->geomID;
     RTCHitN_primID(hits, count, i) = 0;
     RTCHitN_instID(hits, count, i, 0) = arguments->context->instID[0];
@@ -145,7 +144,7 @@ GeometryHandle make_box(const Box& box, const Pose& pose) {
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 8));
   for (int corner = 0; corner < 8; ++corner) {
     const auto side = [corner](int axis) { return (corner >> axis & 1) != 0 ? 0.5 : -0.5; };
-    const Vector3 place = pose.CoordPositionAdd(box.size * Vector3(side(0), side(1), side(2)));
+    const Vector3 place = pose * box.size.cwiseProduct(Vector3(side(0), side(1), side(2)));
     for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
   }
   constexpr std::array<unsigned, 24> kFaces = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
@@ -162,7 +161,7 @@ GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
       geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
   check_embree();
   for (const TriangleMesh::Point& point : mesh.vertices) {
-    const Vector3 place = pose.CoordPositionAdd(Vector3(point[0], point[1], point[2]));
+    const Vector3 place = pose * Vector3(point[0], point[1], point[2]);
     for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
   }
   auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(

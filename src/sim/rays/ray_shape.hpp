@@ -3,8 +3,6 @@
 // the exact float64 formulas of ray_shapes.hpp. A new kind of geometry is added here only.
 #pragma once
 
-#include <ignition/math/Matrix3.hh>
-
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "rays/embree_handles.hpp"
@@ -13,9 +11,9 @@ namespace bubblesim::rays {
 
 struct RayShape {
   Geometry geometry;
-  Pose pose;                      ///< in the link's frame, or in the world's when the link is static
-  ignition::math::Matrix3d turn;  ///< the pose's rotation and its inverse; faster than quaternions
-  ignition::math::Matrix3d turn_back;
+  Pose pose;                           ///< in the link's frame, or in the world's when the link is static
+  Matrix3 turn = Matrix3::Identity();  ///< the pose's rotation and its inverse; faster than quaternions
+  Matrix3 turn_back = Matrix3::Identity();
   Material material;
   bool keeps_mesh_materials = false;
   bool cast_shadows = true;

@@ -47,15 +47,15 @@ struct Intersector {
 
   std::optional<ShapeHit> operator()(const Box& box) const {
     Interval inside;
-    inside.clip_slab(ray.origin.X(), ray.direction.X(), box.size.X() / 2, Vector3::UnitX);
-    inside.clip_slab(ray.origin.Y(), ray.direction.Y(), box.size.Y() / 2, Vector3::UnitY);
-    inside.clip_slab(ray.origin.Z(), ray.direction.Z(), box.size.Z() / 2, Vector3::UnitZ);
+    inside.clip_slab(ray.origin.x(), ray.direction.x(), box.size.x() / 2, Vector3::UnitX());
+    inside.clip_slab(ray.origin.y(), ray.direction.y(), box.size.y() / 2, Vector3::UnitY());
+    inside.clip_slab(ray.origin.z(), ray.direction.z(), box.size.z() / 2, Vector3::UnitZ());
     return entry(inside);
   }
 
   std::optional<ShapeHit> operator()(const Sphere& sphere) const {
     const auto roots =
-        inside_quadric(1, ray.origin.Dot(ray.direction), ray.origin.SquaredLength() - sphere.radius * sphere.radius);
+        inside_quadric(1, ray.origin.dot(ray.direction), ray.origin.squaredNorm() - sphere.radius * sphere.radius);
     if (!roots) return std::nullopt;
     return entry({roots->first, roots->second, (ray.origin + ray.direction * roots->first) / sphere.radius});
   }
@@ -64,17 +64,17 @@ struct Intersector {
     const Vector3& o = ray.origin;
     const Vector3& d = ray.direction;
     Interval inside;
-    const double a = d.X() * d.X() + d.Y() * d.Y();
-    const double c = o.X() * o.X() + o.Y() * o.Y() - cylinder.radius * cylinder.radius;
+    const double a = d.x() * d.x() + d.y() * d.y();
+    const double c = o.x() * o.x() + o.y() * o.y() - cylinder.radius * cylinder.radius;
     if (a == 0) {
       if (c > 0) return std::nullopt;
     } else {
-      const auto roots = inside_quadric(a, o.X() * d.X() + o.Y() * d.Y(), c);
+      const auto roots = inside_quadric(a, o.x() * d.x() + o.y() * d.y(), c);
       if (!roots) return std::nullopt;
       const Vector3 side = o + d * roots->first;
-      inside = {roots->first, roots->second, Vector3(side.X(), side.Y(), 0) / cylinder.radius};
+      inside = {roots->first, roots->second, Vector3(side.x(), side.y(), 0) / cylinder.radius};
     }
-    inside.clip_slab(o.Z(), d.Z(), cylinder.length / 2, Vector3::UnitZ);
+    inside.clip_slab(o.z(), d.z(), cylinder.length / 2, Vector3::UnitZ());
     return entry(inside);
   }
 
@@ -89,14 +89,14 @@ struct Intersector {
     const Vector3& d = ray.direction;
     const double half = capsule.length / 2;
     const double r = capsule.radius;
-    const double c = o.X() * o.X() + o.Y() * o.Y() - r * r;
-    if (const auto side = inside_quadric(d.X() * d.X() + d.Y() * d.Y(), o.X() * d.X() + o.Y() * d.Y(), c)) {
+    const double c = o.x() * o.x() + o.y() * o.y() - r * r;
+    if (const auto side = inside_quadric(d.x() * d.x() + d.y() * d.y(), o.x() * d.x() + o.y() * d.y(), c)) {
       const Vector3 place = o + d * side->first;
-      if (std::abs(place.Z()) <= half) take(side->first, Vector3(place.X(), place.Y(), 0) / r);
+      if (std::abs(place.z()) <= half) take(side->first, Vector3(place.x(), place.y(), 0) / r);
     }
     for (const double end : {-half, half}) {
       const Vector3 from_end = o - Vector3(0, 0, end);
-      const auto ball = inside_quadric(1, from_end.Dot(d), from_end.SquaredLength() - r * r);
+      const auto ball = inside_quadric(1, from_end.dot(d), from_end.squaredNorm() - r * r);
       if (ball) take(ball->first, (from_end + d * ball->first) / r);
     }
     return first.enter < kNever ? entry(first) : std::nullopt;
@@ -104,12 +104,12 @@ struct Intersector {
 
   /// A unit sphere after division by the radii.
   std::optional<ShapeHit> operator()(const Ellipsoid& ellipsoid) const {
-    const Vector3 o = ray.origin / ellipsoid.radii;
-    const Vector3 d = ray.direction / ellipsoid.radii;
-    const auto roots = inside_quadric(d.Dot(d), o.Dot(d), o.SquaredLength() - 1);
+    const Vector3 o = ray.origin.cwiseQuotient(ellipsoid.radii);
+    const Vector3 d = ray.direction.cwiseQuotient(ellipsoid.radii);
+    const auto roots = inside_quadric(d.dot(d), o.dot(d), o.squaredNorm() - 1);
     if (!roots) return std::nullopt;
-    const Vector3 normal = (o + d * roots->first) / ellipsoid.radii;
-    return entry({roots->first, roots->second, normal.Normalized()});
+    const Vector3 normal = (o + d * roots->first).cwiseQuotient(ellipsoid.radii);
+    return entry({roots->first, roots->second, normal.normalized()});
   }
 
   /// Tests every triangle, front faces only: for occasional queries; sensors use Embree. Möller and Trumbore, "Fast,
@@ -122,25 +122,25 @@ struct Intersector {
       const Vector3 corner = triangles.corner(triangle, 0);
       const Vector3 first = triangles.corner(triangle, 1) - corner;
       const Vector3 second = triangles.corner(triangle, 2) - corner;
-      const Vector3 p = ray.direction.Cross(second);
-      const double determinant = first.Dot(p);
+      const Vector3 p = ray.direction.cross(second);
+      const double determinant = first.dot(p);
       if (determinant <= 0) continue;
       const Vector3 from_corner = ray.origin - corner;
-      const double u = from_corner.Dot(p);
-      const Vector3 q = from_corner.Cross(first);
-      const double v = ray.direction.Dot(q);
+      const double u = from_corner.dot(p);
+      const Vector3 q = from_corner.cross(first);
+      const double v = ray.direction.dot(q);
       if (u < 0 || v < 0 || u + v > determinant) continue;
-      const double distance = second.Dot(q) / determinant;
+      const double distance = second.dot(q) / determinant;
       if (distance < 0 || (nearest && distance >= nearest->distance)) continue;
-      nearest = ShapeHit{distance, first.Cross(second).Normalized()};
+      nearest = ShapeHit{distance, first.cross(second).normalized()};
     }
     return nearest;
   }
 
   std::optional<ShapeHit> operator()(const Plane& plane) const {
-    const Vector3 normal = plane.normal.Normalized();
-    const double height = normal.Dot(ray.origin);
-    const double descent = -normal.Dot(ray.direction);
+    const Vector3 normal = plane.normal.normalized();
+    const double height = normal.dot(ray.origin);
+    const double descent = -normal.dot(ray.direction);
     if (height < 0 || descent <= 0) return std::nullopt;
     return ShapeHit{height / descent, normal};
   }
@@ -150,9 +150,9 @@ struct Intersector {
     const Vector3 from_middle = ray.origin - (low + high) / 2;
     const Vector3 half = (high - low) / 2;
     Interval inside;
-    inside.clip_slab(from_middle.X(), ray.direction.X(), half.X(), Vector3::UnitX);
-    inside.clip_slab(from_middle.Y(), ray.direction.Y(), half.Y(), Vector3::UnitY);
-    inside.clip_slab(from_middle.Z(), ray.direction.Z(), half.Z(), Vector3::UnitZ);
+    inside.clip_slab(from_middle.x(), ray.direction.x(), half.x(), Vector3::UnitX());
+    inside.clip_slab(from_middle.y(), ray.direction.y(), half.y(), Vector3::UnitY());
+    inside.clip_slab(from_middle.z(), ray.direction.z(), half.z(), Vector3::UnitZ());
     return inside.leave >= 0 && inside.enter <= inside.leave;
   }
 
@@ -167,20 +167,20 @@ struct Inside {
 
   bool operator()(const Box& box) const {
     const Vector3 half = box.size / 2;
-    return std::abs(point.X()) < half.X() && std::abs(point.Y()) < half.Y() && std::abs(point.Z()) < half.Z();
+    return std::abs(point.x()) < half.x() && std::abs(point.y()) < half.y() && std::abs(point.z()) < half.z();
   }
-  bool operator()(const Sphere& sphere) const { return point.SquaredLength() < sphere.radius * sphere.radius; }
+  bool operator()(const Sphere& sphere) const { return point.squaredNorm() < sphere.radius * sphere.radius; }
   bool operator()(const Cylinder& cylinder) const {
-    return std::abs(point.Z()) < cylinder.length / 2 &&
-           point.X() * point.X() + point.Y() * point.Y() < cylinder.radius * cylinder.radius;
+    return std::abs(point.z()) < cylinder.length / 2 &&
+           point.x() * point.x() + point.y() * point.y() < cylinder.radius * cylinder.radius;
   }
   bool operator()(const Capsule& capsule) const {
     const double half = capsule.length / 2;
-    const Vector3 nearest(0, 0, std::clamp(point.Z(), -half, half));
-    return (point - nearest).SquaredLength() < capsule.radius * capsule.radius;
+    const Vector3 nearest(0, 0, std::clamp(point.z(), -half, half));
+    return (point - nearest).squaredNorm() < capsule.radius * capsule.radius;
   }
-  bool operator()(const Ellipsoid& ellipsoid) const { return (point / ellipsoid.radii).SquaredLength() < 1; }
-  bool operator()(const Plane& plane) const { return plane.normal.Dot(point) < 0; }
+  bool operator()(const Ellipsoid& ellipsoid) const { return point.cwiseQuotient(ellipsoid.radii).squaredNorm() < 1; }
+  bool operator()(const Plane& plane) const { return plane.normal.dot(point) < 0; }
   bool operator()(const Mesh&) const { return false; }  // a surface; its back faces are not hit
 };
 

@@ -14,10 +14,10 @@ using Shape = Kind::Shape;
 using Sizes = std::vector<std::size_t>;
 
 void put(Row& row, const Vector3& v) {
-  for (const double value : {v.X(), v.Y(), v.Z()}) row.put(value);
+  for (const double value : {v.x(), v.y(), v.z()}) row.put(value);
 }
 void put(Row& row, const Quaternion& q) {
-  for (const double value : {q.X(), q.Y(), q.Z(), q.W()}) row.put(value);
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) row.put(value);
 }
 Vector3 take_vector(Row& row) {
   const double x = row.take();
@@ -27,7 +27,7 @@ Vector3 take_vector(Row& row) {
 Pose take_pose(Row& row) {
   const Vector3 position = take_vector(row);
   const Vector3 v = take_vector(row);
-  return {position, Quaternion(row.take(), v.X(), v.Y(), v.Z())};
+  return {position, Quaternion(row.take(), v.x(), v.y(), v.z())};
 }
 Twist take_twist(Row& row) {
   const Vector3 linear = take_vector(row);
@@ -36,17 +36,16 @@ Twist take_twist(Row& row) {
 
 Pose pose_of(const World& world, const Place& place) {
   const Pose pose = world.pose(place.object);
-  return place.relative_to == kNoObject ? pose : world.pose(place.relative_to).Inverse() * pose;
+  return place.relative_to == kNoObject ? pose : world.pose(place.relative_to).inverse() * pose;
 }
 
 /// Relative: the difference of the velocities, in the axes of the other object.
 Twist velocity_of(const World& world, const Place& place) {
   const Twist twist = world.velocity(place.object);
   if (place.relative_to == kNoObject) return twist;
-  const Quaternion axes = world.pose(place.relative_to).Rot();
+  const Quaternion axes = world.pose(place.relative_to).orientation;
   const Twist other = world.velocity(place.relative_to);
-  return {axes.RotateVectorReverse(twist.linear - other.linear),
-          axes.RotateVectorReverse(twist.angular - other.angular)};
+  return {axes.conjugate() * (twist.linear - other.linear), axes.conjugate() * (twist.angular - other.angular)};
 }
 
 /// 0: a single number.
@@ -177,7 +176,7 @@ void command_object(Simulation& simulation, ObjectId object, Row& row) {
 
 void command_velocity_of_model(Simulation& simulation, ObjectId model, Row& row) {
   const Vector3 velocity = take_vector(row);
-  simulation.world().set_planar_velocity(model, velocity.X(), velocity.Y(), velocity.Z());
+  simulation.world().set_planar_velocity(model, velocity.x(), velocity.y(), velocity.z());
 }
 
 /// Quantities of the motion of any object.
@@ -186,21 +185,23 @@ std::vector<Kind> motions() {
       {"pose", of_any<7>,
        [](Simulation& s, const Place& place, Row& row) {
          const Pose pose = pose_of(s.world(), place);
-         put(row, pose.Pos());
-         put(row, pose.Rot());
+         put(row, pose.position);
+         put(row, pose.orientation);
        },
        [](Simulation& s, ObjectId object, Row& row) { s.world().set_pose(object, take_pose(row)); }, true},
       {"position", of_any<3>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).Pos()); },
+       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).position); },
        [](Simulation& s, ObjectId object, Row& row) {
-         s.world().set_pose(object, {take_vector(row), s.world().pose(object).Rot()});
+         s.world().set_pose(object, {take_vector(row), s.world().pose(object).orientation});
        },
        true},
       {"orientation", of_any<4>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).Rot()); }, nullptr, true},
-      {"yaw", of_any<0>, [](Simulation& s, const Place& place, Row& row) { row.put(pose_of(s.world(), place).Yaw()); },
+       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).orientation); }, nullptr,
+       true},
+      {"yaw", of_any<0>,
+       [](Simulation& s, const Place& place, Row& row) { row.put(to_rpy(pose_of(s.world(), place).orientation).z()); },
        [](Simulation& s, ObjectId object, Row& row) {
-         s.world().set_pose(object, {s.world().pose(object).Pos(), Quaternion(0, 0, row.take())});
+         s.world().set_pose(object, {s.world().pose(object).position, from_rpy(0, 0, row.take())});
        },
        true},
       {"velocity", of_any<6>,

@@ -19,8 +19,9 @@ constexpr std::chrono::seconds kGateTimeout{5};        // for a step of a reques
 
 FramePose to_frame(const Pose& pose) {
   const auto number = [](double value) { return static_cast<float>(value); };
-  return {number(pose.Pos().X()), number(pose.Pos().Y()), number(pose.Pos().Z()), number(pose.Rot().X()),
-          number(pose.Rot().Y()), number(pose.Rot().Z()), number(pose.Rot().W())};
+  return {number(pose.position.x()),    number(pose.position.y()),    number(pose.position.z()),
+          number(pose.orientation.x()), number(pose.orientation.y()), number(pose.orientation.z()),
+          number(pose.orientation.w())};
 }
 
 }  // namespace

@@ -27,4 +27,10 @@ Vector3 to_rpy(const Quaternion& rotation) {
           std::remainder(half_sum + half_difference, 2 * M_PI)};
 }
 
+Quaternion turn_from_z(const Vector3& direction) {
+  // Eigen turns to the opposite direction about any axis across z.
+  if (direction.normalized().z() < -1 + 1e-12) return {0, 1, 0, 0};
+  return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), direction)).normalized();
+}
+
 }  // namespace bubblesim

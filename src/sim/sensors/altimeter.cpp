@@ -13,7 +13,7 @@ class Altimeter final : public Sensor {
 
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    AltimeterReading reading{moment.world.pose(id_).Pos().Z() - start_, moment.world.velocity(id_).linear.Z()};
+    AltimeterReading reading{moment.world.pose(id_).position.z() - start_, moment.world.velocity(id_).linear.z()};
     distort(reading.height, description_.position_noise, moment, id_, 0);
     distort(reading.velocity, description_.velocity_noise, moment, id_, 1);
     measurement = reading;
@@ -27,7 +27,7 @@ class Altimeter final : public Sensor {
 }  // namespace
 
 std::unique_ptr<Sensor> make_kind(const AltimeterDescription& description, const SensorSite& site) {
-  return std::make_unique<Altimeter>(description, site.id, site.world.pose(site.id).Pos().Z());
+  return std::make_unique<Altimeter>(description, site.id, site.world.pose(site.id).position.z());
 }
 
 }  // namespace bubblesim

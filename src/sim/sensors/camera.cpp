@@ -54,7 +54,7 @@ class Camera final : public Sensor {
   struct View {
     const RayScene& scene;
     Vector3 eye;
-    ignition::math::Matrix3d turn;
+    Matrix3 turn;
   };
 
   static CameraImage empty_image(const CameraDescription& description) {
@@ -80,7 +80,7 @@ class Camera final : public Sensor {
     moment.rays.refresh(moment.world);
     if (description_.color) shading_.place_lights(moment.world, moment.brightness);
     const Pose sensor = moment.world.pose(id_);
-    const View view{moment.rays, sensor.Pos(), ignition::math::Matrix3d(sensor.Rot())};
+    const View view{moment.rays, sensor.position, sensor.orientation.toRotationMatrix()};
     Noise noise(description_.noise, moment, id_);
     colors_.resize(description_.color && noise.active() ? image.rgb.size() : 0);
     const auto rows = static_cast<std::size_t>(description_.height);

@@ -14,7 +14,7 @@ class Imu final : public Sensor {
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     const World& world = moment.world;
     ImuReading reading;
-    reading.orientation = world.pose(id_).Rot();
+    reading.orientation = world.pose(id_).orientation;
     const Inertial motion = world.sensor_motion(id_);
     reading.angular_velocity = motion.angular_velocity;
     reading.linear_acceleration = motion.specific_force;

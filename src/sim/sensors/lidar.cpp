@@ -55,17 +55,17 @@ class Lidar final : public Sensor {
     auto& scan = std::get<LidarScan>(measurement);
     moment.rays.refresh(moment.world);
     const Pose sensor = moment.world.pose(id_);
-    const ignition::math::Matrix3d turn(sensor.Rot());
+    const Matrix3 turn = sensor.orientation.toRotationMatrix();
     const std::size_t parts = count_ < kRaysWorthThreads ? 1 : (count_ + kRaysPerPart - 1) / kRaysPerPart;
     const std::size_t length = parts == 1 ? count_ : kRaysPerPart;
     WorkerPool::shared().run(parts, [&](std::size_t part) {
-      scan_part(moment.rays, sensor.Pos(), turn, part * length, std::min(count_, (part + 1) * length), scan);
+      scan_part(moment.rays, sensor.position, turn, part * length, std::min(count_, (part + 1) * length), scan);
     });
     distort(moment, scan.ranges);
   }
 
-  void scan_part(const RayScene& scene, const Vector3& origin, const ignition::math::Matrix3d& turn, std::size_t begin,
-                 std::size_t end, LidarScan& scan) const {
+  void scan_part(const RayScene& scene, const Vector3& origin, const Matrix3& turn, std::size_t begin, std::size_t end,
+                 LidarScan& scan) const {
     const auto min_range = static_cast<float>(description_.min_range);
     const auto max_range = static_cast<float>(description_.max_range);
     rays::RayPacket packet;

@@ -49,7 +49,7 @@ BUBBLESIM_SIMD void add_ambient(const Colors& surface, const Color& light, const
 
 BUBBLESIM_SIMD bool arrive_along(const Vector3& to_light, const Normals& normals, const Mask& mask,
                                  Arrivals& arrivals) {
-  const double d[3] = {to_light.X(), to_light.Y(), to_light.Z()};
+  const double d[3] = {to_light.x(), to_light.y(), to_light.z()};
   for (std::size_t i = 0; i < kLanes; ++i) {
     arrivals.to_light.x[i] = d[0];
     arrivals.to_light.y[i] = d[1];
@@ -124,12 +124,12 @@ BUBBLESIM_SIMD bool incline(const Normals& normals, const Mask& mask, Arrivals& 
 
 bool arrive_from(const Light& light, const Places& places, const Normals& normals, const Mask& mask,
                  Arrivals& arrivals) {
-  const double position[3] = {light.position.X(), light.position.Y(), light.position.Z()};
+  const double position[3] = {light.position.x(), light.position.y(), light.position.z()};
   const double attenuation[3] = {light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation};
   approach(position, light.range, attenuation, places, arrivals);
   if (light.kind == LightKind::kSpot) {
-    const Vector3 direction = light.direction.Normalized();
-    const double axis[3] = {direction.X(), direction.Y(), direction.Z()};
+    const Vector3 direction = light.direction.normalized();
+    const double axis[3] = {direction.x(), direction.y(), direction.z()};
     add_cone(axis, std::cos(light.inner_angle / 2), std::cos(light.outer_angle / 2), light.falloff, arrivals.to_light,
              arrivals.strength);
   }

@@ -15,13 +15,13 @@ class NavSat final : public Sensor {
       : Sensor(NavSatReading{}),
         description_(description),
         id_(id),
-        to_east_north_up_(0, 0, origin.heading),
+        to_east_north_up_(from_rpy(0, 0, origin.heading)),
         earth_(origin.latitude, origin.longitude, origin.elevation) {}
 
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    Vector3 place = to_east_north_up_.RotateVector(moment.world.pose(id_).Pos());
-    Vector3 velocity = to_east_north_up_.RotateVector(moment.world.velocity(id_).linear);
+    Vector3 place = to_east_north_up_ * moment.world.pose(id_).position;
+    Vector3 velocity = to_east_north_up_ * moment.world.velocity(id_).linear;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const bool vertical = axis == 2;
       const auto& of_place = vertical ? description_.vertical_position_noise : description_.horizontal_position_noise;
@@ -32,10 +32,10 @@ class NavSat final : public Sensor {
     }
     NavSatReading reading;
     std::vector<double> turn(9);  // row-major, from east, north, up at this position to those at the origin
-    earth_.Reverse(place.X(), place.Y(), place.Z(), reading.latitude, reading.longitude, reading.altitude, turn);
+    earth_.Reverse(place.x(), place.y(), place.z(), reading.latitude, reading.longitude, reading.altitude, turn);
     // East, north and up at this position differ from those at the origin, because the Earth is round.
     for (std::size_t row = 0; row < 3; ++row) {
-      reading.velocity[row] = turn[row] * velocity.X() + turn[3 + row] * velocity.Y() + turn[6 + row] * velocity.Z();
+      reading.velocity[row] = turn[row] * velocity.x() + turn[3 + row] * velocity.y() + turn[6 + row] * velocity.z();
     }
     measurement = reading;
   }

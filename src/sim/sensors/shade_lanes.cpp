@@ -49,9 +49,9 @@ BUBBLESIM_SIMD void turn_normals(const Turn& turn, const Mask& mask, Normals& no
 }
 
 BUBBLESIM_SIMD void set_normals(const Vector3& normal, const Mask& mask, Normals& normals) {
-  const auto x = static_cast<float>(normal.X());
-  const auto y = static_cast<float>(normal.Y());
-  const auto z = static_cast<float>(normal.Z());
+  const auto x = static_cast<float>(normal.x());
+  const auto y = static_cast<float>(normal.y());
+  const auto z = static_cast<float>(normal.z());
   for (std::size_t i = 0; i < kLanes; ++i) {
     normals.x[i] = mask.use[i] != 0 ? x : normals.x[i];
     normals.y[i] = mask.use[i] != 0 ? y : normals.y[i];
@@ -85,7 +85,7 @@ BUBBLESIM_SIMD void smooth_normals(const CornerNormals& corners, const Turn& tur
 }
 
 BUBBLESIM_SIMD void into_frame(const Turn& turn, const Vector3& position, Places& places) {
-  const double p[3] = {position.X(), position.Y(), position.Z()};
+  const double p[3] = {position.x(), position.y(), position.z()};
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double x = places.x[i] - p[0];
     const double y = places.y[i] - p[1];
@@ -161,7 +161,7 @@ BUBBLESIM_SIMD void paint_texture(const Texture& texture, const ImagePlaces& pla
 }
 
 BUBBLESIM_SIMD void place_on_box(const Vector3& size, const Places& in_shape, ImagePlaces& places) {
-  const double sizes[3] = {size.X(), size.Y(), size.Z()};
+  const double sizes[3] = {size.x(), size.y(), size.z()};
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double x = in_shape.x[i] / sizes[0];  // from -0.5 to 0.5
     const double y = in_shape.y[i] / sizes[1];

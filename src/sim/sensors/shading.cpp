@@ -37,7 +37,7 @@ void Shading::add(const RayScene& scene, const rays::RayPacket& packet, const ra
   for (const Light& light : lights_) {
     lanes::Arrivals arrivals;
     const bool any = light.kind == LightKind::kDirectional
-                         ? lanes::arrive_along(-light.direction.Normalized(), surfaces.normals, groups.hits(), arrivals)
+                         ? lanes::arrive_along(-light.direction.normalized(), surfaces.normals, groups.hits(), arrivals)
                          : lanes::arrive_from(light, surfaces.places, surfaces.normals, groups.hits(), arrivals);
     if (!any) continue;
     if (environment_.shadows && light.cast_shadows) {

@@ -32,35 +32,35 @@ std::vector<VolumeRay> fill(const SonarDescription& sonar) {
   const auto turned = [](double pitch, double yaw) {
     return Vector3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));
   };
-  if (sonar.half_angle == 0 || sonar.volume == ProximityVolume::kRay) return {{Vector3::Zero, Vector3::UnitX}};
+  if (sonar.half_angle == 0 || sonar.volume == ProximityVolume::kRay) return {{Vector3::Zero(), Vector3::UnitX()}};
   switch (sonar.volume) {
     case ProximityVolume::kCone:
     case ProximityVolume::kCylinder:
-      rays.push_back({Vector3::Zero, Vector3::UnitX});
+      rays.push_back({Vector3::Zero(), Vector3::UnitX()});
       for (int ring = 1; ring <= kRings; ++ring) {
         for (int i = 0; i < kRaysPerRing * ring; ++i) {
           const Vector3 side = on_ring(ring, i);
           if (sonar.volume == ProximityVolume::kCylinder) {
-            rays.push_back({side * radius, Vector3::UnitX});
+            rays.push_back({side * radius, Vector3::UnitX()});
           } else {
-            const double tilt = sonar.half_angle * side.Length();
-            rays.push_back({Vector3::Zero, Vector3::UnitX * std::cos(tilt) + side.Normalized() * std::sin(tilt)});
+            const double tilt = sonar.half_angle * side.norm();
+            rays.push_back({Vector3::Zero(), Vector3::UnitX() * std::cos(tilt) + side.normalized() * std::sin(tilt)});
           }
         }
       }
       break;
     case ProximityVolume::kPyramid:
-      rays.push_back({Vector3::Zero, Vector3::UnitX});
+      rays.push_back({Vector3::Zero(), Vector3::UnitX()});
       for (int row = 0; row < kRaysAcross; ++row) {
         for (int column = 0; column < kRaysAcross; ++column) {
           const auto across = [&](int i) { return std::tan(sonar.half_angle) * (2.0 * i / (kRaysAcross - 1) - 1); };
-          rays.push_back({Vector3::Zero, Vector3(1, across(column), across(row)).Normalized()});
+          rays.push_back({Vector3::Zero(), Vector3(1, across(column), across(row)).normalized()});
         }
       }
       break;
     case ProximityVolume::kDisc:
       for (int i = 0; i < kRaysOfDisc; ++i) {
-        rays.push_back({Vector3::Zero, turned(0, sonar.half_angle * (2.0 * i / (kRaysOfDisc - 1) - 1))});
+        rays.push_back({Vector3::Zero(), turned(0, sonar.half_angle * (2.0 * i / (kRaysOfDisc - 1) - 1))});
       }
       break;
     case ProximityVolume::kRay:
@@ -85,11 +85,11 @@ class Sonar final : public Sensor {
     rays::RayPacket packet;
     for (std::size_t first = 0; first < rays_.size(); first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, rays_.size() - first);
-      packet.start(sensor.Pos(), static_cast<float>(description_.min_range), static_cast<float>(nearest.distance),
+      packet.start(sensor.position, static_cast<float>(description_.min_range), static_cast<float>(nearest.distance),
                    count);
       for (std::size_t i = 0; i < rays::kPacket; ++i) {
         const VolumeRay& ray = rays_[first + std::min(i, count - 1)];
-        rays::aim(packet.data.ray, i, sensor.CoordPositionAdd(ray.start), sensor.Rot().RotateVector(ray.direction));
+        rays::aim(packet.data.ray, i, sensor * ray.start, sensor.orientation * ray.direction);
       }
       moment.rays.trace(packet, false, model_);
       for (std::size_t i = 0; i < count; ++i) {
@@ -97,7 +97,7 @@ class Sonar final : public Sensor {
         if (!packet.hit(i) || distance > nearest.distance) continue;
         const VolumeRay& ray = rays_[first + i];
         nearest = {true, distance, ray.start + ray.direction * distance,
-                   sensor.Rot().RotateVectorReverse(moment.rays.normal(packet, i)), moment.rays.shape(packet, i).link};
+                   sensor.orientation.conjugate() * moment.rays.normal(packet, i), moment.rays.shape(packet, i).link};
       }
     }
     if (!nearest.detected) nearest.distance = 0;

@@ -10,7 +10,7 @@ namespace {
 
 using lanes::kLanes;
 
-lanes::Turn rows_of(const ignition::math::Matrix3d& turn) {
+lanes::Turn rows_of(const Matrix3& turn) {
   return {turn(0, 0), turn(0, 1), turn(0, 2), turn(1, 0), turn(1, 1), turn(1, 2), turn(2, 0), turn(2, 1), turn(2, 2)};
 }
 
@@ -74,7 +74,7 @@ struct Painter {
       corners.second[i] = packet.data.hit.u[i];
       corners.third[i] = packet.data.hit.v[i];
     }
-    const ignition::math::Matrix3d turn = link != nullptr ? link->turn * shape.turn : shape.turn;
+    const Matrix3 turn = link != nullptr ? link->turn * shape.turn : shape.turn;
     lanes::smooth_normals(corners, rows_of(turn), group.members, surfaces.normals);
   }
 
@@ -95,7 +95,7 @@ struct Painter {
     if (const rays::LinkFrame* link = scene.link_frame(packet, group.ray)) {
       lanes::into_frame(rows_of(link->turn), link->position, places);
     }
-    lanes::into_frame(rows_of(shape.turn), shape.pose.Pos(), places);
+    lanes::into_frame(rows_of(shape.turn), shape.pose.position, places);
     return places;
   }
 

@@ -86,6 +86,18 @@ TEST(Math, AnglesNearThePolesGiveTheSameRotation) {
   }
 }
 
+TEST(Math, TheShortestTurnFromZ) {
+  expect_same(turn_from_z({0, 0, 3}), {});
+  expect_same(turn_from_z({2, 0, 0}), from_rpy(0, M_PI / 2, 0));
+  expect_same(turn_from_z({0, 0, -1}), from_rpy(M_PI, 0, 0));
+  for (const double tilt : {3.0, 3.14, M_PI - 1e-5, M_PI - 1e-7}) {
+    const Vector3 direction(std::sin(tilt), 0, std::cos(tilt));
+    const Quaternion turn = turn_from_z(direction);
+    EXPECT_NEAR(turn.norm(), 1, kExact);
+    expect_near(turn * Vector3::UnitZ(), direction, 1e-6);
+  }
+}
+
 TEST(Math, PosesComposeFromTheOuterFrameToTheInner) {
   const Pose a(1, 2, 3, 0.1, -0.4, 2);
   const Pose b(-2, 0.5, 1, 1, 0.2, -3);

@@ -151,7 +151,7 @@ std::uint32_t ConvexPart::farthest(const Vec3& direction, std::uint32_t from) co
 
 ConvexPart make_part(const Hull& hull) {
   ConvexPart part;
-  for (const Vector3& corner : hull.corners) part.corners.push_back({corner.X(), corner.Y(), corner.Z()});
+  for (const Vector3& corner : hull.corners) part.corners.push_back({corner.x(), corner.y(), corner.z()});
   part.low = part.high = part.corners.front();
   for (const Vec3& corner : part.corners) {
     part.low = {std::min(part.low.x, corner.x), std::min(part.low.y, corner.y), std::min(part.low.z, corner.z)};

@@ -9,7 +9,7 @@ class Ball final : public Joint {
  public:
   Ball(dWorldID world, const JointSite& site) : Joint({}), joint_(dJointCreateBall(world, nullptr)) {
     dJointAttach(joint_.get(), site.child, site.parent);
-    dJointSetBallAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    dJointSetBallAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
   }
 
   double position(int) const override { return 0; }

@@ -8,6 +8,7 @@
 #include "physics/contact_defaults.hpp"
 #include "physics/joints/kinds.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
+#include "physics/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -22,15 +23,17 @@ constexpr double kLayshaftPart = 1e-3;
 struct Frame {
   explicit Frame(dBodyID body) {
     if (body == nullptr) return;
-    const dReal* p = dBodyGetPosition(body);
-    const dReal* q = dBodyGetQuaternion(body);
-    const dReal* w = dBodyGetAngularVel(body);
-    pose = Pose({p[0], p[1], p[2]}, Quaternion(q[0], q[1], q[2], q[3]));
-    angular = {w[0], w[1], w[2]};
+    pose = body_pose(body);
+    angular = to_vector(dBodyGetAngularVel(body));
   }
   Pose pose;
   Vector3 angular;  // rad/s
 };
+
+/// The orientation of a body in a frame.
+Quaternion turn_in(const Frame& frame, dBodyID body) {
+  return frame.pose.orientation.conjugate() * Frame(body).pose.orientation;
+}
 
 /// An axis in the frame of the reference body, and the body that turns about it.
 struct Shaft {
@@ -38,7 +41,7 @@ struct Shaft {
   Vector3 point;
   Vector3 direction;
 
-  Vector3 way_of(const Vector3& at) const { return direction.Cross(at - point); }  // per radian
+  Vector3 way_of(const Vector3& at) const { return direction.cross(at - point); }  // per radian
 };
 
 /// The point at which two shafts mesh.
@@ -51,20 +54,20 @@ struct Mesh {
 /// Computes the mesh for a ratio of -ratio. Empty when the axes are collinear.
 std::optional<Mesh> mesh_of(const Shaft& first, const Shaft& second, double ratio) {
   const Vector3 apart = second.point - first.point;
-  const double size = std::max(apart.Length(), kSmallestSize);
+  const double size = std::max(apart.norm(), kSmallestSize);
   std::optional<Mesh> best;
   double widest = kOneLine;
-  for (const Vector3& aside : {Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ}) {
-    const Vector3 point = first.point + apart / 2 + aside * size / 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 point = first.point + apart / 2 + Vector3::Unit(axis) * size / 2;
     const Vector3 way1 = first.way_of(point);
     const Vector3 way2 = second.way_of(point);
-    const double angle = way1.Cross(way2).Length() / std::max(way1.Length() * way2.Length(), 1e-12);
+    const double angle = way1.cross(way2).norm() / std::max(way1.norm() * way2.norm(), 1e-12);
     if (angle <= widest) continue;
     widest = angle;
     // Along the direction, way1 must be as long as way2 for a rotation of -ratio.
     const Vector3 difference = way1 + way2 * ratio;
-    const Vector3 direction = (way1 - difference * (way1.Dot(difference) / difference.SquaredLength())).Normalized();
-    best = Mesh{point, direction, way1.Dot(direction)};
+    const Vector3 direction = (way1 - difference * (way1.dot(difference) / difference.squaredNorm())).normalized();
+    best = Mesh{point, direction, way1.dot(direction)};
   }
   return best;
 }
@@ -75,12 +78,12 @@ class Gearbox final : public Joint {
       : Joint(description.axes), reference_(site.reference), ratio_(description.gearbox_ratio) {
     const Frame frame(reference_);
     const auto shaft = [&](dBodyID body, const Vector3& point, int axis) {
-      return Shaft{body, frame.pose.Rot().RotateVectorReverse(point - frame.pose.Pos()),
-                   frame.pose.Rot().RotateVectorReverse(axis_direction(description, axis, site))};
+      return Shaft{body, frame.pose.orientation.conjugate() * (point - frame.pose.position),
+                   frame.pose.orientation.conjugate() * axis_direction(description, axis, site)};
     };
     shafts_[0] = shaft(site.parent, site.parent_shaft, 0);
     shafts_[1] = shaft(site.child, site.child_shaft, 1);
-    for (int i = 0; i < 2; ++i) at_start_[i] = frame.pose.Rot().Inverse() * Frame(shafts_[i].body).pose.Rot();
+    for (int i = 0; i < 2; ++i) at_start_[i] = turn_in(frame, shafts_[i].body);
     if (const auto direct = mesh_of(shafts_[0], shafts_[1], ratio_)) {
       teeth_.push_back({shafts_[0].body, shafts_[1].body, *direct, ratio_, PointVelocityConstraint(world)});
     } else {
@@ -90,16 +93,14 @@ class Gearbox final : public Joint {
 
   /// Angle of the parent (axis 0) or the child (axis 1) in the reference body, counting full turns.
   double position(int axis) const override {
-    const Quaternion turn =
-        Frame(reference_).pose.Rot().Inverse() * Frame(shafts_[axis].body).pose.Rot() * at_start_[axis].Inverse();
-    const double sine = Vector3(turn.X(), turn.Y(), turn.Z()).Dot(shafts_[axis].direction);
-    const double angle = 2 * std::atan2(sine, turn.W());
+    const Quaternion turn = turn_in(Frame(reference_), shafts_[axis].body) * at_start_[axis].conjugate();
+    const double sine = turn.vec().dot(shafts_[axis].direction);
+    const double angle = 2 * std::atan2(sine, turn.w());
     return followed_[axis] + std::remainder(angle - followed_[axis], 2 * M_PI);
   }
   double velocity(int axis) const override {
     const Frame frame(reference_);
-    return (Frame(shafts_[axis].body).angular - frame.angular)
-        .Dot(frame.pose.Rot().RotateVector(shafts_[axis].direction));
+    return (Frame(shafts_[axis].body).angular - frame.angular).dot(frame.pose.orientation * shafts_[axis].direction);
   }
 
  private:
@@ -114,8 +115,7 @@ class Gearbox final : public Joint {
   /// Collinear shafts have no point at which they could mesh: a small layshaft beside them connects them.
   void add_layshaft(dWorldID world) {
     const Shaft& parent = shafts_[0];
-    const Vector3 least = parent.direction.Abs().X() < 0.6 ? Vector3::UnitX : Vector3::UnitY;
-    const Vector3 aside = parent.direction.Cross(least).Normalized();
+    const Vector3 aside = parent.direction.unitOrthogonal();
     layshaft_.reset(dBodyCreate(world));
     dMass mass;
     dBodyGetMass(shafts_[1].body, &mass);
@@ -129,10 +129,10 @@ class Gearbox final : public Joint {
     bearing_.reset(dJointCreateHinge(world, nullptr));
     dJointAttach(bearing_.get(), layshaft_.get(), reference_);
     const Pose frame = Frame(reference_).pose;
-    const Vector3 anchor = frame.CoordPositionAdd(lay.point);
-    const Vector3 direction = frame.Rot().RotateVector(lay.direction);
-    dJointSetHingeAnchor(bearing_.get(), anchor.X(), anchor.Y(), anchor.Z());
-    dJointSetHingeAxis(bearing_.get(), direction.X(), direction.Y(), direction.Z());
+    const Vector3 anchor = frame * lay.point;
+    const Vector3 direction = frame.orientation * lay.direction;
+    dJointSetHingeAnchor(bearing_.get(), anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(bearing_.get(), direction.x(), direction.y(), direction.z());
     teeth_.push_back({parent.body, lay.body, *mesh_of(parent, lay, 1), 1, PointVelocityConstraint(world)});
     teeth_.push_back(
         {lay.body, shafts_[1].body, *mesh_of(lay, shafts_[1], -ratio_), -ratio_, PointVelocityConstraint(world)});
@@ -142,18 +142,16 @@ class Gearbox final : public Joint {
   /// matters, not its angle.
   void carry_layshaft() {
     const Frame frame(reference_);
-    const Vector3 at = frame.pose.CoordPositionAdd(lay_.point);
-    const Vector3 axis = frame.pose.Rot().RotateVector(lay_.direction);
-    const double spin = (Frame(lay_.body).angular - frame.angular).Dot(axis);
+    const Vector3 at = frame.pose * lay_.point;
+    const Vector3 axis = frame.pose.orientation * lay_.direction;
+    const double spin = (Frame(lay_.body).angular - frame.angular).dot(axis);
     const Vector3 angular = frame.angular + axis * spin;
-    const Quaternion& q = frame.pose.Rot();
-    const dQuaternion rotation = {q.W(), q.X(), q.Y(), q.Z()};
     dVector3 velocity = {};
-    if (reference_ != nullptr) dBodyGetPointVel(reference_, at.X(), at.Y(), at.Z(), velocity);
-    dBodySetPosition(lay_.body, at.X(), at.Y(), at.Z());
-    dBodySetQuaternion(lay_.body, rotation);
+    if (reference_ != nullptr) dBodyGetPointVel(reference_, at.x(), at.y(), at.z(), velocity);
+    dBodySetPosition(lay_.body, at.x(), at.y(), at.z());
+    dBodySetQuaternion(lay_.body, to_ode(frame.pose.orientation).data());
     dBodySetLinearVel(lay_.body, velocity[0], velocity[1], velocity[2]);
-    dBodySetAngularVel(lay_.body, angular.X(), angular.Y(), angular.Z());
+    dBodySetAngularVel(lay_.body, angular.x(), angular.y(), angular.z());
   }
 
   void follow(double step) override {
@@ -164,8 +162,8 @@ class Gearbox final : public Joint {
     for (Pair& pair : teeth_) {
       // Only the last pair corrects the error of the child's angle.
       const double gain = &pair == &teeth_.back() ? kErrorReduction / step : 0;
-      pair.tooth.hold(pair.first, pair.second, frame.pose.CoordPositionAdd(pair.mesh.point),
-                      frame.pose.Rot().RotateVector(pair.mesh.direction), -gain * error * pair.mesh.arm / pair.ratio);
+      pair.tooth.hold(pair.first, pair.second, frame.pose * pair.mesh.point,
+                      frame.pose.orientation * pair.mesh.direction, -gain * error * pair.mesh.arm / pair.ratio);
     }
   }
 

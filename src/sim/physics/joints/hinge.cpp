@@ -16,8 +16,8 @@ class Hinge final : public Joint {
     // Child first: ODE measures the angle of the first body relative to the second.
     dJointAttach(joint_.get(), site.child, site.parent);
     const Vector3 direction = axis_direction(description, 0, site);
-    dJointSetHingeAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
-    dJointSetHingeAxis(joint_.get(), direction.X(), direction.Y(), direction.Z());
+    dJointSetHingeAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
+    dJointSetHingeAxis(joint_.get(), direction.x(), direction.y(), direction.z());
     const AxisDescription& axis = description.axes[0];
     counts_turns_ = beyond_half_a_turn(axis.lower) || beyond_half_a_turn(axis.upper) || axis.spring_stiffness > 0;
     add_rows(world, Motor(joint_.get(), dJointSetHingeParam, 0), Motion::kTurns, {direction, site.child, site.parent});

@@ -12,11 +12,11 @@ class Hinge2 final : public Joint {
     // Hinge2 needs two bodies, the one with the first axis (the parent) first. It measures the rotation of the first
     // body relative to the second; about the negative axes this equals that of the child about the positive axes.
     dJointAttach(joint_.get(), site.parent, site.child);
-    dJointSetHinge2Anchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    dJointSetHinge2Anchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
     const Vector3 steering = -axis_direction(description, 0, site);
     const Vector3 rolling = -axis_direction(description, 1, site);
-    const dVector3 axis1 = {steering.X(), steering.Y(), steering.Z()};
-    const dVector3 axis2 = {rolling.X(), rolling.Y(), rolling.Z()};
+    const dVector3 axis1 = {steering.x(), steering.y(), steering.z()};
+    const dVector3 axis2 = {rolling.x(), rolling.y(), rolling.z()};
     dJointSetHinge2Axes(joint_.get(), axis1, axis2);
     add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 0), Motion::kTurns,
              {steering, site.parent, site.child, 1});

@@ -235,7 +235,7 @@ void Joint::restore_stop(Axis& axis) {
 }
 
 Vector3 axis_direction(const JointDescription& description, int axis, const JointSite& site) {
-  return site.pose.Rot().RotateVector(description.axes[static_cast<std::size_t>(axis)].direction);
+  return site.pose.orientation * description.axes[static_cast<std::size_t>(axis)].direction;
 }
 
 }  // namespace bubblesim

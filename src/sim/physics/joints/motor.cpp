@@ -20,7 +20,7 @@ Motor Motor::sliding(dWorldID world, const AxisLine& line) {
 
 Motor Motor::between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set) {
   dJointAttach(joint.get(), line.first, line.second);
-  set_axis(joint.get(), 0, line.carrier, line.direction.X(), line.direction.Y(), line.direction.Z());
+  set_axis(joint.get(), 0, line.carrier, line.direction.x(), line.direction.y(), line.direction.z());
   Motor motor(joint.get(), set, 0);
   motor.own_ = std::move(joint);
   return motor;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/joints/motor_meter.hpp"
 
+#include "physics/ode_math.hpp"
+
 namespace bubblesim {
 namespace {
-
-Vector3 as_vector(const dReal* values) { return {values[0], values[1], values[2]}; }
 
 Vector3 in_body(dBodyID body, const Vector3& v) {
   if (body == nullptr) return v;
   dVector3 result;
-  dBodyVectorFromWorld(body, v.X(), v.Y(), v.Z(), result);
-  return as_vector(result);
+  dBodyVectorFromWorld(body, v.x(), v.y(), v.z(), result);
+  return to_vector(result);
 }
 
 Vector3 in_world(dBodyID body, const Vector3& v) {
   if (body == nullptr) return v;
   dVector3 result;
-  dBodyVectorToWorld(body, v.X(), v.Y(), v.Z(), result);
-  return as_vector(result);
+  dBodyVectorToWorld(body, v.x(), v.y(), v.z(), result);
+  return to_vector(result);
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ Vector3 in_world(dBodyID body, const Vector3& v) {
 MotorMeter::MotorMeter(const MeteredAxis& axis)
     : axis_(axis),
       direction_in_carrier_(in_body(axis.carrier, axis.direction)),
-      lever_in_child_(in_body(axis.child, as_vector(dBodyGetPosition(axis.child)) - axis.origin)) {
+      lever_in_child_(in_body(axis.child, to_vector(dBodyGetPosition(axis.child)) - axis.origin)) {
   // A joint with one body reports its force first, whichever place the body has.
   dBodyID first = dJointGetBody(axis.joint, 0);
   child_first_ = first == axis.child || first == nullptr || dJointGetBody(axis.joint, 1) == nullptr;
@@ -40,12 +40,12 @@ void MotorMeter::aim() {
 
 void MotorMeter::gather(double step) {
   const dJointFeedback& feedback = *dJointGetFeedback(axis_.joint);
-  const Vector3 force = as_vector(child_first_ ? feedback.f1 : feedback.f2);
+  const Vector3 force = to_vector(child_first_ ? feedback.f1 : feedback.f2);
   if (axis_.slides) {
-    impulse_ += force.Dot(direction_) * step;
+    impulse_ += force.dot(direction_) * step;
   } else {
-    const Vector3 torque = as_vector(child_first_ ? feedback.t1 : feedback.t2);
-    impulse_ += (torque + lever_.Cross(force)).Dot(direction_) * step;
+    const Vector3 torque = to_vector(child_first_ ? feedback.t1 : feedback.t2);
+    impulse_ += (torque + lever_.cross(force)).dot(direction_) * step;
   }
 }
 

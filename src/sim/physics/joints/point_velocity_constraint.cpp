@@ -9,7 +9,7 @@ void PointVelocityConstraint::hold(dBodyID first, dBodyID second, const Vector3&
                                    double velocity) {
   // The direction is held by the unlimited friction of a contact. The contact's normal, at right angles to it, is
   // inactive: its target velocity is beyond the speed limit.
-  const dVector3 along = {direction.X(), direction.Y(), direction.Z()};
+  const dVector3 along = {direction.x(), direction.y(), direction.z()};
   dVector3 normal;
   dVector3 unused;
   dPlaneSpace(along, normal, unused);

@@ -20,8 +20,8 @@ class Screw final : public Joint {
         slope_(description.screw_lead / (2 * M_PI)) {
     dJointAttach(joint_.get(), site.child, site.parent);
     const Vector3 direction = axis_direction(description, 0, site);
-    dJointSetPistonAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
-    dJointSetPistonAxis(joint_.get(), direction.X(), direction.Y(), direction.Z());
+    dJointSetPistonAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
+    dJointSetPistonAxis(joint_.get(), direction.x(), direction.y(), direction.z());
     add_rows(world, Motor(joint_.get(), dJointSetPistonParam, 1), Motion::kTurns, {direction, site.child, site.parent});
   }
 
@@ -50,7 +50,7 @@ class Screw final : public Joint {
     // Perpendicular to the thread, which climbs `slope` per radian at this radius.
     const Vector3 along = Vector3(axis[0], axis[1], axis[2]) * radius - Vector3(round[0], round[1], round[2]) * slope_;
     const Vector3 point = Vector3(anchor[0], anchor[1], anchor[2]) + Vector3(out[0], out[1], out[2]) * radius;
-    thread_.hold(child_, parent_, point, along.Normalized(), -kErrorReduction * error / step * radius / along.Length());
+    thread_.hold(child_, parent_, point, along.normalized(), -kErrorReduction * error / step * radius / along.norm());
   }
 
   ode::JointHandle joint_;

@@ -11,7 +11,7 @@ class Slider final : public Joint {
       : Joint(description.axes), joint_(dJointCreateSlider(world, nullptr)) {
     dJointAttach(joint_.get(), site.child, site.parent);
     const Vector3 direction = axis_direction(description, 0, site);
-    dJointSetSliderAxis(joint_.get(), direction.X(), direction.Y(), direction.Z());
+    dJointSetSliderAxis(joint_.get(), direction.x(), direction.y(), direction.z());
     add_rows(world, Motor(joint_.get(), dJointSetSliderParam, 0), Motion::kSlides,
              {direction, site.child, site.parent});
   }

@@ -11,11 +11,11 @@ class Universal final : public Joint {
       : Joint(description.axes), joint_(dJointCreateUniversal(world, nullptr)) {
     // Child first, so that the parent may be the world: ODE's first axis is then our second.
     dJointAttach(joint_.get(), site.child, site.parent);
-    dJointSetUniversalAnchor(joint_.get(), site.pose.Pos().X(), site.pose.Pos().Y(), site.pose.Pos().Z());
+    dJointSetUniversalAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
     const Vector3 of_parent = axis_direction(description, 0, site);
     const Vector3 of_child = axis_direction(description, 1, site);
-    dJointSetUniversalAxis1(joint_.get(), of_child.X(), of_child.Y(), of_child.Z());
-    dJointSetUniversalAxis2(joint_.get(), of_parent.X(), of_parent.Y(), of_parent.Z());
+    dJointSetUniversalAxis1(joint_.get(), of_child.x(), of_child.y(), of_child.z());
+    dJointSetUniversalAxis2(joint_.get(), of_parent.x(), of_parent.y(), of_parent.z());
     add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, 1), Motion::kTurns,
              {of_parent, site.child, site.parent, 2});
     add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, 0), Motion::kTurns,
