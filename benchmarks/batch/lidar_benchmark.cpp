@@ -126,7 +126,7 @@ float difference(const float* ours, const std::vector<float>& raw) {
 }  // namespace
 
 int main() {
-  const std::vector<RawLidar::PlacedBox> boxes = benchmarks::boxes_around(kLidar.Pos(), kClear, kBoxes);
+  const std::vector<RawLidar::PlacedBox> boxes = benchmarks::boxes_around(kLidar.position, kClear, kBoxes);
   BatchOptions options;
   options.worlds = kWorlds;
   options.threads = kThreads;

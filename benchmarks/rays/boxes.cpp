@@ -13,8 +13,8 @@ std::vector<RawLidar::PlacedBox> boxes_around(const Vector3& centre, double clea
   std::vector<RawLidar::PlacedBox> boxes;
   while (boxes.size() < count) {
     const Vector3 from_centre(place(random), place(random), 0.5);
-    const Pose pose(centre + from_centre, Quaternion(0, 0, place(random)));
-    if (std::hypot(from_centre.X(), from_centre.Y()) < clear) continue;
+    const Pose pose(centre + from_centre, from_rpy(0, 0, place(random)));
+    if (std::hypot(from_centre.x(), from_centre.y()) < clear) continue;
     boxes.push_back({Box{{size(random), size(random), 1}}, pose});
   }
   return boxes;

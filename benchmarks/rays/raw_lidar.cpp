@@ -29,7 +29,7 @@ RTCGeometry box(RTCDevice device, const RawLidar::PlacedBox& placed) {
   std::vector<Vector3> corners;
   for (int corner = 0; corner < 8; ++corner) {
     const auto side = [corner](int axis) { return (corner >> axis & 1) != 0 ? 0.5 : -0.5; };
-    corners.push_back(placed.pose.CoordPositionAdd(placed.box.size * Vector3(side(0), side(1), side(2))));
+    corners.push_back(placed.pose * placed.box.size.cwiseProduct(Vector3(side(0), side(1), side(2))));
   }
   return quads(device, corners, {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6});
 }
@@ -88,12 +88,12 @@ RawLidar::~RawLidar() {
 
 const std::vector<float>& RawLidar::scan(const Pose& sensor, const std::vector<Pose>& moving) {
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    const ignition::math::Matrix3d turn(moving[i].Rot());
+    const Matrix3 turn = moving[i].orientation.toRotationMatrix();
     std::array<float, 12> matrix;
     for (std::size_t column = 0; column < 3; ++column) {
       for (std::size_t row = 0; row < 3; ++row) matrix[3 * column + row] = static_cast<float>(turn(row, column));
     }
-    for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(moving[i].Pos()[row]);
+    for (std::size_t row = 0; row < 3; ++row) matrix[9 + row] = static_cast<float>(moving[i].position[row]);
     rtcSetGeometryTransform(instances_[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
     rtcCommitGeometry(instances_[i]);
   }
@@ -102,12 +102,12 @@ const std::vector<float>& RawLidar::scan(const Pose& sensor, const std::vector<P
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  const ignition::math::Matrix3d turn(sensor.Rot());
+  const Matrix3 turn = sensor.orientation.toRotationMatrix();
   float r[9];
   for (std::size_t i = 0; i < 9; ++i) r[i] = static_cast<float>(turn(i / 3, i % 3));
-  const auto x = static_cast<float>(sensor.Pos().X());
-  const auto y = static_cast<float>(sensor.Pos().Y());
-  const auto z = static_cast<float>(sensor.Pos().Z());
+  const auto x = static_cast<float>(sensor.position.x());
+  const auto y = static_cast<float>(sensor.position.y());
+  const auto z = static_cast<float>(sensor.position.z());
   alignas(64) int valid[kPacket];
   RTCRayHit16 packet;
   for (std::size_t first = 0; first < count_; first += kPacket) {

@@ -76,9 +76,9 @@ bool run(const Case& scans, bool housing, int rounds) {
   lidar.max_range = 30;
 
   SceneDescription scene;
-  scene.gravity = Vector3::Zero;
+  scene.gravity = Vector3::Zero();
   scene.models.push_back(model_of("Ground", Plane{}, {}, true));
-  const std::vector<RawLidar::PlacedBox> still = benchmarks::boxes_around(Vector3::Zero, 3, kStill);
+  const std::vector<RawLidar::PlacedBox> still = benchmarks::boxes_around(Vector3::Zero(), 3, kStill);
   for (std::size_t i = 0; i < still.size(); ++i) {
     scene.models.push_back(model_of("Box" + std::to_string(i), still[i].box, still[i].pose, true));
   }

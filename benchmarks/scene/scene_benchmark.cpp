@@ -70,8 +70,8 @@ Geometry box_mesh(float half) {
   }
   mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  mesh->low = Vector3::One * -half;
-  mesh->high = Vector3::One * half;
+  mesh->low = Vector3::Constant(-half);
+  mesh->high = Vector3::Constant(half);
   return Mesh{std::move(mesh)};
 }
 
@@ -93,7 +93,7 @@ ModelDescription model_of(const std::string& name, Geometry geometry, const Pose
 /// A tower of boxes on the ground, kept awake by its plugin.
 SceneDescription tower(const Geometry& box, int boxes) {
   SceneDescription scene;
-  scene.models.push_back(model_of("Floor", Plane{}, Pose::Zero, true));
+  scene.models.push_back(model_of("Floor", Plane{}, Pose(), true));
   for (int i = 0; i < boxes; ++i) {
     scene.models.push_back(
         model_of("Box" + std::to_string(i), box, Pose(0.01 * (i % 3), 0, 0.11 + 0.205 * i, 0, 0, 0), false));

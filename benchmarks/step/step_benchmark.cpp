@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
     raw.step();
     plain.step();
   }
-  const auto position = plain.world().pose(plain.world().tree().find("/base_link")).CoordPositionAdd({0.4, 0, 0.4});
-  const double apart = std::hypot(position.X() - raw.x(), position.Y() - raw.y());
+  const auto position = plain.world().pose(plain.world().tree().find("/base_link")) * Vector3(0.4, 0, 0.4);
+  const double apart = std::hypot(position.x() - raw.x(), position.y() - raw.y());
   std::printf("after 5 s the tricycles are %.2g m apart\n", apart);
 
   std::vector<Candidate> candidates = {{"ODE alone", [&] { raw.step(); }, {}},

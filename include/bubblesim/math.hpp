@@ -67,6 +67,12 @@ inline Pose operator*(const Pose& frame, const Pose& inner) {
 /// A point of the inner frame in the outer one.
 inline Vector3 operator*(const Pose& frame, const Vector3& point) { return frame.position + frame.orientation * point; }
 
+/// To the last bit.
+inline bool operator==(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+inline bool operator!=(const Pose& a, const Pose& b) { return !(a == b); }
+
 struct Twist {
   Vector3 linear;   ///< m/s, world axes
   Vector3 angular;  ///< rad/s, world axes

@@ -49,10 +49,10 @@ ObjectId add_copy(Simulation& simulation, const ModelCopy& copy, const std::stri
 void bind_editing(py::module_& module) {
   py::class_<ModelCopy>(module, "ModelCopy", "The description of a model, which outlives the model.")
       .def_property_readonly("name", [](const ModelCopy& copy) { return copy.description.name; })
-      .def_property_readonly("position", [](const ModelCopy& copy) { return to_list(copy.description.pose.Pos()); })
+      .def_property_readonly("position", [](const ModelCopy& copy) { return to_list(copy.description.pose.position); })
       .def_property_readonly("orientation", [](const ModelCopy& copy) {
-        const Quaternion& turn = copy.description.pose.Rot();
-        return std::array<double, 4>{turn.X(), turn.Y(), turn.Z(), turn.W()};
+        const Quaternion& turn = copy.description.pose.orientation;
+        return std::array<double, 4>{turn.x(), turn.y(), turn.z(), turn.w()};
       });
   module.def("copy_model", &copy_model, py::arg("simulation"), py::arg("model"),
              "Return the description of a model of the top level, with its present pose.");

@@ -20,14 +20,14 @@ struct ObjectFrames {
   /// The frame for poses relative to an object.
   Pose reference(ObjectId object) const { return seen(frame_of(world, object), object); }
   void set_pose(ObjectId object, const Pose& pose) {
-    world.set_pose(object, {pose.Pos(), pose.Rot() * object_axes(world, object).Inverse()});
+    world.set_pose(object, {pose.position, pose.orientation * object_axes(world, object).inverse()});
   }
 
  private:
   Pose seen(const Pose& pose, ObjectId object) const {
     const ObjectKind kind = world.tree().at(object).kind;
     if (kind == ObjectKind::kModel || kind == ObjectKind::kLink) return pose;
-    return {pose.Pos(), pose.Rot() * object_axes(world, object)};
+    return {pose.position, pose.orientation * object_axes(world, object)};
   }
 };
 
@@ -45,7 +45,7 @@ void bind_object_frames(py::module_& module) {
       .def(
           "pose_in",
           [](const ObjectFrames& f, ObjectId id, ObjectId frame) {
-            return to_list(f.reference(frame).Inverse() * f.pose(id));
+            return to_list(f.reference(frame).inverse() * f.pose(id));
           },
           "Return the pose in the frame of another object; relative to a joint, in its moving frame.")
       .def("set_pose", [](ObjectFrames& f, ObjectId id, const Pose7& pose) { f.set_pose(id, to_pose(pose)); })
@@ -60,7 +60,7 @@ void bind_object_frames(py::module_& module) {
       .def(
           "pose_to",
           [](const ObjectFrames& f, const Pose7& pose, ObjectId frame) {
-            return to_list(f.reference(frame).Inverse() * to_pose(pose));
+            return to_list(f.reference(frame).inverse() * to_pose(pose));
           },
           "Return a world pose in the frame of an object; see `pose_in`.");
 }

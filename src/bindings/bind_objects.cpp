@@ -22,11 +22,11 @@ std::optional<ObjectView> parent(const ObjectView& view) {
 }
 
 void set_position(const ObjectView& view, const NumpyArray& position) {
-  view.world().set_pose(view.id(), {to_vector(position, "position"), view.world().pose(view.id()).Rot()});
+  view.world().set_pose(view.id(), {to_vector(position, "position"), view.world().pose(view.id()).orientation});
 }
 
 void set_orientation(const ObjectView& view, const NumpyArray& orientation) {
-  view.world().set_pose(view.id(), {view.world().pose(view.id()).Pos(), to_quaternion(orientation, "orientation")});
+  view.world().set_pose(view.id(), {view.world().pose(view.id()).position, to_quaternion(orientation, "orientation")});
 }
 
 void set_linear_velocity(const ObjectView& view, const NumpyArray& velocity) {
@@ -62,10 +62,10 @@ void bind_objects(py::module_& module) {
       .def_property_readonly("path", [](const View& v) { return v.tree().path(v.id()); })
       .def_property_readonly("parent", &parent, "The parent object, None at the top.")
       .def_property(
-          "position", [](const View& v) { return to_numpy(v.world().pose(v.id()).Pos()); }, &set_position,
+          "position", [](const View& v) { return to_numpy(v.world().pose(v.id()).position); }, &set_position,
           "Metres, array of 3.")
       .def_property(
-          "orientation", [](const View& v) { return to_numpy(v.world().pose(v.id()).Rot()); }, &set_orientation,
+          "orientation", [](const View& v) { return to_numpy(v.world().pose(v.id()).orientation); }, &set_orientation,
           "Quaternion x, y, z, w, array of 4.")
       .def_property(
           "linear_velocity", [](const View& v) { return to_numpy(v.world().velocity(v.id()).linear); },

@@ -27,8 +27,8 @@ namespace py = pybind11;
 
 py::list pose_list(const Pose& pose) {
   py::list list;
-  for (const double number : {pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(), pose.Rot().X(), pose.Rot().Y(),
-                              pose.Rot().Z(), pose.Rot().W()}) {
+  for (const double number : {pose.position.x(), pose.position.y(), pose.position.z(), pose.orientation.x(),
+                              pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}) {
     list.append(number);
   }
   return list;

@@ -41,8 +41,8 @@ struct ToPython {
 /// In the sensor's axes as scripts see them.
 py::tuple proximity_tuple(const Simulation& simulation, ObjectId sensor, const ProximityReading& r) {
   const Quaternion axes = object_axes(simulation.world(), sensor);
-  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(axes.RotateVectorReverse(r.point)), r.object,
-                        to_list(axes.RotateVectorReverse(r.normal)));
+  return py::make_tuple(r.detected ? 1 : 0, r.distance, to_list(axes.conjugate() * r.point), r.object,
+                        to_list(axes.conjugate() * r.normal));
 }
 
 py::tuple camera_optics(Simulation& simulation, ObjectId sensor) {

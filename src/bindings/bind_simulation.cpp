@@ -43,19 +43,19 @@ struct ShapeText {
 };
 
 struct ShapeDescriber {
-  ShapeText operator()(const Box& box) const { return {"box", {box.size.X(), box.size.Y(), box.size.Z()}}; }
+  ShapeText operator()(const Box& box) const { return {"box", {box.size.x(), box.size.y(), box.size.z()}}; }
   ShapeText operator()(const Sphere& sphere) const { return {"sphere", {sphere.radius}}; }
   ShapeText operator()(const Cylinder& cylinder) const { return {"cylinder", {cylinder.radius, cylinder.length}}; }
   ShapeText operator()(const Capsule& capsule) const { return {"capsule", {capsule.radius, capsule.length}}; }
   ShapeText operator()(const Ellipsoid& ellipsoid) const {
-    return {"ellipsoid", {ellipsoid.radii.X(), ellipsoid.radii.Y(), ellipsoid.radii.Z()}};
+    return {"ellipsoid", {ellipsoid.radii.x(), ellipsoid.radii.y(), ellipsoid.radii.z()}};
   }
   ShapeText operator()(const Mesh& mesh) const {
     const Vector3 size = mesh.triangles->high - mesh.triangles->low;
-    return {"mesh", {size.X(), size.Y(), size.Z()}};
+    return {"mesh", {size.x(), size.y(), size.z()}};
   }
   ShapeText operator()(const Plane& plane) const {
-    return {"plane", {plane.normal.X(), plane.normal.Y(), plane.normal.Z()}};
+    return {"plane", {plane.normal.x(), plane.normal.y(), plane.normal.z()}};
   }
 };
 
@@ -219,9 +219,9 @@ void bind_simulation(py::module_& module) {
                              "Vertices of a mesh in the shape's frame, n x 3; empty for other kinds.")
       .def_readonly("size", &CollisionShape::size,
                     "Metres. box: x, y, z; sphere: radius; cylinder: radius, length; plane: its normal.")
-      .def_property_readonly("position", [](const CollisionShape& s) { return to_numpy(s.pose.Pos()); })
+      .def_property_readonly("position", [](const CollisionShape& s) { return to_numpy(s.pose.position); })
       .def_property_readonly(
-          "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.Rot()); }, "Quaternion x, y, z, w.")
+          "orientation", [](const CollisionShape& s) { return to_numpy(s.pose.orientation); }, "Quaternion x, y, z, w.")
       .def_readonly("is_static", &CollisionShape::is_static);
 
   py::class_<Simulation> simulation(module, "Simulation", R"(A running scene.

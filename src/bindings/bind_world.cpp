@@ -21,7 +21,7 @@ namespace py = pybind11;
 Vector3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 Pose7 pose_in(const World& world, ObjectId object, const Pose& frame) {
-  return to_list(frame.Inverse() * world.pose(object));
+  return to_list(frame.inverse() * world.pose(object));
 }
 
 std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
@@ -68,7 +68,7 @@ void bind_world(py::module_& module) {
             py::list points;
             for (const TouchPoint& point : w.contact_points()) {
               const Vector3& at = point.position;
-              points.append(py::make_tuple(at.X(), at.Y(), at.Z(), point.normal_force));
+              points.append(py::make_tuple(at.x(), at.y(), at.z(), point.normal_force));
             }
             return points;
           },
@@ -128,7 +128,7 @@ void bind_world(py::module_& module) {
       .def(
           "pose_to",
           [](const World& w, const Pose7& pose, ObjectId frame) {
-            return to_list(frame_of(w, frame).Inverse() * to_pose(pose));
+            return to_list(frame_of(w, frame).inverse() * to_pose(pose));
           },
           "Return a world pose in the frame of an object; see `pose_in`.")
       .def(

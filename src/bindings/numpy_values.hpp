@@ -15,16 +15,16 @@ namespace bubblesim::bindings {
 using NumpyArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 inline NumpyArray to_numpy(const Vector3& v) {
-  const std::array<double, 3> values = {v.X(), v.Y(), v.Z()};
+  const std::array<double, 3> values = {v.x(), v.y(), v.z()};
   return NumpyArray(values.size(), values.data());
 }
 
 inline NumpyArray to_numpy(const Quaternion& q) {
-  const std::array<double, 4> values = {q.X(), q.Y(), q.Z(), q.W()};
+  const std::array<double, 4> values = {q.x(), q.y(), q.z(), q.w()};
   return NumpyArray(values.size(), values.data());
 }
 
-inline std::array<double, 3> to_list(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
+inline std::array<double, 3> to_list(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Checks that `values` is a flat array of `size` numbers; `what` names it in the error.
 inline const double* checked(const NumpyArray& values, pybind11::ssize_t size, const char* what) {

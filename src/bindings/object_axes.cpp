@@ -13,10 +13,8 @@ Quaternion joint_axes(const World& world, ObjectId joint) {
   const JointDescription& description = world.joint_description(joint);
   // The second axis of a joint is an object below the joint.
   const bool is_second = world.tree().at(world.tree().at(joint).parent).kind == ObjectKind::kJoint;
-  if (description.axes.empty()) return Quaternion::Identity;
-  Quaternion turn;
-  turn.From2Axes(Vector3::UnitZ, (is_second ? description.axes.back() : description.axes.front()).direction);
-  return turn;
+  if (description.axes.empty()) return Quaternion();
+  return turn_from_z((is_second ? description.axes.back() : description.axes.front()).direction);
 }
 
 bool looks_along_an_axis(const SensorDescription& sensor) {
@@ -28,10 +26,10 @@ bool looks_along_an_axis(const SensorDescription& sensor) {
 
 Quaternion object_axes(const World& world, ObjectId object) {
   const ObjectKind kind = world.tree().at(object).kind;
-  if (kind != ObjectKind::kJoint && kind != ObjectKind::kSensor) return Quaternion::Identity;
-  if (world.description(object).axes != AxisConvention::kCoppeliaSim) return Quaternion::Identity;
+  if (kind != ObjectKind::kJoint && kind != ObjectKind::kSensor) return Quaternion();
+  if (world.description(object).axes != AxisConvention::kCoppeliaSim) return Quaternion();
   if (kind == ObjectKind::kJoint) return joint_axes(world, object);
-  return looks_along_an_axis(world.sensor_description(object)) ? kLookingAlongZ : Quaternion::Identity;
+  return looks_along_an_axis(world.sensor_description(object)) ? kLookingAlongZ : Quaternion();
 }
 
 }  // namespace bubblesim::bindings

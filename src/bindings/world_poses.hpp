@@ -11,8 +11,8 @@ namespace bubblesim::bindings {
 using Pose7 = std::array<double, 7>;  // x, y, z, then qx, qy, qz, qw
 
 inline Pose7 to_list(const Pose& pose) {
-  return {pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(), pose.Rot().X(),
-          pose.Rot().Y(), pose.Rot().Z(), pose.Rot().W()};
+  return {pose.position.x(),    pose.position.y(),    pose.position.z(),   pose.orientation.x(),
+          pose.orientation.y(), pose.orientation.z(), pose.orientation.w()};
 }
 
 inline Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quaternion(p[6], p[3], p[4], p[5])}; }

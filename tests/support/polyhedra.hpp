@@ -49,13 +49,13 @@ inline std::shared_ptr<const TriangleMesh> hull_mesh(const std::vector<Vector3>&
   TriangleMesh cloud;
   for (const Vector3& corner : corners) {
     cloud.vertices.push_back(
-        {static_cast<float>(corner.X()), static_cast<float>(corner.Y()), static_cast<float>(corner.Z())});
+        {static_cast<float>(corner.x()), static_cast<float>(corner.y()), static_cast<float>(corner.z())});
   }
   const Hull hull = convex_hull(cloud);
   TriangleMesh mesh;
   for (const Vector3& corner : hull.corners) {
     mesh.vertices.push_back(
-        {static_cast<float>(corner.X()), static_cast<float>(corner.Y()), static_cast<float>(corner.Z())});
+        {static_cast<float>(corner.x()), static_cast<float>(corner.y()), static_cast<float>(corner.z())});
   }
   mesh.triangles = hull.triangles;
   return finish_mesh(std::move(mesh));

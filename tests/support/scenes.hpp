@@ -15,13 +15,11 @@ namespace bubblesim::test {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-inline Quaternion turn(double roll, double pitch, double yaw) { return {roll, pitch, yaw}; }
-
 /// One link without a shape: 1 kg, inertia 1 kg m^2 about each axis.
 inline LinkDescription link(const std::string& name, const Vector3& position = {}) {
   LinkDescription link;
   link.name = name;
-  link.pose = Pose(position, Quaternion::Identity);
+  link.pose = Pose(position, Quaternion());
   return link;
 }
 
@@ -72,7 +70,7 @@ inline JointDescription joint(const std::string& type, std::vector<AxisDescripti
   joint.type = type;
   joint.parent = parent;
   joint.child = child;
-  joint.pose = Pose(anchor, Quaternion::Identity);
+  joint.pose = Pose(anchor, Quaternion());
   joint.axes = std::move(axes);
   return joint;
 }
@@ -95,7 +93,7 @@ SceneDescription with_sensor(const std::string& name, const Kind& kind, std::vec
   sensor.kind = kind;
   eye.links[0].sensors.push_back(sensor);
   others.push_back(eye);
-  return scene(std::move(others), Vector3::Zero);
+  return scene(std::move(others), Vector3::Zero());
 }
 
 /// Two links, `base` and `arm`, and `joint` between them, without gravity and without shapes.
@@ -103,14 +101,13 @@ inline SceneDescription jointed(JointDescription joint) {
   ModelDescription robot = model("Robot", link("base"));
   robot.links.push_back(link("arm"));
   robot.joints.push_back(std::move(joint));
-  return scene({robot}, Vector3::Zero);
+  return scene({robot}, Vector3::Zero());
 }
 
 /// The rotation of `b` relative to `a`: the angle about `axis`, in -pi..pi.
 inline double turn_about(const Vector3& axis, const Pose& a, const Pose& b) {
-  const Quaternion relative = a.Rot().Inverse() * b.Rot();
-  const double sine = Vector3(relative.X(), relative.Y(), relative.Z()).Dot(axis);
-  return 2 * std::atan2(sine, relative.W());
+  const Quaternion relative = a.orientation.conjugate() * b.orientation;
+  return 2 * std::atan2(relative.vec().dot(axis), relative.w());
 }
 
 }  // namespace bubblesim::test

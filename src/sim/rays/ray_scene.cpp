@@ -27,10 +27,6 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
 
 /// Whether two poses are equal to the bit. The == of poses allows a difference, with which rays would depend on where a
 /// link was before.
-bool is_same(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
-}
-
 /// Rejects hits from inside and on the ignored model.
 void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
@@ -122,7 +118,7 @@ void RayScene::refresh(const World& world) {
   for (const auto& link : links_) {
     if (link == nullptr) continue;
     const Pose pose = world.pose(link->link->id);
-    if (link->placed && is_same(pose, link->pose)) continue;
+    if (link->placed && pose == link->pose) continue;
     link->pose = pose;
     link->frame = {pose.orientation.toRotationMatrix(), pose.position};
     link->placed = true;

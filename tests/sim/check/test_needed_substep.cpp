@@ -20,7 +20,7 @@ ModelDescription chain(double load, MotorMode motor = MotorMode::kNone) {
     rod.mass = i == 3 ? load : 1;
     rod.inertia_diagonal = {1.0 / 12, 1.0 / 12, 1e-3};
     made.links.push_back(rod);
-    made.joints.push_back(joint("revolute", {axis(Vector3::UnitY, motor)}, Vector3(0, 0, -i),
+    made.joints.push_back(joint("revolute", {axis(Vector3::UnitY(), motor)}, Vector3(0, 0, -i),
                                 i == 0 ? "world" : "rod" + std::to_string(i - 1), rod.name));
   }
   return made;

@@ -15,7 +15,7 @@ namespace {
 
 /// A valid scene with one object of each kind.
 SceneDescription fine() {
-  SceneDescription all = jointed(joint("revolute", {axis(Vector3::UnitZ)}));
+  SceneDescription all = jointed(joint("revolute", {axis(Vector3::UnitZ())}));
   ModelDescription& robot = all.models[0];
   for (const Geometry& geometry : {Geometry(Box{{1, 1, 1}}), Geometry(Sphere{1}), Geometry(Cylinder{1, 1})}) {
     robot.links[0].collisions.push_back(shape(geometry));
@@ -25,7 +25,7 @@ SceneDescription fine() {
   sonar.kind = SonarDescription{0.1, 2, 0.2};
   robot.links[0].sensors.push_back(sonar);
   robot.links.push_back(link("wheel"));
-  robot.joints.push_back(joint("revolute2", {axis(Vector3::UnitZ), axis(Vector3::UnitY)}, {}, "base", "wheel"));
+  robot.joints.push_back(joint("revolute2", {axis(Vector3::UnitZ()), axis(Vector3::UnitY())}, {}, "base", "wheel"));
   robot.joints[1].name = "steering";
   robot.source = {"robot.sdf", 7};
   all.models.push_back(floor());
@@ -53,8 +53,8 @@ std::vector<Field> fields() {
       {"", "gravity", [](auto& s) -> double& { return s.gravity[2]; }, {kNever}},
       {"", "time step", [](auto& s) -> double& { return s.time_step; }, {0, -1, 0.012, kNever, 1e300, 1e-300}},
       {"", "physics substep", [](auto& s) -> double& { return s.substep; }, {0, -1, kNever, 1e300, 1e-300}},
-      {"/Robot", "position", [](auto& s) -> double& { return s.models[0].pose.Pos()[1]; }, {kNever, -1e300}},
-      {"/Robot/base", "position", [](auto& s) -> double& { return base(s).pose.Pos()[0]; }, {kNever, 1e300}},
+      {"/Robot", "position", [](auto& s) -> double& { return s.models[0].pose.position[1]; }, {kNever, -1e300}},
+      {"/Robot/base", "position", [](auto& s) -> double& { return base(s).pose.position[0]; }, {kNever, 1e300}},
       {"/Robot/base", "mass", [](auto& s) -> double& { return base(s).mass; }, {0, -1, kNever, 1e300}},
       {"/Robot/base", "centre of mass", [](auto& s) -> double& { return base(s).centre_of_mass[0]; }, {kNever, 1e300}},
       {"/Robot/base",
@@ -68,7 +68,7 @@ std::vector<Field> fields() {
       {"/Robot/base", "inertia", [](auto& s) -> double& { return base(s).inertia_products[2]; }, {1.5, -kNever}},
       {"/Robot/base/shape",
        "position",
-       [](auto& s) -> double& { return base(s).collisions[0].pose.Pos()[2]; },
+       [](auto& s) -> double& { return base(s).collisions[0].pose.position[2]; },
        {1e300}},
       {"/Robot/base/shape", "mu", [](auto& s) -> double& { return base(s).collisions[0].surface.mu; }, {-1, -kNever}},
       {"/Robot/base/shape",
@@ -99,7 +99,10 @@ std::vector<Field> fields() {
        "plane's normal",
        [](auto& s) -> double& { return std::get<Plane>(s.models[1].links[0].collisions[0].geometry).normal[2]; },
        {0, kNever, 1e300}},
-      {"/Robot/base/Sonar", "position", [](auto& s) -> double& { return base(s).sensors[0].pose.Pos()[0]; }, {kNever}},
+      {"/Robot/base/Sonar",
+       "position",
+       [](auto& s) -> double& { return base(s).sensors[0].pose.position[0]; },
+       {kNever}},
       {"/Robot/base/Sonar",
        "update rate",
        [](auto& s) -> double& { return base(s).sensors[0].update_rate; },
@@ -107,7 +110,7 @@ std::vector<Field> fields() {
       {"/Robot/base/Sonar", "minimum range", [](auto& s) -> double& { return cone(s).min_range; }, {-1, 2, kNever}},
       {"/Robot/base/Sonar", "maximum range", [](auto& s) -> double& { return cone(s).max_range; }, {0, -1, kNever}},
       {"/Robot/base/Sonar", "half angle", [](auto& s) -> double& { return cone(s).half_angle; }, {-1, 1.6, kNever}},
-      {"/Robot/joint", "position", [](auto& s) -> double& { return s.models[0].joints[0].pose.Pos()[0]; }, {1e300}},
+      {"/Robot/joint", "position", [](auto& s) -> double& { return s.models[0].joints[0].pose.position[0]; }, {1e300}},
       {"/Robot/joint", "axis", [](auto& s) -> double& { return first_axis(s).direction[2]; }, {0, 0.5, kNever, 1e300}},
       {"/Robot/joint", "limit", [](auto& s) -> double& { return first_axis(s).lower; }, {kNever, 1e300, -1e300}},
       {"/Robot/joint", "limit", [](auto& s) -> double& { return first_axis(s).upper; }, {-kNever, 1e300}},
@@ -157,7 +160,7 @@ TEST(SceneCheck, ZeroQuaternionsAreNoRotations) {
   for (const auto& pose : poses) {
     for (const Quaternion& bad : {Quaternion(0, 0, 0, 0), Quaternion(kNaN, 0, 0, 0), Quaternion(3, 0, 0, 0)}) {
       SceneDescription scene = fine();
-      pose(scene).Rot() = bad;
+      pose(scene).orientation = bad;
       const std::vector<Problem> problems = check_scene(scene);
       ASSERT_EQ(problems.size(), 1u);
       EXPECT_NE(problems[0].message.find("the orientation"), std::string::npos);
@@ -218,7 +221,7 @@ TEST(SceneCheck, JointsHaveAsManyAxesAsTheirTypeNeeds) {
 
 TEST(SceneCheck, Revolute2IsWhatPhysicsCanDo) {
   EXPECT_NE(
-      problem_after([](auto& robot) { robot.joints[1].axes[1].direction = -Vector3::UnitZ; }).find("not parallel"),
+      problem_after([](auto& robot) { robot.joints[1].axes[1].direction = -Vector3::UnitZ(); }).find("not parallel"),
       std::string::npos);
   EXPECT_NE(problem_after([](auto& robot) { robot.joints[1].parent = "world"; }).find("not the world"),
             std::string::npos);
@@ -234,7 +237,7 @@ TEST(SceneCheck, PlanesDoNotMove) {
 TEST(SceneCheck, StaticModelsNeedNoMass) {
   SceneDescription scene = fine();
   scene.models[1].links[0].mass = 0;
-  scene.models[1].links[0].inertia_diagonal = Vector3::Zero;
+  scene.models[1].links[0].inertia_diagonal = Vector3::Zero();
   EXPECT_TRUE(check_scene(scene).empty());
 }
 

@@ -23,7 +23,7 @@ class Floating : public ::testing::Test {
   void make(const Geometry& geometry, double mass, const Pose& pose, std::vector<FluidLayer> layers = {{0, 0}}) {
     LinkDescription described = link_with(geometry);
     described.mass = mass;
-    described.inertia_diagonal = Vector3::One * (mass * 0.05);
+    described.inertia_diagonal = Vector3::Ones() * (mass * 0.05);
     SceneDescription made = scene({model("Body", described, pose)});
     made.substep = 0.001;
     simulation = std::make_unique<Simulation>(made);
@@ -33,13 +33,13 @@ class Floating : public ::testing::Test {
   void slow_down(double linear, double angular) {
     DragDescription drag;
     drag.link = body();
-    drag.linear = Vector3::One * linear;
-    drag.angular_linear = Vector3::One * angular;
+    drag.linear = Vector3::Ones() * linear;
+    drag.angular_linear = Vector3::Ones() * angular;
     world().add_device(std::make_shared<Drag>(world(), drag, nullptr));
   }
   World& world() { return simulation->world(); }
   ObjectId body() { return world().tree().find("/Body/link"); }
-  double height() { return world().pose(body()).Pos().Z(); }
+  double height() { return world().pose(body()).position.z(); }
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds / simulation->time_step()); ++i) simulation->step();
   }
@@ -85,16 +85,16 @@ TEST_F(Floating, AFlatBoxRightsItself) {
   make(Box{{1, 1, 0.4}}, 150, Pose(0, 0, 0.1, 0.3, 0.2, 0));
   slow_down(400, 100);
   run(30);
-  EXPECT_NEAR(world().pose(body()).Rot().Roll(), 0, 1e-5);
-  EXPECT_NEAR(world().pose(body()).Rot().Pitch(), 0, 1e-5);
+  EXPECT_NEAR(to_rpy(world().pose(body()).orientation).x(), 0, 1e-5);
+  EXPECT_NEAR(to_rpy(world().pose(body()).orientation).y(), 0, 1e-5);
 }
 
 TEST_F(Floating, ATallCylinderFallsOver) {
   make(Cylinder{0.2, 1}, 0.5 * kWater * M_PI * 0.04, Pose(0, 0, 0, 0.01, 0, 0));
   slow_down(100, 4);
   run(30);
-  const Vector3 axis = world().pose(body()).Rot().RotateVector(Vector3::UnitZ);
-  EXPECT_NEAR(axis.Z(), 0, 1e-3);
+  const Vector3 axis = world().pose(body()).orientation * Vector3::UnitZ();
+  EXPECT_NEAR(axis.z(), 0, 1e-3);
   EXPECT_NEAR(height(), 0, 1e-4);
 }
 
@@ -126,8 +126,8 @@ TEST_F(Floating, ActsOnlyOnItsModels) {
   pond.world().add_device(
       std::make_shared<Buoyancy>(kWater, std::vector<FluidLayer>{}, std::vector<std::string>{"/Duck"}));
   pond.step();
-  EXPECT_GT(pond.world().velocity(pond.world().tree().find("/Duck")).linear.Z(), 1);
-  EXPECT_LT(pond.world().velocity(pond.world().tree().find("/Duckling")).linear.Z(), 0);
+  EXPECT_GT(pond.world().velocity(pond.world().tree().find("/Duck")).linear.z(), 1);
+  EXPECT_LT(pond.world().velocity(pond.world().tree().find("/Duckling")).linear.z(), 0);
 }
 
 TEST_F(Floating, InvalidParametersAreRefused) {

@@ -42,67 +42,67 @@ class Falling : public ::testing::Test {
 
 TEST_F(Falling, ReachesTheTerminalVelocityOfQuadraticDrag) {
   DragDescription drag;
-  drag.quadratic = Vector3::One * 0.5;
+  drag.quadratic = Vector3::Ones() * 0.5;
   make(drag, {0, 0, -kGravity});
   run(20);
-  EXPECT_NEAR(velocity().linear.Z(), -std::sqrt(kMass * kGravity / 0.5), 1e-9);
+  EXPECT_NEAR(velocity().linear.z(), -std::sqrt(kMass * kGravity / 0.5), 1e-9);
 }
 
 TEST_F(Falling, ApproachesItAsTheHyperbolicTangent) {
   DragDescription drag;
-  drag.quadratic = Vector3::One * 0.5;
+  drag.quadratic = Vector3::Ones() * 0.5;
   make(drag, {0, 0, -kGravity});
   run(1);
   const double terminal = std::sqrt(kMass * kGravity / 0.5);
-  EXPECT_NEAR(velocity().linear.Z(), -terminal * std::tanh(kGravity / terminal), 2e-3 * terminal);
+  EXPECT_NEAR(velocity().linear.z(), -terminal * std::tanh(kGravity / terminal), 2e-3 * terminal);
 }
 
 TEST_F(Falling, LinearDragDecaysExponentially) {
   DragDescription drag;
-  drag.linear = Vector3::One * kMass;
+  drag.linear = Vector3::Ones() * kMass;
   drag.angular_linear = {0.5, 1, 2};
-  make(drag, Vector3::Zero);
+  make(drag, Vector3::Zero());
   set_velocity({{3, 0, 1}, {0, 0, 2}});
   run(1);
-  EXPECT_NEAR(velocity().linear.X(), 3 * std::exp(-1), 3 * 0.003);  // Euler's method: 1 s * (1/s)^2 * step / 2
-  EXPECT_NEAR(velocity().linear.Z(), std::exp(-1), 0.003);
-  EXPECT_NEAR(velocity().angular.Z(), 2 * std::exp(-0.5), 2 * 0.001);
+  EXPECT_NEAR(velocity().linear.x(), 3 * std::exp(-1), 3 * 0.003);  // Euler's method: 1 s * (1/s)^2 * step / 2
+  EXPECT_NEAR(velocity().linear.z(), std::exp(-1), 0.003);
+  EXPECT_NEAR(velocity().angular.z(), 2 * std::exp(-0.5), 2 * 0.001);
 }
 
 TEST_F(Falling, CoefficientsAreThoseOfTheAxesOfTheLink) {
   DragDescription drag;
   drag.linear = {kMass, 0, 0};
-  make(drag, Vector3::Zero);  // turned by 90 degrees: its x is the world's y
+  make(drag, Vector3::Zero());  // turned by 90 degrees: its x is the world's y
   set_velocity({{1, 1, 0}, {}});
   run(1);
-  EXPECT_NEAR(velocity().linear.X(), 1, 1e-12);
-  EXPECT_NEAR(velocity().linear.Y(), std::exp(-1), 1e-3);
+  EXPECT_NEAR(velocity().linear.x(), 1, 1e-12);
+  EXPECT_NEAR(velocity().linear.y(), std::exp(-1), 1e-3);
 }
 
 TEST_F(Falling, FluidCarriesItAlong) {
   DragDescription drag;
-  drag.linear = Vector3::One * 20;
+  drag.linear = Vector3::Ones() * 20;
   drag.in_wind = true;
-  make(drag, Vector3::Zero, {4, 0, 0});
+  make(drag, Vector3::Zero(), {4, 0, 0});
   device->set_current({0, 1, 0});
   run(5);
-  EXPECT_NEAR(velocity().linear.X(), 4, 1e-6);
-  EXPECT_NEAR(velocity().linear.Y(), 1, 1e-6);
+  EXPECT_NEAR(velocity().linear.x(), 4, 1e-6);
+  EXPECT_NEAR(velocity().linear.y(), 1, 1e-6);
 }
 
 TEST_F(Falling, GreatCoefficientsStopItWithoutReversingIt) {
   DragDescription drag;
-  drag.linear = Vector3::One * 1e8;
-  drag.angular_quadratic = Vector3::One * 1e8;
-  make(drag, Vector3::Zero);
+  drag.linear = Vector3::Ones() * 1e8;
+  drag.angular_quadratic = Vector3::Ones() * 1e8;
+  make(drag, Vector3::Zero());
   set_velocity({{1, 2, 3}, {0, 0, 1}});
   run(0.05);
-  EXPECT_NEAR(velocity().linear.Length(), 0, 1e-9);
-  EXPECT_NEAR(velocity().angular.Length(), 0, 1e-9);
+  EXPECT_NEAR(velocity().linear.norm(), 0, 1e-9);
+  EXPECT_NEAR(velocity().angular.norm(), 0, 1e-9);
 }
 
 TEST_F(Falling, InvalidParametersAreRefused) {
-  make({}, Vector3::Zero);
+  make({}, Vector3::Zero());
   DragDescription drag;
   drag.link = link_id();
   drag.linear = {0, -1, 0};

@@ -23,7 +23,7 @@ class Ramps : public ::testing::Test {
     return ramps;
   }
 
-  World world{jointed(joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {}, "world")), 0};
+  World world{jointed(joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world")), 0};
   ObjectId hinge = world.tree().find("/joint");
 };
 

@@ -38,18 +38,18 @@ class Wing : public ::testing::Test {
   Coefficients fly(double alpha, double sweep = 0, const Vector3& wind = {}) {
     ModelDescription body = model("Wing", link("link"), Pose(0, 0, 0, 0, -alpha, sweep));
     body.links[0].mass = kMass;
-    body.links[0].inertia_diagonal = Vector3::One * 1e6;
-    SceneDescription described = scene({body}, Vector3::Zero);
+    body.links[0].inertia_diagonal = Vector3::Ones() * 1e6;
+    SceneDescription described = scene({body}, Vector3::Zero());
     described.environment.wind = wind;
     Simulation simulation(described);
     World& world = simulation.world();
     wing.link = world.tree().find("/Wing/link");
     world.add_device(std::make_shared<LiftDrag>(world, wing, simulation.wind()));
-    world.set_velocity(wing.link, {{kSpeed + wind.X(), wind.Y(), wind.Z()}, {}});
+    world.set_velocity(wing.link, {{kSpeed + wind.x(), wind.y(), wind.z()}, {}});
     world.advance(0.001, 0.001);
     const Vector3 change = world.velocity(wing.link).linear - Vector3(kSpeed, 0, 0) - wind;
     const double pressure = 0.5 * wing.density * kSpeed * kSpeed * wing.area;
-    return {change.Z() * kMass / 0.001 / pressure, -change.X() * kMass / 0.001 / pressure};
+    return {change.z() * kMass / 0.001 / pressure, -change.x() * kMass / 0.001 / pressure};
   }
 
   LiftDragDescription wing;
@@ -96,7 +96,7 @@ TEST_F(Wing, VelocityIsRelativeToTheWind) {
 
 TEST_F(Wing, ABodyOfRevolutionLiftsInAnyDirection) {
   wing.radial_symmetry = true;
-  wing.upward = Vector3::UnitY;
+  wing.upward = Vector3::UnitY();
   const auto [lift, drag] = fly(0.1);
   EXPECT_NEAR(lift, 0.5, 1e-6);
   EXPECT_NEAR(drag, 0.03, 1e-6);
@@ -104,7 +104,7 @@ TEST_F(Wing, ABodyOfRevolutionLiftsInAnyDirection) {
 
 TEST_F(Wing, AForceBesideTheCentreOfMassTurnsIt) {
   ModelDescription body = model("Wing", link("link"), Pose(0, 0, 0, 0, -0.1, 0));
-  Simulation simulation(scene({body}, Vector3::Zero));
+  Simulation simulation(scene({body}, Vector3::Zero()));
   World& world = simulation.world();
   wing.link = world.tree().find("/Wing/link");
   wing.centre_of_pressure = {-0.5, 0, 0};
@@ -113,15 +113,15 @@ TEST_F(Wing, AForceBesideTheCentreOfMassTurnsIt) {
   world.set_velocity(wing.link, {{kSpeed, 0, 0}, {}});
   world.advance(0.001, 0.001);
   const double lift = 0.5 * 0.5 * 1.2 * kSpeed * kSpeed * 0.5;
-  EXPECT_NEAR(world.velocity(wing.link).angular.Y(), 0.001 * lift * 0.5 * std::cos(0.1), 1e-6);
+  EXPECT_NEAR(world.velocity(wing.link).angular.y(), 0.001 * lift * 0.5 * std::cos(0.1), 1e-6);
 }
 
 TEST_F(Wing, AFlapAddsToTheLift) {
   ModelDescription body = model("Wing", link("base"));
   body.links.push_back(link("arm", {-0.5, 0, 0}));
   for (LinkDescription& each : body.links) each.mass = kMass;
-  body.joints.push_back(joint("revolute", {axis(Vector3::UnitY)}, {-0.5, 0, 0}));
-  Simulation simulation(scene({body}, Vector3::Zero));
+  body.joints.push_back(joint("revolute", {axis(Vector3::UnitY())}, {-0.5, 0, 0}));
+  Simulation simulation(scene({body}, Vector3::Zero()));
   World& world = simulation.world();
   wing.link = world.tree().find("/Wing/base");
   wing.control_joint = world.tree().find("/Wing/joint");
@@ -131,7 +131,7 @@ TEST_F(Wing, AFlapAddsToTheLift) {
   world.set_velocity(world.tree().find("/Wing"), {{kSpeed, 0, 0}, {}});
   world.advance(0.001, 0.001);
   const double momentum =
-      kMass * (world.velocity(wing.link).linear.Z() + world.velocity(world.tree().find("/Wing/arm")).linear.Z());
+      kMass * (world.velocity(wing.link).linear.z() + world.velocity(world.tree().find("/Wing/arm")).linear.z());
   EXPECT_NEAR(momentum / 0.001, 2 * 0.2 * 0.5 * 1.2 * kSpeed * kSpeed * 0.5, 0.05);
 }
 
@@ -147,7 +147,7 @@ TEST_F(Wing, InvalidParametersAreRefused) {
   refuses([](LiftDragDescription& w) { w.alpha_stall = -0.1; });
   refuses([](LiftDragDescription& w) { w.lift_slope = kNaN; });
   refuses([](LiftDragDescription& w) { w.upward = w.forward; });
-  refuses([](LiftDragDescription& w) { w.forward = Vector3::Zero; });
+  refuses([](LiftDragDescription& w) { w.forward = Vector3::Zero(); });
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ SceneDescription x3() {
     propeller.mass = 0.005;
     propeller.inertia_diagonal = {9.75e-7, 4.17041e-5, 4.26041e-5};
     robot.links.push_back(propeller);
-    JointDescription spindle = joint("continuous", {axis(Vector3::UnitZ)}, places[i], "frame", propeller.name);
+    JointDescription spindle = joint("continuous", {axis(Vector3::UnitZ())}, places[i], "frame", propeller.name);
     spindle.name = propeller.name + "_joint";
     robot.joints.push_back(spindle);
   }
@@ -68,7 +68,7 @@ class X3 : public ::testing::Test {
 TEST_F(X3, Hovers) {
   control->set_velocity({}, 0);
   run(20);
-  EXPECT_LT(velocity().linear.Length(), 1e-3);
+  EXPECT_LT(velocity().linear.norm(), 1e-3);
   const double hover = std::sqrt(1.52 * 9.81 / 4 / rotors[0]->description().thrust_coefficient);
   double sum = 0;
   for (const auto& rotor : rotors) sum += rotor->speed() / 4;
@@ -79,16 +79,16 @@ TEST_F(X3, FliesAtTheCommandedVelocityAlongItsAxes) {
   world.set_pose(world.tree().find("/X3"), Pose(0, 0, 10, 0, 0, M_PI / 2));
   control->set_velocity({1, 0, 0.5}, 0);
   run(20);
-  EXPECT_NEAR(velocity().linear.Y(), 1, 1e-3);
-  EXPECT_NEAR(velocity().linear.X(), 0, 1e-3);
-  EXPECT_NEAR(velocity().linear.Z(), 0.5, 1e-3);
+  EXPECT_NEAR(velocity().linear.y(), 1, 1e-3);
+  EXPECT_NEAR(velocity().linear.x(), 0, 1e-3);
+  EXPECT_NEAR(velocity().linear.z(), 0.5, 1e-3);
 }
 
 TEST_F(X3, TurnsAtTheCommandedRate) {
   control->set_velocity({}, 0.4);
   run(20);
-  EXPECT_NEAR(velocity().angular.Z(), 0.4, 1e-3);
-  EXPECT_LT(velocity().linear.Length(), 0.02);
+  EXPECT_NEAR(velocity().angular.z(), 0.4, 1e-3);
+  EXPECT_LT(velocity().linear.norm(), 0.02);
 }
 
 TEST_F(X3, AccelerationIsLimited) {
@@ -96,12 +96,12 @@ TEST_F(X3, AccelerationIsLimited) {
   run(5);
   control->set_velocity({100, 0, 0}, 0);
   run(1);
-  EXPECT_LT(velocity().linear.X(), 2.2);
+  EXPECT_LT(velocity().linear.x(), 2.2);
 }
 
 TEST_F(X3, FallsAfterAStopAndWithoutACommand) {
   run(0.5);
-  EXPECT_NEAR(velocity().linear.Z(), -9.81 * 0.5, 0.03);
+  EXPECT_NEAR(velocity().linear.z(), -9.81 * 0.5, 0.03);
   control->set_velocity({}, 0);
   run(1);
   control->stop();

@@ -17,7 +17,7 @@ namespace {
 SceneDescription body_in_air() {
   LinkDescription described = link("link");
   described.angular_decay = 1;
-  return scene({model("Body", described)}, Vector3::Zero);
+  return scene({model("Body", described)}, Vector3::Zero());
 }
 
 class Pulled : public ::testing::Test {
@@ -26,7 +26,7 @@ class Pulled : public ::testing::Test {
 
   Vector3 place_of(const Vector3& point) const {
     const Pose pose = world.pose(body);
-    return pose.Pos() + pose.Rot().RotateVector(point);
+    return pose.position + pose.orientation * point;
   }
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds / simulation.time_step()); ++i) simulation.step();
@@ -46,14 +46,14 @@ TEST_F(Pulled, PointOfTheLinkComesToTheTarget) {
   spring->grip(world, body, point);
   spring->pull_to(target);
   run(20);
-  EXPECT_LT((place_of(point) - target).Length(), 1e-3);
+  EXPECT_LT((place_of(point) - target).norm(), 1e-3);
 }
 
 TEST_F(Pulled, LinkStaysWhereItIsUntilTheTargetMoves) {
   const Pose before = world.pose(body);
   spring->grip(world, body, {0.3, 0.1, 0});
   run(1);
-  EXPECT_LT((world.pose(body).Pos() - before.Pos()).Length(), 1e-9);
+  EXPECT_LT((world.pose(body).position - before.position).norm(), 1e-9);
 }
 
 TEST_F(Pulled, PlacesThatAreNotFiniteAreRefused) {

@@ -20,7 +20,7 @@ constexpr double kMass = 1.5;        // kg, of all links
 constexpr double kRotorMass = 0.01;  // kg, of each propeller
 
 JointDescription spindle(const std::string& name, const Vector3& place) {
-  JointDescription made = joint("continuous", {axis(Vector3::UnitZ)}, place, "frame", name);
+  JointDescription made = joint("continuous", {axis(Vector3::UnitZ())}, place, "frame", name);
   made.name = name + "_joint";
   return made;
 }
@@ -81,12 +81,12 @@ TEST_F(Quadcopter, HoversAtTheSpeedAtWhichTheThrustIsTheWeight) {
   make(quadcopter(), rotor);
   command(hover_speed(rotor));
   run(0.1);
-  const double start = world().pose(frame()).Pos().Z();
-  const double speed = world().velocity(frame()).linear.Z();  // it fell while the propellers stood still
+  const double start = world().pose(frame()).position.z();
+  const double speed = world().velocity(frame()).linear.z();  // it fell while the propellers stood still
   EXPECT_NEAR(speed, -kGravity * kStep, kGravity * kStep);
   run(10);
-  EXPECT_NEAR(world().pose(frame()).Pos().Z(), start + 10 * speed, 1e-3);
-  EXPECT_NEAR(world().pose(frame()).Rot().Yaw(), 0, 1e-3) << "the reaction torques cancel";
+  EXPECT_NEAR(world().pose(frame()).position.z(), start + 10 * speed, 1e-3);
+  EXPECT_NEAR(to_rpy(world().pose(frame()).orientation).z(), 0, 1e-3) << "the reaction torques cancel";
 }
 
 TEST_F(Quadcopter, ThrustAcceleratesItByItsExcess) {
@@ -95,16 +95,16 @@ TEST_F(Quadcopter, ThrustAcceleratesItByItsExcess) {
   make(quadcopter(), rotor);
   command(hover_speed(rotor) * std::sqrt(1.2));
   run(0.1);
-  const double before = world().velocity(frame()).linear.Z();
+  const double before = world().velocity(frame()).linear.z();
   run(1);
-  EXPECT_NEAR(world().velocity(frame()).linear.Z() - before, 0.2 * kGravity, 1e-4);
+  EXPECT_NEAR(world().velocity(frame()).linear.z() - before, 0.2 * kGravity, 1e-4);
 }
 
 TEST_F(Quadcopter, SpeedApproachesTheCommandExponentially) {
   RotorDescription rotor;
   rotor.time_up = 0.2;
   rotor.time_down = 0.5;
-  make(quadcopter(Vector3::Zero), rotor);
+  make(quadcopter(Vector3::Zero()), rotor);
   command(500);
   run(0.2);
   EXPECT_NEAR(rotors[0]->speed(), 500 * (1 - std::exp(-1)), 1e-6);
@@ -118,7 +118,7 @@ TEST_F(Quadcopter, SpeedApproachesTheCommandExponentially) {
 TEST_F(Quadcopter, SpeedIsLimited) {
   RotorDescription rotor;
   rotor.time_up = 0;
-  make(quadcopter(Vector3::Zero), rotor);
+  make(quadcopter(Vector3::Zero()), rotor);
   command(1e5);
   run(0.05);
   EXPECT_EQ(rotors[0]->speed(), rotor.max_speed);
@@ -128,17 +128,17 @@ TEST_F(Quadcopter, ReactionTorqueTurnsTheFrameAgainstThePropellers) {
   RotorDescription rotor;
   rotor.time_up = rotor.time_down = 0;
   rotor.drag_coefficient = 0;
-  make(quadcopter(Vector3::Zero), rotor);
+  make(quadcopter(Vector3::Zero()), rotor);
   const double speed = 400;
   rotors[0]->set_speed(speed);
   rotors[3]->set_speed(speed);  // both counter-clockwise, at opposite corners
   run(0.1);
-  const double before = world().velocity(frame()).angular.Z();
+  const double before = world().velocity(frame()).angular.z();
   run(0.2);
   const double torque = -2 * rotor.thrust_coefficient * speed * speed * rotor.torque_length;
   // The propellers keep their speed relative to the frame, so they turn with it.
   const double inertia = 0.04 + 4 * (2e-5 + kRotorMass * 0.08);
-  EXPECT_NEAR((world().velocity(frame()).angular.Z() - before) / 0.2, torque / inertia,
+  EXPECT_NEAR((world().velocity(frame()).angular.z() - before) / 0.2, torque / inertia,
               1e-3 * std::abs(torque) / inertia);
 }
 
@@ -146,20 +146,20 @@ TEST_F(Quadcopter, RotorDragIsProportionalToSpeedAndVelocityRelativeToTheWind) {
   RotorDescription rotor;
   rotor.time_up = rotor.time_down = 0;
   rotor.rolling_coefficient = 0;
-  make(quadcopter(Vector3::Zero, {3, 0, 0}), rotor);
+  make(quadcopter(Vector3::Zero(), {3, 0, 0}), rotor);
   const double speed = 500;
   for (int i = 0; i < 4; ++i) rotors[static_cast<std::size_t>(i)]->set_speed(i % 2 == 0 ? speed : -speed);
   run(0.1);  // without thrust as a whole
-  const double before = world().velocity(frame()).linear.X();
+  const double before = world().velocity(frame()).linear.x();
   run(0.05);
-  const double acceleration = (world().velocity(frame()).linear.X() - before) / 0.05;
+  const double acceleration = (world().velocity(frame()).linear.x() - before) / 0.05;
   EXPECT_NEAR(acceleration, 4 * rotor.drag_coefficient * speed * (3 - before) / kMass, 2e-3);
 }
 
 TEST_F(Quadcopter, ATargetVelocityOfTheJointIsACommand) {
   RotorDescription rotor;
   rotor.time_up = 0.05;
-  make(quadcopter(Vector3::Zero), rotor);
+  make(quadcopter(Vector3::Zero()), rotor);
   world().set_target_velocity(joint_of(0), 30);
   world().set_target_velocity(joint_of(1), -40);  // clockwise
   run(1);
@@ -168,7 +168,7 @@ TEST_F(Quadcopter, ATargetVelocityOfTheJointIsACommand) {
 }
 
 TEST_F(Quadcopter, StopsOnAReset) {
-  make(quadcopter(Vector3::Zero));
+  make(quadcopter(Vector3::Zero()));
   run(0.05);
   simulation->reset();
   const std::uint64_t fresh = simulation->state_hash();

@@ -20,9 +20,9 @@ class TimedWrenches : public ::testing::Test {
   void run(int steps) {
     for (int i = 0; i < steps; ++i) world.advance(kPass, kStep);
   }
-  double speed() const { return world.velocity(link).linear.X(); }
+  double speed() const { return world.velocity(link).linear.x(); }
 
-  World world{scene({model("Body", test::link("link"))}, Vector3::Zero), 0};
+  World world{scene({model("Body", test::link("link"))}, Vector3::Zero()), 0};
   ObjectId link = world.tree().find("/Body/link");
   std::shared_ptr<TimedEfforts> device = std::make_shared<TimedEfforts>();
 };
@@ -60,7 +60,7 @@ TEST_F(TimedWrenches, WithANegativeDurationActUntilTheyAreCleared) {
 TEST_F(TimedWrenches, ActAtAPointOfTheLink) {
   device->add_wrench(world, link, {{0, 1, 0}, {}}, Vector3(0.2, 0, 0), {0, kStep});
   run(1);
-  EXPECT_NEAR(world.velocity(link).angular.Z(), 0.2 * kStep, 1e-12);
+  EXPECT_NEAR(world.velocity(link).angular.z(), 0.2 * kStep, 1e-12);
 }
 
 TEST_F(TimedWrenches, AddUp) {
@@ -99,7 +99,7 @@ class TimedJointEfforts : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, TimedJointEfforts, ::testing::Values("revolute", "prismatic"));
 
 TEST_P(TimedJointEfforts, AccelerateBothLinks) {
-  World world(jointed(joint(GetParam(), {axis(Vector3::UnitZ)})), 0);
+  World world(jointed(joint(GetParam(), {axis(Vector3::UnitZ())})), 0);
   auto device = std::make_shared<TimedEfforts>();
   world.add_device(device);
   const ObjectId id = world.tree().find("/joint");
@@ -107,12 +107,12 @@ TEST_P(TimedJointEfforts, AccelerateBothLinks) {
   world.advance(0.5, kStep);
   EXPECT_NEAR(world.joint_velocity(id), 2 * 0.5 * 0.123, 1e-6) << "two bodies of 1 kg and 1 kg m^2";
   const Twist both[] = {world.velocity(world.tree().find("/base")), world.velocity(world.tree().find("/arm"))};
-  EXPECT_NEAR((both[0].linear + both[1].linear).Length(), 0, 1e-9) << "there is no force from outside";
-  EXPECT_NEAR((both[0].angular + both[1].angular).Length(), 0, 1e-9);
+  EXPECT_NEAR((both[0].linear + both[1].linear).norm(), 0, 1e-9) << "there is no force from outside";
+  EXPECT_NEAR((both[0].angular + both[1].angular).norm(), 0, 1e-9);
 }
 
 TEST_P(TimedJointEfforts, KeepToTheLimitOfTheJoint) {
-  AxisDescription weak = axis(Vector3::UnitZ);
+  AxisDescription weak = axis(Vector3::UnitZ());
   weak.max_force = 0.25;
   World world(jointed(joint(GetParam(), {weak}, {}, "world")), 0);
   auto device = std::make_shared<TimedEfforts>();

@@ -17,7 +17,7 @@ SceneDescription slowed(double substep, double linear, double angular) {
   described.inertia_diagonal = {1, 2, 2.5};
   described.inertia_products = {0.1, 0.2, 0.3};
   described.centre_of_mass = {0.1, 0, 0};
-  SceneDescription made = scene({model("Body", described)}, Vector3::Zero);
+  SceneDescription made = scene({model("Body", described)}, Vector3::Zero());
   made.substep = substep;
   return made;
 }
@@ -29,20 +29,20 @@ TEST(VelocityDecay, IsExponentialAtAnySubstep) {
     simulation.world().set_velocity(body, {{3, -1, 0.5}, {}});
     for (int i = 0; i < 20; ++i) simulation.step();
     const Vector3 left = Vector3(3, -1, 0.5) * std::exp(-2);
-    EXPECT_LT((simulation.world().velocity(body).linear - left).Length(), 1e-9) << substep;
+    EXPECT_LT((simulation.world().velocity(body).linear - left).norm(), 1e-9) << substep;
   }
 }
 
 TEST(VelocityDecay, SlowsRotation) {
   SceneDescription described = slowed(0.001, 0, 2);
-  described.models[0].links[0].inertia_diagonal = Vector3::One;  // of a ball: no gyroscopic torque
-  described.models[0].links[0].inertia_products = Vector3::Zero;
-  described.models[0].links[0].centre_of_mass = Vector3::Zero;
+  described.models[0].links[0].inertia_diagonal = Vector3::Ones();  // of a ball: no gyroscopic torque
+  described.models[0].links[0].inertia_products = Vector3::Zero();
+  described.models[0].links[0].centre_of_mass = Vector3::Zero();
   Simulation simulation(described);
   const ObjectId body = simulation.world().tree().find("/Body/link");
   simulation.world().set_velocity(body, {{}, {1, 2, 3}});
   for (int i = 0; i < 20; ++i) simulation.step();
-  EXPECT_LT((simulation.world().velocity(body).angular - Vector3(1, 2, 3) * std::exp(-2)).Length(), 1e-6);
+  EXPECT_LT((simulation.world().velocity(body).angular - Vector3(1, 2, 3) * std::exp(-2)).norm(), 1e-6);
 }
 
 TEST(VelocityDecay, InfiniteRateStops) {
@@ -50,7 +50,7 @@ TEST(VelocityDecay, InfiniteRateStops) {
   const ObjectId body = simulation.world().tree().find("/Body/link");
   simulation.world().set_velocity(body, {{1, 2, 3}, {}});
   simulation.step();
-  EXPECT_NEAR(simulation.world().velocity(body).linear.Length(), 0, 1e-12);
+  EXPECT_NEAR(simulation.world().velocity(body).linear.norm(), 0, 1e-12);
 }
 
 }  // namespace

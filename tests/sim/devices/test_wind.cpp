@@ -18,7 +18,7 @@ SceneDescription leaf(const Vector3& wind) {
   LinkDescription light = link("link");
   light.wind_enabled = true;
   light.mass = 3;
-  SceneDescription made = scene({model("Leaf", light), model("Stone", link("link"))}, Vector3::Zero);
+  SceneDescription made = scene({model("Leaf", light), model("Stone", link("link"))}, Vector3::Zero());
   made.substep = kStep;
   made.environment.wind = wind;
   return made;
@@ -39,18 +39,18 @@ class Blown : public ::testing::Test {
 TEST_F(Blown, DriftsTowardsTheVelocityOfTheWind) {
   run(1);
   // v' = factor (wind - v); Euler's method is (1 - factor step)^n instead of exp(-factor t).
-  EXPECT_NEAR(velocity_of("/Leaf/link").X(), 2 * (1 - std::pow(1 - kStep, 200)), 1e-9);
-  EXPECT_NEAR(velocity_of("/Leaf/link").X(), 2 * (1 - std::exp(-1)), 2e-3);
-  EXPECT_EQ(velocity_of("/Stone/link").X(), 0);
+  EXPECT_NEAR(velocity_of("/Leaf/link").x(), 2 * (1 - std::pow(1 - kStep, 200)), 1e-9);
+  EXPECT_NEAR(velocity_of("/Leaf/link").x(), 2 * (1 - std::exp(-1)), 2e-3);
+  EXPECT_EQ(velocity_of("/Stone/link").x(), 0);
 }
 
 TEST_F(Blown, ForceFactorIsTheRate) {
   simulation.wind()->set_force_factor(0.1);
   run(1);
-  EXPECT_NEAR(velocity_of("/Leaf/link").X(), 2 * (1 - std::exp(-0.1)), 1e-4);
+  EXPECT_NEAR(velocity_of("/Leaf/link").x(), 2 * (1 - std::exp(-0.1)), 1e-4);
   simulation.wind()->set_force_factor(1e6);
   run(0.05);
-  EXPECT_NEAR(velocity_of("/Leaf/link").X(), 2, 1e-9) << "it is not thrown beyond";
+  EXPECT_NEAR(velocity_of("/Leaf/link").x(), 2, 1e-9) << "it is not thrown beyond";
 }
 
 TEST_F(Blown, StillAirSlowsOnlyWhereTheWindVaries) {
@@ -58,10 +58,10 @@ TEST_F(Blown, StillAirSlowsOnlyWhereTheWindVaries) {
   const ObjectId link = still.world().tree().find("/Leaf/link");
   still.world().set_velocity(link, {{1, 0, 0}, {}});
   still.step();
-  EXPECT_EQ(still.world().velocity(link).linear.X(), 1);
+  EXPECT_EQ(still.world().velocity(link).linear.x(), 1);
   still.wind()->set_variation({});
   still.step();
-  EXPECT_LT(still.world().velocity(link).linear.X(), 0.99);
+  EXPECT_LT(still.world().velocity(link).linear.x(), 0.99);
 }
 
 TEST_F(Blown, PushesModelsThatAreAddedLater) {
@@ -70,7 +70,7 @@ TEST_F(Blown, PushesModelsThatAreAddedLater) {
   other.name = "Other";
   simulation.add_model(other);
   run(1);
-  EXPECT_NEAR(velocity_of("/Other/link").X(), 2 * (1 - std::exp(-1)), 2e-3);
+  EXPECT_NEAR(velocity_of("/Other/link").x(), 2 * (1 - std::exp(-1)), 2e-3);
 }
 
 TEST_F(Blown, RisesWithItsTimeConstant) {
@@ -81,9 +81,9 @@ TEST_F(Blown, RisesWithItsTimeConstant) {
   simulation.wind()->set_mean({0, 3, 1});
   run(1);
   const Vector3 wind = simulation.wind()->velocity();
-  EXPECT_NEAR(wind.Z(), 1 - std::exp(-0.5), 1e-9);
-  EXPECT_NEAR(std::hypot(wind.X(), wind.Y()), 3 * (1 - std::exp(-2)), 1e-9);
-  EXPECT_NEAR(std::atan2(wind.X(), wind.Y()), M_PI / 2 * std::exp(-1), 1e-9) << "it turns within 1 s";
+  EXPECT_NEAR(wind.z(), 1 - std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(std::hypot(wind.x(), wind.y()), 3 * (1 - std::exp(-2)), 1e-9);
+  EXPECT_NEAR(std::atan2(wind.x(), wind.y()), M_PI / 2 * std::exp(-1), 1e-9) << "it turns within 1 s";
 }
 
 TEST_F(Blown, SineIsAddedToSpeedAndDirection) {
@@ -97,8 +97,8 @@ TEST_F(Blown, SineIsAddedToSpeedAndDirection) {
   run(1.05);  // the last substep begins at 1.045 s
   const Vector3 wind = simulation.wind()->velocity();
   const double sine = std::sin(2 * M_PI * 1.045 / 4);
-  EXPECT_NEAR(std::hypot(wind.X(), wind.Y()), 2 * (1 + 0.5 * sine), 1e-9);
-  EXPECT_NEAR(std::atan2(wind.Y(), wind.X()), 0.3 * sine, 1e-9);
+  EXPECT_NEAR(std::hypot(wind.x(), wind.y()), 2 * (1 + 0.5 * sine), 1e-9);
+  EXPECT_NEAR(std::atan2(wind.y(), wind.x()), 0.3 * sine, 1e-9);
 }
 
 TEST_F(Blown, NoiseHasItsDeviationAndDependsOnTheSeed) {
@@ -114,7 +114,7 @@ TEST_F(Blown, NoiseHasItsDeviationAndDependsOnTheSeed) {
   for (int i = 0; i < kCount; ++i) {
     simulation.step();
     same.step();
-    const double gust = simulation.wind()->velocity().X() - 2;
+    const double gust = simulation.wind()->velocity().x() - 2;
     sum += gust;
     squares += gust * gust;
   }

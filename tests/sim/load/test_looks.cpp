@@ -130,13 +130,13 @@ TEST(SmoothMesh, IsLitByItsOwnNormals) {
   // Turned by 1 rad at the lower corners, straight at the upper ones: at half height in between, along the sum of the
   // normals.
   const Vector3 tilted(-std::cos(1.0), 0, -std::sin(1.0));
-  const TriangleMesh::Point low = {static_cast<float>(tilted.X()), 0, static_cast<float>(tilted.Z())};
+  const TriangleMesh::Point low = {static_cast<float>(tilted.x()), 0, static_cast<float>(tilted.z())};
   mesh.normals = {low, low, {-1, 0, 0}, {-1, 0, 0}};
   const double halfway = std::cos(0.5);
   for (const double yaw : {0.0, 0.7}) {
     const Pose turned(0, 0, 0, 0, 0, yaw);
     Light light = along_x;
-    light.direction = turned.Rot().RotateVector(light.direction);
+    light.direction = turned.orientation * light.direction;
     ModelDescription moving = showing(visual(Mesh{finish_mesh(mesh)}, white), turned);
     moving.is_static = yaw == 0.0;
     const Rgb found = seen(turned * at(-3, 0.3, 0), {moving}, {light});
@@ -226,7 +226,7 @@ TEST(Lamp, OfALinkGoesWithIt) {
   Light lamp;
   lamp.kind = LightKind::kSpot;
   lamp.diffuse = kFullyLit;
-  lamp.direction = Vector3::UnitX;
+  lamp.direction = Vector3::UnitX();
   lamp.inner_angle = lamp.outer_angle = 0.5;
   carrier.links[0].lights.push_back(lamp);
   Material white;

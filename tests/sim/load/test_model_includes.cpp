@@ -65,7 +65,7 @@ TEST_F(ModelIncludes, AreFoundBesideTheScene) {
   ASSERT_EQ(scene.models.size(), 2u);
   EXPECT_EQ(scene.models[0].name, "A");
   EXPECT_EQ(scene.models[1].name, "B");
-  EXPECT_EQ(scene.models[1].pose.Pos(), Vector3(1, 2, 3));
+  EXPECT_EQ(scene.models[1].pose.position, Vector3(1, 2, 3));
 }
 
 TEST_F(ModelIncludes, AreFoundInTheFoldersOfTheEnvironment) {

@@ -52,23 +52,23 @@ TEST_F(NestedModels, HaveTheirPathsInTheTree) {
 
 TEST_F(NestedModels, StandInTheFramesThatTheyName) {
   // The cart is rotated by a quarter turn: its x is the world's y.
-  EXPECT_LT((world_.pose(find("/Arm")).Pos() - Vector3(1, 0.2, 1.5)).Length(), 1e-9);
-  EXPECT_LT((world_.pose(find("/palm")).Pos() - Vector3(1, 0.5, 1.5)).Length(), 1e-9);
-  EXPECT_LT((world_.pose(find("/shoulder")).Pos() - Vector3(1, 0.2, 1.5)).Length(), 1e-9);
+  EXPECT_LT((world_.pose(find("/Arm")).position - Vector3(1, 0.2, 1.5)).norm(), 1e-9);
+  EXPECT_LT((world_.pose(find("/palm")).position - Vector3(1, 0.5, 1.5)).norm(), 1e-9);
+  EXPECT_LT((world_.pose(find("/shoulder")).position - Vector3(1, 0.2, 1.5)).norm(), 1e-9);
 }
 
 TEST_F(NestedModels, AreJoinedAcrossTheirBorders) {
   world_.set_target_velocity(find("/shoulder"), 0.5);
   world_.advance(2, 0.005);
-  EXPECT_NEAR(turn_about(Vector3::UnitZ, world_.pose(find("/body")), world_.pose(find("/palm"))), 1, 0.02);
-  EXPECT_NEAR((world_.pose(find("/palm")).Pos() - world_.pose(find("/upper")).Pos()).Length(), 0.3, 1e-3);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ(), world_.pose(find("/body")), world_.pose(find("/palm"))), 1, 0.02);
+  EXPECT_NEAR((world_.pose(find("/palm")).position - world_.pose(find("/upper")).position).norm(), 0.3, 1e-3);
 }
 
 TEST_F(NestedModels, AreMovedAlone) {
   const Pose body = world_.pose(find("/body"));
   world_.set_pose(find("/Arm"), Pose(4, 5, 6, 0, 0, 0));
   EXPECT_EQ(world_.pose(find("/body")), body);
-  EXPECT_LT((world_.pose(find("/palm")).Pos() - Vector3(4.3, 5, 6)).Length(), 1e-9);
+  EXPECT_LT((world_.pose(find("/palm")).position - Vector3(4.3, 5, 6)).norm(), 1e-9);
 }
 
 TEST_F(NestedModels, AreRemovedWithTheirOutermostModelOnly) {
@@ -96,8 +96,8 @@ TEST(NestedModel, ThatIsStaticHoldsInTheWorld) {
                                     "<pose>0 0 2 0 0 0</pose><link name='l'/></model></model>"));
   World world(read_scene(file.path()), 0);
   world.advance(1, 0.005);
-  EXPECT_NEAR(world.pose(world.tree().find("/post")).Pos().Z(), 2, 1e-6);
-  EXPECT_LT(world.pose(world.tree().find("/m/a")).Pos().Z(), -4) << "the rest falls";
+  EXPECT_NEAR(world.pose(world.tree().find("/post")).position.z(), 2, 1e-6);
+  EXPECT_LT(world.pose(world.tree().find("/m/a")).position.z(), -4) << "the rest falls";
 }
 
 TEST(NestedModel, MergedByAnIncludeIsPartOfItsParent) {

@@ -85,13 +85,13 @@ TEST(Inertia, ThatIsTinyStays) {
   const SceneDescription scene = loaded(
       in_world("<model name='m'><link name='l'><inertial><mass>1e-5</mass><inertia><ixx>1e-9</ixx><iyy>1e-9</iyy>"
                "<izz>1e-9</izz></inertia></inertial></link></model>"));
-  EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal.X(), 1e-9);
+  EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal.x(), 1e-9);
 }
 
 TEST(MagneticField, IsThatOfTheWorld) {
-  EXPECT_EQ(loaded(in_world("")).environment.magnetic_field.X(), 5.5645e-6);
+  EXPECT_EQ(loaded(in_world("")).environment.magnetic_field.x(), 5.5645e-6);
   const SceneDescription scene = loaded(in_world("<magnetic_field>1.2345e-5 2e-5 -3e-5</magnetic_field>"));
-  EXPECT_EQ(scene.environment.magnetic_field.X(), 1.2345e-5);
+  EXPECT_EQ(scene.environment.magnetic_field.x(), 1.2345e-5);
 }
 
 TEST(Sensor, OfALaterVersionIsLeftOut) {
@@ -108,7 +108,7 @@ TEST(Inertia, OfZeroIsReplaced) {
   const SceneDescription scene = loaded(
       in_world("<model name='m'><link name='l'><inertial><mass>2</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz>"
                "</inertia></inertial></link></model>"));
-  EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal, Vector3::One * 0.008);
+  EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal, Vector3::Ones() * 0.008);
 }
 
 TEST(Inertia, ThatIsPositiveByRoundingOnlyIsReplaced) {
@@ -117,7 +117,7 @@ TEST(Inertia, ThatIsPositiveByRoundingOnlyIsReplaced) {
                "<izz>0.0125</izz><ixy>-0.005</ixy><ixz>0.0225</ixz><iyz>0.045</iyz></inertia></inertial></link>"
                "</model>"));
   // The least moment, 0, becomes a thousandth of the greatest, and their sum grows by as much.
-  EXPECT_NEAR(the_robot(scene).links[0].inertia_diagonal.Sum(), 0.43 + 0.000220, 1e-5);
+  EXPECT_NEAR(the_robot(scene).links[0].inertia_diagonal.sum(), 0.43 + 0.000220, 1e-5);
 }
 
 TEST(Shapes, OfOneNameAreAllKept) {
@@ -131,9 +131,9 @@ TEST(Shapes, OfOneNameAreAllKept) {
   const LinkDescription& link = the_robot(scene).links[0];
   ASSERT_EQ(link.collisions.size(), 2U);
   EXPECT_EQ(link.collisions[1].name, "s_2");
-  EXPECT_EQ(link.collisions[1].pose.Pos(), Vector3(0, 0, 2));
+  EXPECT_EQ(link.collisions[1].pose.position, Vector3(0, 0, 2));
   ASSERT_EQ(link.visuals.size(), 2U);
-  EXPECT_EQ(link.visuals[1].pose.Pos(), Vector3(0, 0, 4));
+  EXPECT_EQ(link.visuals[1].pose.position, Vector3(0, 0, 4));
 }
 
 TEST(Visual, MayBeFlat) {
@@ -164,7 +164,7 @@ TEST(Urdf, LetsGoWhatFloats) {
   for (const std::string type : {"floating", "planar"}) {
     const SceneDescription scene = loaded(robot(heavy("a") + heavy("b") + urdf_joint(type, "a", "b")), "odd.urdf");
     ASSERT_EQ(the_robot(scene).links.size(), 2U) << type;
-    EXPECT_EQ(the_robot(scene).links[1].pose.Pos(), Vector3(0, 0, 2));
+    EXPECT_EQ(the_robot(scene).links[1].pose.position, Vector3(0, 0, 2));
     EXPECT_TRUE(the_robot(scene).joints.empty()) << type;
   }
 }
@@ -188,8 +188,8 @@ TEST(Urdf, StandsWhenItsFirstLinkHasNoMass) {
       loaded(robot("<link name='a'/>" + heavy("b") + urdf_joint("continuous", "a", "b")), "odd.urdf");
   World world(scene, 0);
   world.advance(1, 0.005);
-  EXPECT_NEAR(world.pose(world.tree().find("/r/a")).Pos().Z(), 0, 1e-6);
-  EXPECT_NEAR(world.pose(world.tree().find("/r/b")).Pos().Z(), 2, 1e-3);
+  EXPECT_NEAR(world.pose(world.tree().find("/r/a")).position.z(), 0, 1e-6);
+  EXPECT_NEAR(world.pose(world.tree().find("/r/b")).position.z(), 2, 1e-3);
 }
 
 TEST(Urdf, WithoutALinkOfItsOwnTellsSo) {

@@ -32,8 +32,8 @@ Circle fit_circle(const std::vector<Vector3>& points) {
   for (const Vector3& point : points) mean += point / static_cast<double>(points.size());
   double uu = 0, uv = 0, vv = 0, uz = 0, vz = 0, z = 0;
   for (const Vector3& point : points) {
-    const double u = point.X() - mean.X();
-    const double v = point.Y() - mean.Y();
+    const double u = point.x() - mean.x();
+    const double v = point.y() - mean.y();
     const double square = u * u + v * v;
     uu += u * u;
     uv += u * v;
@@ -45,7 +45,7 @@ Circle fit_circle(const std::vector<Vector3>& points) {
   const double determinant = uu * vv - uv * uv;
   const double a = (uz * vv - vz * uv) / determinant;
   const double b = (vz * uu - uz * uv) / determinant;
-  return {mean.X() + a, mean.Y() + b, std::sqrt(a * a + b * b + z)};
+  return {mean.x() + a, mean.y() + b, std::sqrt(a * a + b * b + z)};
 }
 
 constexpr double kWheelbase = 1;
@@ -78,48 +78,48 @@ TEST_F(Tricycle, TurnsAboutThePointWhereItsAxlesMeet) {
   std::vector<Vector3> track;
   for (double time = 0; time < lap; time += simulation.time_step()) {
     run(simulation.time_step());
-    track.push_back(pose().Pos());
+    track.push_back(pose().position);
   }
   const Circle circle = fit_circle(track);
   EXPECT_NEAR(circle.radius, radius, radius * 1e-3);
   for (const Vector3& point : track) {
-    EXPECT_NEAR(std::hypot(point.X() - circle.x, point.Y() - circle.y), circle.radius, radius * 1e-3)
+    EXPECT_NEAR(std::hypot(point.x() - circle.x, point.y() - circle.y), circle.radius, radius * 1e-3)
         << "it is a circle";
   }
-  EXPECT_LT(track.front().Distance(track.back()), 0.05) << "a lap takes its time";
+  EXPECT_LT((track.front() - track.back()).norm(), 0.05) << "a lap takes its time";
 }
 
 TEST_F(Tricycle, PositiveSteeringTurnsLeft) {
   steer(0.3);
   drive(2);
   run(3);
-  EXPECT_GT(pose().Rot().Yaw(), 0.2);
+  EXPECT_GT(to_rpy(pose().orientation).z(), 0.2);
 }
 
 TEST_F(Tricycle, RollsAsFarAsItsWheelTurns) {
   constexpr double kWheelSpeed = 2;
   drive(kWheelSpeed);
   run(2);
-  const Vector3 start = pose().Pos();
+  const Vector3 start = pose().position;
   run(10);
   const double distance = kWheelRadius * kWheelSpeed * 10;
-  EXPECT_NEAR(pose().Pos().X() - start.X(), distance, distance * 5e-4);
+  EXPECT_NEAR(pose().position.x() - start.x(), distance, distance * 5e-4);
   // The wheel spins at the start, which turns the tricycle by less than a milliradian.
-  EXPECT_NEAR(pose().Pos().Y(), start.Y(), distance * 1e-3) << "straight on";
+  EXPECT_NEAR(pose().position.y(), start.y(), distance * 1e-3) << "straight on";
 }
 
 TEST_F(Tricycle, StandsStillWithoutACommand) {
   run(1);
-  const Vector3 start = pose().Pos();
+  const Vector3 start = pose().position;
   run(20);
-  EXPECT_LT(pose().Pos().Distance(start), 1e-3);
-  EXPECT_NEAR(pose().Pos().Z(), 0, 2e-3) << "on its wheels";
+  EXPECT_LT((pose().position - start).norm(), 1e-3);
+  EXPECT_NEAR(pose().position.z(), 0, 2e-3) << "on its wheels";
 }
 
 TEST_F(Tricycle, DrivesBackwardsToo) {
   drive(-2);
   run(3);
-  EXPECT_LT(pose().Pos().X(), -2.5 - 1);
+  EXPECT_LT(pose().position.x(), -2.5 - 1);
 }
 
 TEST(TricycleSonar, MeasuresTheDistanceToAWallAhead) {
@@ -148,21 +148,21 @@ TEST(BubbleRob, CirclesAboutItsRightWheelWhenOnlyTheLeftTurns) {
   constexpr double kRadius = 0.04;
   constexpr double kWheelSpeed = 3;
   for (int i = 0; i < 20; ++i) simulation.step();
-  const Vector3 right_before = world.pose(world.tree().find("/right_wheel")).Pos();
+  const Vector3 right_before = world.pose(world.tree().find("/right_wheel")).position;
   world.set_target_velocity(world.tree().find("/rosInterfaceControlledBubbleRobLeftMotor"), kWheelSpeed);
   std::vector<Vector3> track;
   const double lap = 2 * M_PI * kTrack / (kRadius * kWheelSpeed);
   while (simulation.time() < 1 + lap) {
     simulation.step();
-    track.push_back(world.pose(world.tree().find("/left_wheel")).Pos());
-    const Vector3 right = world.pose(world.tree().find("/right_wheel")).Pos();
-    EXPECT_LT(right.Distance(right_before), 5e-3) << "the right wheel stays";
+    track.push_back(world.pose(world.tree().find("/left_wheel")).position);
+    const Vector3 right = world.pose(world.tree().find("/right_wheel")).position;
+    EXPECT_LT((right - right_before).norm(), 5e-3) << "the right wheel stays";
   }
   const Circle circle = fit_circle(track);
   EXPECT_NEAR(circle.radius, kTrack, kTrack * 5e-3);
-  EXPECT_NEAR(circle.x, right_before.X(), 3e-3);
-  EXPECT_NEAR(circle.y, right_before.Y(), 3e-3);
-  EXPECT_LT(world.pose(robot).Rot().Yaw(), 0.5) << "nearly round: it turns to the right";
+  EXPECT_NEAR(circle.x, right_before.x(), 3e-3);
+  EXPECT_NEAR(circle.y, right_before.y(), 3e-3);
+  EXPECT_LT(to_rpy(world.pose(robot).orientation).z(), 0.5) << "nearly round: it turns to the right";
 }
 
 }  // namespace

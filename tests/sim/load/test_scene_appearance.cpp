@@ -51,7 +51,7 @@ TEST(Visual, OfAMeshShowsTheCollisionShapesInItsColor) {
       "<material><diffuse>0 1 0 1</diffuse></material></visual><collision name='c'><pose>0 0 1 0 0 0</pose>"
       "<geometry><box><size>1 2 3</size></box></geometry></collision>");
   ASSERT_EQ(read.size(), 1U);
-  EXPECT_EQ(read[0].pose.Pos(), Vector3(0, 0, 1));
+  EXPECT_EQ(read[0].pose.position, Vector3(0, 0, 1));
   EXPECT_EQ(std::get<Box>(read[0].geometry).size, Vector3(1, 2, 3));
   expect_color(read[0].material.diffuse, 0, 1, 0);
 }
@@ -61,9 +61,9 @@ TEST(Visual, PlaneOfAMovingModelEndsSomewhere) {
       "<visual name='v'><geometry><plane><normal>1 0 0</normal><size>2 4</size></plane></geometry></visual>";
   const auto moving = visuals(plane);
   const auto& box = std::get<Box>(moving.at(0).geometry);
-  EXPECT_EQ(box.size.X(), 2);
-  EXPECT_EQ(box.size.Y(), 4);
-  EXPECT_LT(moving[0].pose.Rot().RotateVector(Vector3::UnitZ).Distance(Vector3::UnitX), 1e-9);
+  EXPECT_EQ(box.size.x(), 2);
+  EXPECT_EQ(box.size.y(), 4);
+  EXPECT_LT(((moving[0].pose.orientation * Vector3::UnitZ()) - Vector3::UnitX()).norm(), 1e-9);
   EXPECT_TRUE(std::holds_alternative<Plane>(visuals(plane, true).at(0).geometry));
 }
 
@@ -115,7 +115,7 @@ TEST(Light, ShinesAsItsPoseTurnsIt) {
       "<direction>1 0 -1</direction><cast_shadows>true</cast_shadows><intensity>0.5</intensity></light>"
       "<light name='lamp' type='point'/>");
   ASSERT_EQ(read.lights.size(), 2U);
-  EXPECT_LT(read.lights[0].direction.Normalized().Distance(Vector3(0, 1, -1).Normalized()), 1e-9);
+  EXPECT_LT((read.lights[0].direction.normalized() - Vector3(0, 1, -1).normalized()).norm(), 1e-9);
   expect_color(read.lights[0].diffuse, 0.1F, 0.2F, 0.3F);
   EXPECT_TRUE(read.lights[0].cast_shadows);
 }

@@ -132,7 +132,7 @@ TEST_F(SceneFiles, LinksWithoutWeightFloat) {
   World world(scene, 0);
   const ObjectId floating = world.tree().find("/m");
   world.advance(1, 0.005);
-  EXPECT_EQ(world.pose(floating).Pos(), Vector3::Zero);
+  EXPECT_EQ(world.pose(floating).position, Vector3::Zero());
 }
 
 TEST_F(SceneFiles, OfBeforeSdformat13AreReadWithTheirLines) {
@@ -167,7 +167,7 @@ TEST_F(SceneFiles, OfUrdfAreLoadedWithTheirMeshesMaterialsAndExtensions) {
   const ModelDescription bot = read_scene(write("pkg/urdf/bot.urdf", urdf)).models.at(1);
   ASSERT_EQ(bot.links.size(), 2U) << "fixed joints are lumped";
   ASSERT_EQ(bot.links[0].visuals.size(), 1U);
-  EXPECT_EQ(std::get<Mesh>(bot.links[0].visuals[0].geometry).triangles->high.X(), 2);
+  EXPECT_EQ(std::get<Mesh>(bot.links[0].visuals[0].geometry).triangles->high.x(), 2);
   EXPECT_EQ(bot.links[1].collisions.at(0).surface.mu, 0.25);
   ASSERT_EQ(bot.joints.size(), 1U);
   EXPECT_EQ(bot.plugins.at(0).filename, "libgazebo_ros_diff_drive.so");

@@ -153,7 +153,7 @@ TEST(LoadedScene, FileWithAModelAloneGetsGround) {
                            "</link></model></sdf>");
   World world(read_scene(file.path()), 0);
   world.advance(2, 0.001);
-  EXPECT_NEAR(world.pose(world.tree().find("/Ball")).Pos().Z(), 0.5, 0.003);
+  EXPECT_NEAR(world.pose(world.tree().find("/Ball")).position.z(), 0.5, 0.003);
 }
 
 TEST(LoadedScene, HoldsWhatTheFileSays) {
@@ -195,10 +195,10 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
   EXPECT_EQ(a.mass, 4);
   EXPECT_EQ(a.centre_of_mass, Vector3(0.1, 0.2, 0.3));
   // The inertia's frame is rotated by a quarter turn about z: x and y are exchanged, and the product changes its sign.
-  EXPECT_LT(a.inertia_diagonal.Distance({2, 1, 2.5}), 1e-12);
-  EXPECT_LT(a.inertia_products.Distance({-0.1, 0, 0}), 1e-12);
+  EXPECT_LT((a.inertia_diagonal - Vector3(2, 1, 2.5)).norm(), 1e-12);
+  EXPECT_LT((a.inertia_products - Vector3(-0.1, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(std::get<Box>(a.collisions[0].geometry).size, Vector3(1, 2, 3));
-  EXPECT_EQ(a.collisions[0].pose.Pos(), Vector3(0, 0, 1));
+  EXPECT_EQ(a.collisions[0].pose.position, Vector3(0, 0, 1));
   EXPECT_EQ(a.collisions[0].surface.mu, 0.3);
   EXPECT_EQ(a.collisions[0].surface.collide_bitmask, 6);
   const auto& cone = std::get<SonarDescription>(a.sensors[0].kind);
@@ -206,10 +206,10 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
   EXPECT_EQ(cone.min_range, 0.1);
   EXPECT_EQ(cone.max_range, 2);
   EXPECT_NEAR(cone.half_angle, M_PI / 4, 1e-12);
-  EXPECT_LT(robot.links[1].pose.Pos().Distance({0, 0, 1}), 1e-12);
+  EXPECT_LT((robot.links[1].pose.position - Vector3(0, 0, 1)).norm(), 1e-12);
   const JointDescription& joint = robot.joints[0];
   EXPECT_EQ(joint.type, "revolute");
-  EXPECT_LT(joint.pose.Pos().Distance({0, 0, 1}), 1e-12) << "a joint's frame is its child's";
+  EXPECT_LT((joint.pose.position - Vector3(0, 0, 1)).norm(), 1e-12) << "a joint's frame is its child's";
   const AxisDescription& axis = joint.axes[0];
   EXPECT_EQ(axis.direction, Vector3(0, 0, -1));
   EXPECT_EQ(axis.motor, MotorMode::kPosition);
@@ -259,7 +259,7 @@ std::string sphere_model(const std::string& mass) {
 TEST(ModelText, IsReadAsAFileIs) {
   const ModelDescription ball = load_model(sphere_model("2"), kScenes);
   EXPECT_EQ(ball.name, "Ball");
-  EXPECT_EQ(ball.pose.Pos(), Vector3(1, 2, 3));
+  EXPECT_EQ(ball.pose.position, Vector3(1, 2, 3));
   EXPECT_EQ(ball.links.at(0).mass, 2);
   EXPECT_EQ(std::get<Sphere>(ball.links.at(0).collisions.at(0).geometry).radius, 0.5);
 }
@@ -278,7 +278,7 @@ TEST(ModelText, MayBeUrdf) {
   EXPECT_EQ(arm.name, "Arm");
   ASSERT_EQ(arm.links.size(), 2u);
   EXPECT_EQ(arm.links[0].mass, 3);
-  EXPECT_EQ(arm.links[1].pose.Pos(), Vector3(0, 0, 2));
+  EXPECT_EQ(arm.links[1].pose.position, Vector3(0, 0, 2));
   ASSERT_EQ(arm.joints.size(), 1u);
   EXPECT_EQ(arm.joints[0].axes.at(0).upper, 1);
 }

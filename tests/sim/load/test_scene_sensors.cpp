@@ -71,7 +71,7 @@ std::string camera(const std::string& type, const std::string& more = "") {
 
 TEST(Camera, OfAFileHoldsWhatTheFileSays) {
   const SensorDescription sensor = loaded(camera("camera", "<bubblesim:antialias>true</bubblesim:antialias>"));
-  EXPECT_EQ(sensor.pose.Pos(), Vector3(1, 2, 0));
+  EXPECT_EQ(sensor.pose.position, Vector3(1, 2, 0));
   const auto& read = std::get<CameraDescription>(sensor.kind);
   EXPECT_EQ(read.width, 64);
   EXPECT_EQ(read.height, 48);

@@ -11,13 +11,16 @@
 #include "meshes/made_meshes.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_file.hpp"
+#include "near.hpp"
 #include "scene_files.hpp"
 #include "surfaces.hpp"
 
 namespace bubblesim::test::test_meshes {
 namespace {
 
-using Point2 = ignition::math::Vector2d;
+using Point2 = Eigen::Vector2d;
+
+constexpr double kRounding = 1e-6;  // m, of single precision
 
 double volume(const TriangleMesh& mesh) {
   return enclosed_volume(mesh.triangles, [&](std::uint32_t i) {
@@ -27,10 +30,6 @@ double volume(const TriangleMesh& mesh) {
 }
 
 Vector3 size(const TriangleMesh& mesh) { return mesh.high - mesh.low; }
-
-void expect_near(const Vector3& found, const Vector3& expected, double tolerance = 1e-6) {
-  EXPECT_LT(found.Distance(expected), tolerance) << found << " instead of " << expected;
-}
 
 std::shared_ptr<const TriangleMesh> load(const MeshRequest& request) {
   MeshReader reader;
@@ -123,13 +122,13 @@ TEST(MeshFile, OfStlIsFlatAndWoundOutwards) {
   EXPECT_EQ(mesh->triangles.size(), 4U);
   EXPECT_TRUE(mesh->normals.empty());
   EXPECT_NEAR(volume(*mesh), 1.0 / 6, 1e-6);
-  expect_near(mesh->low, {0, 0, 0});
-  expect_near(mesh->high, {1, 1, 1});
+  expect_near(mesh->low, {0, 0, 0}, kRounding);
+  expect_near(mesh->high, {1, 1, 1}, kRounding);
 }
 
 TEST(MeshFile, IsScaledAlongItsAxes) {
   const TemporaryFile file("corner.stl", kStl);
-  expect_near(load({file.path(), {2, 3, 4}})->high, {2, 3, 4});
+  expect_near(load({file.path(), {2, 3, 4}})->high, {2, 3, 4}, kRounding);
 }
 
 TEST(MeshFile, MirroredByItsScaleStaysWoundOutwards) {
@@ -148,20 +147,20 @@ TEST(MeshFile, OfObjHasTheColorsOfItsMaterials) {
 
 TEST(MeshFile, GivesASubmeshByName) {
   const TemporaryFile file("parts.obj", kObj);
-  expect_near(load({file.path(), Vector3::One, "large"})->low, {10, 0, 0});
+  expect_near(load({file.path(), Vector3::Ones(), "large"})->low, {10, 0, 0}, kRounding);
 }
 
 TEST(MeshFile, CentersASubmeshIfAsked) {
   const TemporaryFile file("parts.obj", kObj);
-  const auto mesh = load({file.path(), Vector3::One, "large", true});
-  expect_near(mesh->low, {-1, -2, 0});
-  expect_near(mesh->high, {1, 2, 0});
+  const auto mesh = load({file.path(), Vector3::Ones(), "large", true});
+  expect_near(mesh->low, {-1, -2, 0}, kRounding);
+  expect_near(mesh->high, {1, 2, 0}, kRounding);
 }
 
 TEST(MeshFile, WithoutTheSubmeshAskedForTellsASimilarOne) {
   const TemporaryFile file("parts.obj", kObj);
   EXPECT_EQ(complaint([&] {
-              load({file.path(), Vector3::One, "lage"});
+              load({file.path(), Vector3::Ones(), "lage"});
             }),
             "has no submesh 'lage'; did you mean large?");
 }
@@ -169,8 +168,8 @@ TEST(MeshFile, WithoutTheSubmeshAskedForTellsASimilarOne) {
 TEST(MeshFile, OfColladaIsInMetersWithItsAxesAsTheyAre) {
   const TemporaryFile file("tri.dae", kDae);
   const auto mesh = load({file.path()});
-  expect_near(mesh->low, {0.254, 0, 0});
-  expect_near(mesh->high, {0.2794, 0, 0.0254});
+  expect_near(mesh->low, {0.254, 0, 0}, kRounding);
+  expect_near(mesh->high, {0.2794, 0, 0.0254}, kRounding);
   ASSERT_EQ(mesh->materials.size(), 1U);
   EXPECT_FLOAT_EQ(mesh->materials[0].diffuse.g, 0.4F);
 }
@@ -178,7 +177,7 @@ TEST(MeshFile, OfColladaIsInMetersWithItsAxesAsTheyAre) {
 TEST(MeshFile, OfColladaKnowsASubmeshByTheNameAndTheIdOfItsNodeAndGeometry) {
   const TemporaryFile file("tri.dae", kDae);
   for (const char* name : {"Part", "node-id", "tri", "tri-id"}) {
-    EXPECT_EQ(load({file.path(), Vector3::One, name})->triangles.size(), 1U) << name;
+    EXPECT_EQ(load({file.path(), Vector3::Ones(), name})->triangles.size(), 1U) << name;
   }
 }
 
@@ -223,8 +222,8 @@ TEST(MeshFile, OfWhichPartsAreTakenIsReadForEach) {
   const TemporaryFile file("two.obj", kObj);
   MeshReader reader;
   for (int i = 0; i < 2; ++i) {
-    expect_near(load_mesh({file.path(), Vector3::One, "large"}, reader)->low, {10, 0, 0});
-    expect_near(load_mesh({file.path(), Vector3::One, "small"}, reader)->high, {1, 1, 0});
+    expect_near(load_mesh({file.path(), Vector3::Ones(), "large"}, reader)->low, {10, 0, 0}, kRounding);
+    expect_near(load_mesh({file.path(), Vector3::Ones(), "small"}, reader)->high, {1, 1, 0}, kRounding);
   }
 }
 
@@ -238,7 +237,7 @@ TEST(MeshFile, IsKnownByItsContent) {
   for (std::size_t at = 0; (at = wider.find("vertex 1", at)) != std::string::npos; ++at) wider[at + 7] = '2';
   std::ofstream(file.path()) << wider;
   fs::last_write_time(file.path(), time);
-  expect_near(load({file.path()})->high, {2, 1, 1});
+  expect_near(load({file.path()})->high, {2, 1, 1}, kRounding);
 }
 
 TEST(MeshFile, ThatIsAFifoIsAnError) {
@@ -273,7 +272,7 @@ TEST_P(Extrusion, OfAConcaveOutlineEnclosesItsAreaTimesItsHeight) {
   if (GetParam()) std::reverse(outline.begin(), outline.end());
   const auto mesh = extrude({{outline, 0.5}});
   EXPECT_NEAR(volume(*mesh), 1.5, 1e-6);
-  expect_near(size(*mesh), {2, 2, 0.5});
+  expect_near(size(*mesh), {2, 2, 0.5}, kRounding);
 }
 
 INSTANTIATE_TEST_SUITE_P(EitherWayRound, Extrusion, ::testing::Bool());
@@ -304,16 +303,16 @@ TEST(Walls, StandOnTheDarkPixelsOfAPicture) {
   const Heights picture{3, 2, {0, 1, 1, 0, 0.5F, 1}};
   const auto mesh = raise_walls(picture, 0.1, 200, 2);
   EXPECT_NEAR(volume(*mesh), 3 * 0.1 * 0.1 * 2, 1e-6);
-  expect_near(mesh->low, {-0.15, -0.1, 0});
-  expect_near(mesh->high, {0.05, 0.1, 2});
+  expect_near(mesh->low, {-0.15, -0.1, 0}, kRounding);
+  expect_near(mesh->high, {0.05, 0.1, 2}, kRounding);
   EXPECT_EQ(complaint([&] { raise_walls(picture, 0.1, 0, 1); }), "has no pixel darker than the <threshold>");
 }
 
 TEST(Ground, HasItsUpperEdgeAtPlusYAndItsBrightestPixelAtItsHeight) {
   const Heights heights{3, 2, {0.5F, 0, 0, 0, 0, 0}};
   const auto mesh = raise_ground(heights, {4, 2, 3}, {10, 0, 1});
-  expect_near(mesh->low, {8, -1, 1});
-  expect_near(mesh->high, {12, 1, 4});
+  expect_near(mesh->low, {8, -1, 1}, kRounding);
+  expect_near(mesh->high, {12, 1, 4}, kRounding);
   const auto top = std::find_if(mesh->vertices.begin(), mesh->vertices.end(),
                                 [](const TriangleMesh::Point& point) { return point[2] > 3.9F; });
   ASSERT_NE(top, mesh->vertices.end());
@@ -326,7 +325,7 @@ TEST(Ground, OfALargePictureIsThinnedOutToItsEdges) {
   heights.values.back() = 1;
   const auto mesh = raise_ground(heights, {1, 1, 1});
   EXPECT_EQ(mesh->triangles.size(), 2U * 512 * 2);
-  EXPECT_EQ(mesh->high.Z(), 1);
+  EXPECT_EQ(mesh->high.z(), 1);
 }
 
 TEST(Tessellation, IsWoundOutwardsAndNearlyFillsItsEllipsoid) {

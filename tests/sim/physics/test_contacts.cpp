@@ -16,7 +16,7 @@ double height_after_a_second(ModelDescription dropped, ModelDescription ground =
   const std::string name = "/" + dropped.name;
   World world(scene({std::move(ground), std::move(dropped)}), 0);
   world.advance(1, kStep);
-  return world.pose(world.tree().find(name)).Pos().Z();
+  return world.pose(world.tree().find(name)).position.z();
 }
 
 TEST(Contact, EveryShapeRestsOnAPlaneAtItsHalfHeight) {
@@ -42,7 +42,7 @@ TEST(Contact, HoldsFarFromTheOrigin) {
 TEST(Contact, ShapesKeepTheirPlaceInALinkWithAnOffsetCentreOfMass) {
   ModelDescription box = model("Box", link_with(Box{{1, 1, 0.4}}), at(0, 0, 0.65));
   box.links[0].centre_of_mass = {0, 0, -0.3};
-  box.links[0].collisions[0].pose.Pos() = {0, 0, -0.4};
+  box.links[0].collisions[0].pose.position = {0, 0, -0.4};
   EXPECT_NEAR(height_after_a_second(box), 0.6, 2 * kLayer);
 }
 
@@ -51,18 +51,18 @@ class Slope : public ::testing::TestWithParam<double> {};
 /// The distance that a box slides down a slope in one second; `mu_box` and `mu_slope` are the frictions of the two
 /// surfaces.
 double slide(double angle, double mu_box, double mu_slope) {
-  const Quaternion tilt = turn(0, angle, 0);
-  ModelDescription slope = still(model("Slope", link_with(Box{{40, 4, 1}}, mu_slope), Pose(Vector3::Zero, tilt)));
+  const Quaternion tilt = from_rpy(0, angle, 0);
+  ModelDescription slope = still(model("Slope", link_with(Box{{40, 4, 1}}, mu_slope), Pose(Vector3::Zero(), tilt)));
   ModelDescription box = model("Box", link_with(Box{{0.4, 0.4, 0.2}}, mu_box));
   box.links[0].inertia_diagonal = Vector3(0.0167, 0.0167, 0.0267);
-  box.pose = Pose(tilt.RotateVector({0, 0, 0.6}), tilt);
+  box.pose = Pose(tilt * Vector3(0, 0, 0.6), tilt);
   World world(scene({slope, box}), 0);
   const ObjectId id = world.tree().find("/Box");
   world.advance(0.5, kStep);  // settles
   world.set_velocity(id, {});
-  const Vector3 before = world.pose(id).Pos();
+  const Vector3 before = world.pose(id).position;
   world.advance(1, kStep);
-  return (world.pose(id).Pos() - before).Dot(tilt.RotateVector(Vector3::UnitX));
+  return (world.pose(id).position - before).dot(tilt * Vector3::UnitX());
 }
 
 TEST_P(Slope, HoldsBelowTheAngleOfFriction) {
@@ -95,12 +95,12 @@ TEST(CollideBitmask, ShapesWithoutACommonBitPassThroughEachOther) {
 
 TEST(Contact, MovingModelsPushEachOther) {
   World world(scene({model("Left", link_with(Sphere{0.5}), at(-2, 0, 0)), model("Right", link_with(Sphere{0.5}))},
-                    Vector3::Zero),
+                    Vector3::Zero()),
               0);
   world.set_velocity(world.tree().find("/Left"), {{2, 0, 0}, {}});
   world.advance(2, kStep);
-  EXPECT_NEAR(world.velocity(world.tree().find("/Left")).linear.X(), 1, 0.06) << "inelastic: they share the momentum";
-  EXPECT_NEAR(world.velocity(world.tree().find("/Right")).linear.X(), 1, 0.06);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Left")).linear.x(), 1, 0.06) << "inelastic: they share the momentum";
+  EXPECT_NEAR(world.velocity(world.tree().find("/Right")).linear.x(), 1, 0.06);
 }
 
 /// Two overlapping balls of one model, and how far apart they move.
@@ -108,13 +108,13 @@ double distance_of_overlapping_links(bool self_collide, bool jointed) {
   ModelDescription pair = model("Pair", link_with(Sphere{0.5}));
   LinkDescription other = link_with(Sphere{0.5});
   other.name = "other";
-  other.pose.Pos() = {0.8, 0, 0};
+  other.pose.position = {0.8, 0, 0};
   pair.links.push_back(other);
   pair.self_collide = self_collide;
-  if (jointed) pair.joints.push_back(joint("prismatic", {axis(Vector3::UnitX)}, {}, "link", "other"));
-  World world(scene({pair}, Vector3::Zero), 0);
+  if (jointed) pair.joints.push_back(joint("prismatic", {axis(Vector3::UnitX())}, {}, "link", "other"));
+  World world(scene({pair}, Vector3::Zero()), 0);
   world.advance(3, kStep);
-  return world.pose(world.tree().find("/other")).Pos().Distance(world.pose(world.tree().find("/link")).Pos());
+  return (world.pose(world.tree().find("/other")).position - world.pose(world.tree().find("/link")).position).norm();
 }
 
 TEST(SelfCollide, LinksOfOneModelTouchOnlyWhenAskedFor) {
@@ -128,20 +128,20 @@ TEST(Contact, ShapesOfOneLinkDoNotTouch) {
   ModelDescription body = model("Body", link_with(Sphere{0.5}));
   body.links[0].collisions.push_back(shape(Box{{1, 1, 1}}));
   body.self_collide = true;
-  World world(scene({body}, Vector3::Zero), 0);
+  World world(scene({body}, Vector3::Zero()), 0);
   world.advance(1, kStep);
-  EXPECT_EQ(world.pose(world.tree().find("/Body")).Pos().Length(), 0);
+  EXPECT_EQ(world.pose(world.tree().find("/Body")).position.norm(), 0);
 }
 
 TEST(Contact, OverlappingShapesPartSlowly) {
   World world(
       scene({still(model("Rock", link_with(Box{{1, 1, 1}}))), model("Ball", link_with(Sphere{0.5}), at(0.6, 0, 0))},
-            Vector3::Zero),
+            Vector3::Zero()),
       0);
   const ObjectId ball = world.tree().find("/Ball");
   for (int i = 0; i < 400; ++i) {
     world.advance(kStep, kStep);
-    ASSERT_LT(world.velocity(ball).linear.Length(), 0.11) << "overlapping bodies must not fly apart";
+    ASSERT_LT(world.velocity(ball).linear.norm(), 0.11) << "overlapping bodies must not fly apart";
   }
 }
 

@@ -22,7 +22,7 @@ constexpr double kStep = 0.005;
 /// A body with the inertia of a solid cube of 0.2 m and 1 kg.
 ModelDescription solid(const std::string& name, const Geometry& geometry, const Pose& pose) {
   ModelDescription described = model(name, link_with(geometry), pose);
-  described.links[0].inertia_diagonal = Vector3::One * (0.2 * 0.2 / 6);
+  described.links[0].inertia_diagonal = Vector3::Ones() * (0.2 * 0.2 / 6);
   return described;
 }
 
@@ -41,8 +41,8 @@ double most_moved(const SceneDescription& described, double side) {
   for (int second = 0; second < 60; ++second) {
     world.advance(1, kStep);
     for (std::size_t i = 1; i < described.models.size(); ++i) {
-      const Vector3 place = world.pose(world.tree().find("/Cube" + std::to_string(i - 1))).Pos();
-      most = std::max(most, (place - Vector3(0, 0, side * (static_cast<double>(i) - 0.5))).Length());
+      const Vector3 place = world.pose(world.tree().find("/Cube" + std::to_string(i - 1))).position;
+      most = std::max(most, (place - Vector3(0, 0, side * (static_cast<double>(i) - 0.5))).norm());
     }
   }
   return most;
@@ -70,8 +70,8 @@ double energy(const World& world, int count) {
   for (int i = 0; i < count; ++i) {
     const ObjectId body = world.tree().find("/Body" + std::to_string(i));
     const Twist velocity = world.velocity(body);
-    sum += velocity.linear.SquaredLength() / 2 + 0.2 * 0.2 / 6 * velocity.angular.SquaredLength() / 2 +
-           9.81 * world.pose(body).Pos().Z();
+    sum += velocity.linear.squaredNorm() / 2 + 0.2 * 0.2 / 6 * velocity.angular.squaredNorm() / 2 +
+           9.81 * world.pose(body).position.z();
   }
   return sum;
 }
@@ -122,8 +122,8 @@ void drop(const std::vector<Geometry>& kinds, const ModelDescription& ground, un
   }
   for (int i = 0; i < kCount; ++i) {
     const ObjectId body = world.tree().find("/Body" + std::to_string(i));
-    EXPECT_GT(world.pose(body).Pos().Z(), 0.02) << i;
-    EXPECT_LT(world.velocity(body).linear.Length(), 0.5) << i;
+    EXPECT_GT(world.pose(body).position.z(), 0.02) << i;
+    EXPECT_LT(world.velocity(body).linear.norm(), 0.5) << i;
   }
 }
 
@@ -164,7 +164,7 @@ TEST(ConvexContact, AnLCollidesAsTheDescriptionSays) {
     fixed.links[0].collisions[0].mesh_collision = collision;
     World world(scene({fixed, solid("Ball", Sphere{0.02}, at(0.02, 0, 0.12))}), 0);
     world.advance(0.2, kStep);
-    return world.pose(world.tree().find("/Ball")).Pos().Z();
+    return world.pose(world.tree().find("/Ball")).position.z();
   };
   EXPECT_NEAR(height(MeshCollision::kAuto), -0.005 + 0.02, 0.003);
   EXPECT_NEAR(height(MeshCollision::kParts), -0.005 + 0.02, 0.003);
@@ -179,14 +179,14 @@ TEST(ConvexContact, DoesNotCatchOnTheEdgesInsideAGround) {
   World world(scene({still(model("Ground", link_with(Mesh{flat}))), slider}), 0);
   const ObjectId id = world.tree().find("/Slider");
   world.advance(0.2, kStep);
-  const Vector3 start = world.pose(id).Pos();
+  const Vector3 start = world.pose(id).position;
   world.set_velocity(id, {{4, 0, 0}, {}});
   double highest = 0;
   for (int i = 0; i < 300; ++i) {
     world.advance(kStep, kStep);
-    highest = std::max(highest, world.pose(id).Pos().Z());
+    highest = std::max(highest, world.pose(id).position.z());
   }
-  EXPECT_NEAR(world.pose(id).Pos().X() - start.X(), 4 * 4 / (2 * 0.5 * 9.81), 0.03);
+  EXPECT_NEAR(world.pose(id).position.x() - start.x(), 4 * 4 / (2 * 0.5 * 9.81), 0.03);
   EXPECT_LT(highest, 0.051);
 }
 

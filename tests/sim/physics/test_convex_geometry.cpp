@@ -21,10 +21,9 @@ namespace {
 ConvexPart part_of(const std::vector<Vector3>& corners) { return make_part(convex_hull(*hull_mesh(corners))); }
 
 Transform placed(const Pose& pose) {
-  const Quaternion& q = pose.Rot();
-  const auto to = [](const Vector3& v) { return Vec3{v.X(), v.Y(), v.Z()}; };
-  return {to(pose.Pos()), to(q.RotateVector(Vector3::UnitX)), to(q.RotateVector(Vector3::UnitY)),
-          to(q.RotateVector(Vector3::UnitZ))};
+  const Quaternion& q = pose.orientation;
+  const auto to = [](const Vector3& v) { return Vec3{v.x(), v.y(), v.z()}; };
+  return {to(pose.position), to(q * Vector3::UnitX()), to(q * Vector3::UnitY()), to(q * Vector3::UnitZ())};
 }
 
 double volume(const ConvexPart& part) {
@@ -80,7 +79,7 @@ TEST(CoreDistance, IsThatOfCubesAtCornersEdgesAndFaces) {
   const ConvexPart unit_cube = part_of(cube(1));
   const ConvexShape fixed(unit_cube, {});
   const auto distance = [&](const Vector3& offset) {
-    return core_distance(fixed, ConvexShape(unit_cube, placed(Pose(offset, Quaternion::Identity)))).distance;
+    return core_distance(fixed, ConvexShape(unit_cube, placed(Pose(offset, Quaternion())))).distance;
   };
   EXPECT_NEAR(distance({1.25, 0.3, 0.2}), 0.25, 1e-12);
   EXPECT_NEAR(distance({1.3, 0.1, 1.4}), 0.5, 1e-12);

@@ -18,7 +18,8 @@ namespace {
 constexpr double kMillisecond = 0.001;
 
 SceneDescription balls() {
-  return scene({model("First", link("link"), at(0, 0, 0)), model("Second", link("link"), at(5, 0, 0))}, Vector3::Zero);
+  return scene({model("First", link("link"), at(0, 0, 0)), model("Second", link("link"), at(5, 0, 0))},
+               Vector3::Zero());
 }
 
 /// Records its calls.
@@ -120,8 +121,8 @@ TEST_F(Devices, PushUntilTheirNextUpdate) {
   const ObjectId link = world.tree().find("/First/link");
   world.add_device(std::make_shared<Pusher>(link, 3.0), kNoObject, 100);
   for (int i = 0; i < 10; ++i) world.advance(0.1, kMillisecond);
-  EXPECT_NEAR(world.velocity(link).linear.X(), 3.0, 1e-9) << "3 N during 1 s on 1 kg";
-  EXPECT_NEAR(world.pose(link).Pos().X(), 1.5, 2e-3);
+  EXPECT_NEAR(world.velocity(link).linear.x(), 3.0, 1e-9) << "3 N during 1 s on 1 kg";
+  EXPECT_NEAR(world.pose(link).position.x(), 1.5, 2e-3);
 }
 
 TEST_F(Devices, CommandJoints) {
@@ -133,7 +134,7 @@ TEST_F(Devices, CommandJoints) {
           hinge, 100 * (wanted - servo_world.joint_position(hinge)) - 20 * servo_world.joint_velocity(hinge));
     }
   };
-  JointDescription hinge = joint("revolute", {axis(Vector3::UnitZ, MotorMode::kEffort)}, {}, "world");
+  JointDescription hinge = joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kEffort)}, {}, "world");
   World arm(jointed(hinge), 0);
   arm.add_device(std::make_shared<Servo>(), arm.tree().find("/Robot"), 1000);
   arm.advance(3, kMillisecond);

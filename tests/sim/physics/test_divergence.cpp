@@ -57,7 +57,7 @@ TEST(Divergence, ResetsTheWorldWhenTheSceneSaysSo) {
   Leaving leaving(OnDivergence::kReset);
   leaving.simulation.step();
   const World& world = leaving.simulation.world();
-  EXPECT_EQ(world.pose(world.tree().find("/Ball")).Pos(), Vector3(0, 0, 5));
+  EXPECT_EQ(world.pose(world.tree().find("/Ball")).position, Vector3(0, 0, 5));
   EXPECT_NO_THROW(leaving.simulation.step());
 }
 
@@ -70,7 +70,7 @@ TEST(Divergence, RemovesTheModelWhenTheSceneSaysSo) {
   const World& world = leaving.simulation.world();
   EXPECT_THROW(world.tree().find("/Ball"), NoSuchObject);
   for (int i = 0; i < 40; ++i) leaving.simulation.step();
-  EXPECT_NEAR(world.pose(world.tree().find("/Box")).Pos().Z(), 0.5, 0.01) << "the rest goes on";
+  EXPECT_NEAR(world.pose(world.tree().find("/Box")).position.z(), 0.5, 0.01) << "the rest goes on";
 }
 
 TEST(FallingOff, ModelsFarBelowEverythingAreRemoved) {
@@ -81,7 +81,7 @@ TEST(FallingOff, ModelsFarBelowEverythingAreRemoved) {
   const ObjectId low = simulation.world().tree().find("/Low");
   double last = 0;
   for (int i = 0; i < 400 && witness.removed.empty(); ++i) {
-    last = simulation.world().pose(low).Pos().Z();
+    last = simulation.world().pose(low).position.z();
     simulation.step();
   }
   EXPECT_EQ(witness.removed, std::vector<std::string>{"/Low"});
@@ -90,7 +90,7 @@ TEST(FallingOff, ModelsFarBelowEverythingAreRemoved) {
 }
 
 TEST(FallingOff, NothingFallsWithoutGravity) {
-  Simulation simulation(scene({model("Far", link_with(Sphere{0.5}))}, Vector3::Zero));
+  Simulation simulation(scene({model("Far", link_with(Sphere{0.5}))}, Vector3::Zero()));
   simulation.world().set_pose(simulation.world().tree().find("/Far"), at(0, 0, -5000));
   simulation.step();
   EXPECT_NO_THROW(simulation.world().tree().find("/Far"));

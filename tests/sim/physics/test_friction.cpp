@@ -19,8 +19,8 @@ constexpr double kDegree = M_PI / 180;
 LinkDescription solid(const std::string& name, double mass, const Vector3& size, const Vector3& position = {}) {
   LinkDescription made = link(name, position);
   made.mass = mass;
-  made.inertia_diagonal = Vector3(size.Y() * size.Y() + size.Z() * size.Z(), size.X() * size.X() + size.Z() * size.Z(),
-                                  size.X() * size.X() + size.Y() * size.Y()) *
+  made.inertia_diagonal = Vector3(size.y() * size.y() + size.z() * size.z(), size.x() * size.x() + size.z() * size.z(),
+                                  size.x() * size.x() + size.y() * size.y()) *
                           (mass / 12);
   return made;
 }
@@ -66,7 +66,7 @@ ModelDescription cart(const std::vector<Wheel>& wheels, double h, double mu, con
     turning.collisions.push_back(shape(Sphere{0.1}, mu));
     made.links.push_back(turning);
     JointDescription axle =
-        joint("revolute", {axis(Vector3::UnitY, wheel.driven ? MotorMode::kVelocity : MotorMode::kNone)},
+        joint("revolute", {axis(Vector3::UnitY(), wheel.driven ? MotorMode::kVelocity : MotorMode::kNone)},
               {wheel.x, wheel.y, 0.1}, "base", name);
     axle.name = name + "_joint";
     axle.axes[0].max_force = wheel.driven ? 100 : 0;
@@ -101,9 +101,9 @@ double deceleration(bool rear, bool far_heap) {
   }
   world.set_velocity(world.tree().find("/base"), {{4, 0, 0}, {}});
   world.advance(0.1, kStep);
-  const double before = world.velocity(id).linear.X();
+  const double before = world.velocity(id).linear.x();
   world.advance(0.5, kStep);
-  return (before - world.velocity(id).linear.X()) / 0.5;
+  return (before - world.velocity(id).linear.x()) / 0.5;
 }
 
 TEST(Braking, FollowsTheLoadsOfTheAxles) {
@@ -121,21 +121,21 @@ double ladder_slides(bool jointed, double mu, double angle) {
   const double length = 2;
   const Vector3 size{length, 0.3, 0.02};
   // Lower corner on the floor at x = 0, upper corner at the wall; rotated about y so that it rises along x.
-  const Quaternion turned(0, -angle, 0);
-  const Vector3 up = turned.RotateVector({0, 0, 1});
-  const Vector3 centre = turned.RotateVector({length / 2, 0, 0}) + up * 0.01;
+  const Quaternion turned = from_rpy(0, -angle, 0);
+  const Vector3 up = turned * Vector3(0, 0, 1);
+  const Vector3 centre = turned * Vector3(length / 2, 0, 0) + up * 0.01;
   const double overlap = 0.0005;
-  const Vector3 low = centre + turned.RotateVector({-length / 2, 0, -0.01});
-  const Vector3 top = centre + turned.RotateVector({length / 2, 0, -0.01});
+  const Vector3 low = centre + turned * Vector3(-length / 2, 0, -0.01);
+  const Vector3 top = centre + turned * Vector3(length / 2, 0, -0.01);
   ModelDescription ladder =
-      maybe_jointed(jointed, block(mu, 5, size, Pose(centre - Vector3(0, 0, low.Z() + overlap), turned)));
-  ModelDescription wall = still(model("Wall", link_with(Box{{0.2, 2, 6}}, mu), at(top.X() + 0.1 - overlap, 0, 3)));
+      maybe_jointed(jointed, block(mu, 5, size, Pose(centre - Vector3(0, 0, low.z() + overlap), turned)));
+  ModelDescription wall = still(model("Wall", link_with(Box{{0.2, 2, 6}}, mu), at(top.x() + 0.1 - overlap, 0, 3)));
   World world(scene({floor(mu), wall, ladder}), 0);
   const ObjectId id = world.tree().find("/Block");
   world.advance(0.5, kStep);
   const Pose before = world.pose(id);
   world.advance(2, kStep);
-  return (world.pose(id).Pos() - before.Pos()).Length();
+  return (world.pose(id).position - before.position).norm();
 }
 
 class BothSolvers : public testing::TestWithParam<bool> {};
@@ -159,9 +159,9 @@ TEST_P(BothSolvers, SlopeHoldsInAnyDirectionUpToTheAngleOfFriction) {
                   0);
       world.advance(0.5, kStep);
       const ObjectId id = world.tree().find("/Block");
-      const double before = world.velocity(id).linear.Length();
+      const double before = world.velocity(id).linear.norm();
       world.advance(1, kStep);
-      return world.velocity(id).linear.Length() - before;
+      return world.velocity(id).linear.norm() - before;
     };
     EXPECT_LT(slide(std::atan(mu) - 0.2 * kDegree), 1e-3) << direction;
     EXPECT_GT(slide(std::atan(mu) + 0.2 * kDegree), 1e-2) << direction;
@@ -176,12 +176,12 @@ TEST(LockedWheels, StopInTheSameDistanceInAnyDirection) {
     World world(scene({floor(), cart({{0.25, 0.2}, {0.25, -0.2}, {-0.25, 0.2}, {-0.25, -0.2}}, 0.15, 0.5)}), 0);
     world.advance(0.5, kStep);
     const ObjectId id = world.tree().find("/base");
-    const Vector3 before = world.pose(id).Pos();
+    const Vector3 before = world.pose(id).position;
     const Vector3 velocity = Vector3(std::cos(direction * kDegree), std::sin(direction * kDegree), 0) * 2;
     world.set_velocity(world.tree().find("/Cart"), {velocity, {}});
     world.advance(1, kStep);
     const double theory = 2 * 2 / (2 * 0.5 * kG);
-    EXPECT_NEAR((world.pose(id).Pos() - before).Length(), theory, 0.03 * theory) << direction;
+    EXPECT_NEAR((world.pose(id).position - before).norm(), theory, 0.03 * theory) << direction;
   }
 }
 
@@ -200,9 +200,9 @@ TEST(SkidSteer, TurnsAsTheConeSays) {
                                 (i % 2 == 0 ? -speed : speed) / 0.1);
     }
     world.advance(1, kStep);
-    const double before = world.pose(world.tree().find("/base")).Rot().Yaw();
+    const double before = to_rpy(world.pose(world.tree().find("/base")).orientation).z();
     world.advance(1, kStep);
-    const double turned = world.pose(world.tree().find("/base")).Rot().Yaw() - before;
+    const double turned = to_rpy(world.pose(world.tree().find("/base")).orientation).z() - before;
     // The moments of the forward friction (s - w b) and the sideways friction w a of each wheel cancel out.
     const double theory = speed * half_track / (half_base * half_base + half_track * half_track);
     EXPECT_NEAR(std::remainder(turned, 2 * M_PI), theory, 0.15 * theory) << half_base << " " << half_track;
@@ -225,7 +225,8 @@ double spin_with_castors(double mu, double step) {
     wheel.collisions.push_back(shape(Cylinder{0.1, 0.04}, mu));
     wheel.collisions.back().pose = Pose(0, 0, 0, M_PI / 2, 0, 0);
     robot.links.push_back(wheel);
-    JointDescription axle = joint("revolute", {axis(Vector3::UnitY, MotorMode::kVelocity)}, {0, y, 0.1}, "base", name);
+    JointDescription axle =
+        joint("revolute", {axis(Vector3::UnitY(), MotorMode::kVelocity)}, {0, y, 0.1}, "base", name);
     axle.name = name + "_joint";
     axle.axes[0].max_force = 20;
     robot.joints.push_back(axle);
@@ -235,10 +236,10 @@ double spin_with_castors(double mu, double step) {
   world.set_target_velocity(world.tree().find("/right_joint"), 5);
   world.advance(2, step);
   double turned = 0;
-  double before = world.pose(world.tree().find("/base")).Rot().Yaw();
+  double before = to_rpy(world.pose(world.tree().find("/base")).orientation).z();
   for (int i = 0; i < 10; ++i) {
     world.advance(0.2, step);
-    const double now = world.pose(world.tree().find("/base")).Rot().Yaw();
+    const double now = to_rpy(world.pose(world.tree().find("/base")).orientation).z();
     turned += std::remainder(now - before, 2 * M_PI);
     before = now;
   }
@@ -278,9 +279,9 @@ double slip_between_jaws(double load) {
   world.advance(0.5, kStep);
   world.remove_model(world.tree().find("/Table"));
   const ObjectId box = world.tree().find("/Block");
-  const double before = world.pose(box).Pos().Z();
+  const double before = world.pose(box).position.z();
   world.advance(5, kStep);
-  return before - world.pose(box).Pos().Z();
+  return before - world.pose(box).position.z();
 }
 
 TEST(Jaws, HoldABoxUpToTheirFriction) {

@@ -14,11 +14,11 @@ namespace bubblesim::test::test_impacts {
 namespace {
 
 constexpr double kStep = 0.005;
-const Vector3 kNoGravity = Vector3::Zero;
+const Vector3 kNoGravity = Vector3::Zero();
 
 ModelDescription body(const std::string& name, const Geometry& geometry, const Pose& pose, double restitution = 0) {
   ModelDescription made = model(name, link_with(geometry), pose);
-  made.links[0].inertia_diagonal = Vector3::One * 0.001;
+  made.links[0].inertia_diagonal = Vector3::Ones() * 0.001;
   Surface& surface = made.links[0].collisions[0].surface;
   surface.restitution = restitution;
   surface.bounce_threshold = 0.01;
@@ -42,7 +42,7 @@ Flight after_impact(const ModelDescription& obstacle, const Geometry& geometry, 
   const ObjectId id = world.tree().find("/Body");
   world.set_velocity(id, velocity);
   world.advance(0.2, kStep);
-  return {world.pose(id).Pos(), world.velocity(id)};
+  return {world.pose(id).position, world.velocity(id)};
 }
 
 std::vector<Geometry> small_bodies() {
@@ -62,9 +62,9 @@ TEST(Impact, ABodyAt20MetresASecondStopsAtAThinWall) {
     for (const Geometry& geometry : small_bodies()) {
       for (int i = 0; i < 10; ++i) {
         const Flight flight = after_impact(wall(obstacle), geometry, 0, 0.01 * i);
-        EXPECT_LT(flight.place.X(), 0) << "wall " << obstacle.index() << ", body " << geometry.index() << ", phase "
+        EXPECT_LT(flight.place.x(), 0) << "wall " << obstacle.index() << ", body " << geometry.index() << ", phase "
                                        << i;
-        EXPECT_LT(std::abs(flight.velocity.linear.X()), 1);
+        EXPECT_LT(std::abs(flight.velocity.linear.x()), 1);
       }
     }
   }
@@ -74,11 +74,11 @@ TEST(Impact, ABallBouncesWithItsFullSpeed) {
   for (const double restitution : {0.5, 0.9, 1.0}) {
     for (int i = 0; i < 10; ++i) {
       const Flight flight = after_impact(wall(Box{{0.05, 2, 2}}, restitution), Sphere{0.05}, restitution, 0.013 * i);
-      EXPECT_NEAR(flight.velocity.linear.X(), -20 * restitution, 1e-5);
+      EXPECT_NEAR(flight.velocity.linear.x(), -20 * restitution, 1e-5);
       // It loses less than a substep of its way.
       const double free = 1 + 0.013 * i - 0.05;
       const double expected = -0.05 - 20 * restitution * (0.2 - free / 20);
-      EXPECT_NEAR(flight.place.X(), expected, 20 * kStep);
+      EXPECT_NEAR(flight.place.x(), expected, 20 * kStep);
     }
   }
 }
@@ -92,8 +92,8 @@ TEST(Impact, KeepsTheEnergyOfAFallingBall) {
   const double before = 9.81 * 50;
   for (int i = 0; i < 400; ++i) {
     world.advance(0.05, kStep);
-    const double v = world.velocity(ball).linear.Z();
-    const double now = v * v / 2 + 9.81 * world.pose(ball).Pos().Z();
+    const double v = world.velocity(ball).linear.z();
+    const double now = v * v / 2 + 9.81 * world.pose(ball).position.z();
     EXPECT_NEAR(now, before, 0.01 * before) << 0.05 * i;
   }
 }
@@ -109,8 +109,8 @@ TEST(Impact, TwoFastBallsMeet) {
     world.set_velocity(a, {{30, 0, 0}, {}});
     world.set_velocity(b, {{-20, 0, 0}, {}});
     world.advance(0.1, kStep);
-    EXPECT_NEAR(world.velocity(a).linear.X(), -20, 1e-6);
-    EXPECT_NEAR(world.velocity(b).linear.X(), 30, 1e-6);
+    EXPECT_NEAR(world.velocity(a).linear.x(), -20, 1e-6);
+    EXPECT_NEAR(world.velocity(b).linear.x(), 30, 1e-6);
   }
 }
 
@@ -124,8 +124,8 @@ TEST(Impact, APlateThatMovesIsHit) {
   world.set_velocity(ball, {{20, 0, 0}, {}});
   world.set_velocity(plate, {{-10, 0, 0}, {}});
   world.advance(0.2, kStep);
-  EXPECT_NEAR(world.velocity(ball).linear.X() + world.velocity(plate).linear.X(), 10, 1e-9);
-  EXPECT_LT(world.pose(ball).Pos().X(), world.pose(plate).Pos().X());
+  EXPECT_NEAR(world.velocity(ball).linear.x() + world.velocity(plate).linear.x(), 10, 1e-9);
+  EXPECT_LT(world.pose(ball).position.x(), world.pose(plate).position.x());
 }
 
 TEST(Impact, ASpinningRodStopsAtAPost) {
@@ -138,7 +138,7 @@ TEST(Impact, ASpinningRodStopsAtAPost) {
   world.set_velocity(rod, {{}, {0, 0, 40}});
   for (int i = 0; i < 40; ++i) {
     world.advance(kStep, kStep);
-    const double spin = world.velocity(rod).angular.Z();
+    const double spin = world.velocity(rod).angular.z();
     if (spin < 20) return;  // it hit the post
   }
   FAIL() << "the rod passed through the post";
@@ -149,10 +149,10 @@ TEST(Impact, AJointedLinkStopsAtAWallAndItsJointStaysClosed) {
   ModelDescription hammer = model("Hammer", link("base"), at(0, 0, 1));
   LinkDescription head = link("arm", {0, 0, -0.6});
   head.collisions.push_back(shape(Box{{0.06, 0.06, 0.06}}));
-  head.inertia_diagonal = Vector3::One * 0.001;
+  head.inertia_diagonal = Vector3::Ones() * 0.001;
   hammer.links.push_back(head);
   hammer.joints.push_back(joint("revolute", {axis({0, 1, 0})}, {0, 0, 0.6}));
-  hammer.joints[0].pose = Pose::Zero;
+  hammer.joints[0].pose = Pose();
   JointDescription anchor = joint("fixed", {}, {}, "world", "base");
   anchor.name = "anchor";
   hammer.joints.push_back(anchor);
@@ -161,10 +161,10 @@ TEST(Impact, AJointedLinkStopsAtAWallAndItsJointStaysClosed) {
   world.set_velocity(arm, {{-30, 0, 0}, {0, 50, 0}});
   for (int i = 0; i < 20; ++i) {
     world.advance(kStep, kStep);
-    const Vector3 at_head = world.pose(arm).Pos();
-    EXPECT_GT(at_head.X(), -0.36) << i;
+    const Vector3 at_head = world.pose(arm).position;
+    EXPECT_GT(at_head.x(), -0.36) << i;
     // A quarter of a radian in a substep opens the joint by 1 - cos along the tangent.
-    EXPECT_NEAR((at_head - Vector3(0, 0, 1)).Length(), 0.6, 0.04) << i;
+    EXPECT_NEAR((at_head - Vector3(0, 0, 1)).norm(), 0.6, 0.04) << i;
   }
 }
 
@@ -182,7 +182,7 @@ TEST(Impact, ABoxThatSlidesFastDoesNotCatchOnLevelTiles) {
   world.advance(0.2, kStep);
   world.set_velocity(id, {{15, 0, 0}, {}});
   world.advance(4, kStep);
-  EXPECT_NEAR(world.pose(id).Pos().X(), 15 * 15 / (2 * 0.5 * 9.81), 1);
+  EXPECT_NEAR(world.pose(id).position.x(), 15 * 15 / (2 * 0.5 * 9.81), 1);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double kStep = 0.005;
 struct Jointed {
   explicit Jointed(JointDescription description) : world(jointed(std::move(description)), 0) {}
 
-  Pose arm_in_base() const { return world.pose(base).Inverse() * world.pose(arm); }
+  Pose arm_in_base() const { return world.pose(base).inverse() * world.pose(arm); }
 
   World world;
   ObjectId base = world.tree().find("/base");
@@ -26,9 +26,9 @@ TEST(JointPosition, IsZeroAsBuiltEvenWhenTheLinksAreTurned) {
   for (const char* type : {"revolute", "continuous", "prismatic"}) {
     ModelDescription robot = model("Robot", link("base"), Pose(1, 2, 3, 0.3, -0.2, 1));
     robot.links.push_back(link("arm", {0.5, 0, 0}));
-    robot.links[1].pose.Rot() = turn(0.7, 0.1, -2);
+    robot.links[1].pose.orientation = from_rpy(0.7, 0.1, -2);
     robot.joints.push_back(joint(type, {axis({0, 0.6, 0.8})}, {0.2, 0, 0}));
-    const World world(scene({robot}, Vector3::Zero), 0);
+    const World world(scene({robot}, Vector3::Zero()), 0);
     EXPECT_NEAR(world.joint_position(world.tree().find("/joint")), 0, 1e-12) << type;
   }
 }
@@ -41,7 +41,7 @@ TEST_P(TurningJoint, PositiveVelocityTurnsTheChildAboutPlusAxis) {
   pair.world.set_target_velocity(pair.joint, 0.5);
   pair.world.advance(2, kStep);
   const bool fixed_parent = std::string(parent) == "world";
-  const Pose from = fixed_parent ? Pose::Zero : pair.world.pose(pair.base);
+  const Pose from = fixed_parent ? Pose() : pair.world.pose(pair.base);
   const double turned = turn_about(direction, from, pair.world.pose(pair.arm));
   EXPECT_NEAR(turned, 1, 0.01);
   EXPECT_NEAR(pair.world.joint_position(pair.joint), turned, 1e-6);
@@ -51,7 +51,7 @@ TEST_P(TurningJoint, PositiveVelocityTurnsTheChildAboutPlusAxis) {
 INSTANTIATE_TEST_SUITE_P(
     Kinds, TurningJoint,
     ::testing::Combine(::testing::Values("revolute", "continuous"), ::testing::Values("base", "world"),
-                       ::testing::Values(Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ, Vector3(0, 0.6, -0.8))));
+                       ::testing::Values(Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ(), Vector3(0, 0.6, -0.8))));
 
 class SlidingJoint : public ::testing::TestWithParam<std::tuple<const char*, Vector3>> {};
 
@@ -61,35 +61,36 @@ TEST_P(SlidingJoint, PositiveVelocityMovesTheChildAlongPlusAxis) {
   pair.world.set_target_velocity(pair.joint, 0.5);
   pair.world.advance(2, kStep);
   const bool fixed_parent = std::string(parent) == "world";
-  const Pose from = fixed_parent ? Pose::Zero : pair.world.pose(pair.base);
-  const Vector3 moved = (from.Inverse() * pair.world.pose(pair.arm)).Pos();
-  EXPECT_LT((moved - direction).Length(), 0.01);
-  EXPECT_NEAR(pair.world.joint_position(pair.joint), moved.Dot(direction), 1e-6);
+  const Pose from = fixed_parent ? Pose() : pair.world.pose(pair.base);
+  const Vector3 moved = (from.inverse() * pair.world.pose(pair.arm)).position;
+  EXPECT_LT((moved - direction).norm(), 0.01);
+  EXPECT_NEAR(pair.world.joint_position(pair.joint), moved.dot(direction), 1e-6);
   EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 0.5, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parents, SlidingJoint,
                          ::testing::Combine(::testing::Values("base", "world"),
-                                            ::testing::Values(Vector3::UnitX, Vector3::UnitZ, Vector3(0, 0.6, -0.8))));
+                                            ::testing::Values(Vector3::UnitX(), Vector3::UnitZ(),
+                                                              Vector3(0, 0.6, -0.8))));
 
 TEST(JointFrame, TurnsItsAxisAlong) {
-  JointDescription turned = joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)});
-  turned.pose.Rot() = turn(-M_PI / 2, 0, 0);  // z of the joint is y of the model
+  JointDescription turned = joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)});
+  turned.pose.orientation = from_rpy(-M_PI / 2, 0, 0);  // z of the joint is y of the model
   Jointed pair(turned);
   pair.world.set_target_velocity(pair.joint, 0.5);
   pair.world.advance(1, kStep);
-  EXPECT_NEAR(turn_about(Vector3::UnitY, pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0.5, 0.01);
+  EXPECT_NEAR(turn_about(Vector3::UnitY(), pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0.5, 0.01);
 }
 
 JointDescription steered_wheel(MotorMode steering, MotorMode rolling) {
-  return joint("revolute2", {axis(Vector3::UnitZ, steering), axis(Vector3::UnitY, rolling)});
+  return joint("revolute2", {axis(Vector3::UnitZ(), steering), axis(Vector3::UnitY(), rolling)});
 }
 
 TEST(Revolute2, FirstAxisTurnsTheChildPositively) {
   Jointed pair(steered_wheel(MotorMode::kVelocity, MotorMode::kVelocity));
   pair.world.set_target_velocity(pair.joint, 0.5, 0);
   pair.world.advance(2, kStep);
-  const double turned = turn_about(Vector3::UnitZ, pair.world.pose(pair.base), pair.world.pose(pair.arm));
+  const double turned = turn_about(Vector3::UnitZ(), pair.world.pose(pair.base), pair.world.pose(pair.arm));
   EXPECT_NEAR(turned, 1, 0.01);
   EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), turned, 1e-4);
   EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 0), 0.5, 1e-4);
@@ -100,7 +101,7 @@ TEST(Revolute2, SecondAxisTurnsTheChildPositively) {
   Jointed pair(steered_wheel(MotorMode::kVelocity, MotorMode::kVelocity));
   pair.world.set_target_velocity(pair.joint, 0.5, 1);
   pair.world.advance(2, kStep);
-  const double turned = turn_about(Vector3::UnitY, pair.world.pose(pair.base), pair.world.pose(pair.arm));
+  const double turned = turn_about(Vector3::UnitY(), pair.world.pose(pair.base), pair.world.pose(pair.arm));
   EXPECT_NEAR(turned, 1, 0.01);
   EXPECT_NEAR(pair.world.joint_position(pair.joint, 1), turned, 1e-4);
   EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 1), 0.5, 1e-4);
@@ -114,8 +115,8 @@ TEST(Revolute2, SteersByPositionWhileItRolls) {
   pair.world.advance(3, kStep);
   EXPECT_NEAR(pair.world.joint_position(pair.joint, 0), 0.4, 1e-3);
   EXPECT_NEAR(pair.world.joint_velocity(pair.joint, 1), 2, 1e-3);
-  const Vector3 axle = pair.arm_in_base().Rot().RotateVector(Vector3::UnitY);
-  EXPECT_NEAR(std::atan2(-axle.X(), axle.Y()), 0.4, 1e-3) << "the axle points where the steering says";
+  const Vector3 axle = pair.arm_in_base().orientation * Vector3::UnitY();
+  EXPECT_NEAR(std::atan2(-axle.x(), axle.y()), 0.4, 1e-3) << "the axle points where the steering says";
 }
 
 TEST(Revolute2, EffortTurnsEachAxisPositively) {
@@ -158,13 +159,13 @@ TEST(Revolute2, SecondAxisIsAnObjectOfItsOwn) {
 TEST(BallJoint, LeavesAllTurnsFreeAndHoldsThePoint) {
   Jointed pair(joint("ball", {}, {0.5, 0, 0}));
   const Vector3 anchor(0.5, 0, 0);
-  pair.world.set_velocity(pair.arm, {Vector3::Zero, {0.3, 0.7, 1.1}});
+  pair.world.set_velocity(pair.arm, {Vector3::Zero(), {0.3, 0.7, 1.1}});
   pair.world.advance(1, kStep);
-  const Vector3 of_base = pair.world.pose(pair.base).CoordPositionAdd(anchor);
-  const Vector3 of_arm = pair.world.pose(pair.arm).CoordPositionAdd(anchor);
-  EXPECT_LT((of_base - of_arm).Length(), 2e-3);
-  for (const Vector3& direction : {Vector3::UnitX, Vector3::UnitY, Vector3::UnitZ}) {
-    EXPECT_GT(std::abs(turn_about(direction, pair.world.pose(pair.base), pair.world.pose(pair.arm))), 0.02);
+  const Vector3 of_base = pair.world.pose(pair.base) * anchor;
+  const Vector3 of_arm = pair.world.pose(pair.arm) * anchor;
+  EXPECT_LT((of_base - of_arm).norm(), 2e-3);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GT(std::abs(turn_about(Vector3::Unit(axis), pair.world.pose(pair.base), pair.world.pose(pair.arm))), 0.02);
   }
 }
 
@@ -173,9 +174,9 @@ TEST(FixedJoint, MovesBothLinksAsOne) {
   const Pose before = pair.arm_in_base();
   pair.world.set_velocity(pair.arm, {{1, 0, 0}, {0, 0, 1}});
   pair.world.advance(1, kStep);
-  EXPECT_LT((pair.arm_in_base().Pos() - before.Pos()).Length(), 1e-3);
-  EXPECT_NEAR(turn_about(Vector3::UnitZ, pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0, 1e-3);
-  EXPECT_NEAR(pair.world.velocity(pair.base).linear.X(), 0.5, 0.01) << "two equal masses share the momentum";
+  EXPECT_LT((pair.arm_in_base().position - before.position).norm(), 1e-3);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ(), pair.world.pose(pair.base), pair.world.pose(pair.arm)), 0, 1e-3);
+  EXPECT_NEAR(pair.world.velocity(pair.base).linear.x(), 0.5, 0.01) << "two equal masses share the momentum";
 }
 
 TEST(FixedJoint, HoldsALinkInTheWorld) {
@@ -183,7 +184,7 @@ TEST(FixedJoint, HoldsALinkInTheWorld) {
   described.gravity = {0, 0, -9.81};
   World world(described, 0);
   world.advance(1, kStep);
-  EXPECT_LT(world.pose(world.tree().find("/arm")).Pos().Length(), 1e-6);
+  EXPECT_LT(world.pose(world.tree().find("/arm")).position.norm(), 1e-6);
 }
 
 TEST(JointWithoutAxes, HasNoPosition) {
@@ -194,15 +195,15 @@ TEST(JointWithoutAxes, HasNoPosition) {
 }
 
 TEST(JointPose, IsAttachedToTheParentAndItsMovingFrameToTheChild) {
-  Jointed pair(joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {1, 0, 0}));
-  EXPECT_LT((pair.world.pose(pair.joint).Pos() - Vector3(1, 0, 0)).Length(), 1e-12);
+  Jointed pair(joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {1, 0, 0}));
+  EXPECT_LT((pair.world.pose(pair.joint).position - Vector3(1, 0, 0)).norm(), 1e-12);
   pair.world.set_target_velocity(pair.joint, 0.5);
   pair.world.advance(2, kStep);
   const Pose still = pair.world.pose(pair.joint);
   const Pose moving = pair.world.joint_child_pose(pair.joint);
-  EXPECT_LT((still.Pos() - moving.Pos()).Length(), 1e-3);
-  EXPECT_NEAR(turn_about(Vector3::UnitZ, pair.world.pose(pair.base), still), 0, 1e-9);
-  EXPECT_NEAR(turn_about(Vector3::UnitZ, still, moving), pair.world.joint_position(pair.joint), 1e-6);
+  EXPECT_LT((still.position - moving.position).norm(), 1e-3);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ(), pair.world.pose(pair.base), still), 0, 1e-9);
+  EXPECT_NEAR(turn_about(Vector3::UnitZ(), still, moving), pair.world.joint_position(pair.joint), 1e-6);
 }
 
 }  // namespace

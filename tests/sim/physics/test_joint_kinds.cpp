@@ -26,12 +26,11 @@ INSTANTIATE_TEST_SUITE_P(Parents, Universal, ::testing::Values("base", "world"))
 
 TEST_P(Universal, EachAxisTurnsTheChildPositively) {
   for (const int driven : {0, 1}) {
-    Jointed pair(joint("universal", {motor(Vector3::UnitZ), motor(Vector3::UnitY)}, {}, GetParam()));
+    Jointed pair(joint("universal", {motor(Vector3::UnitZ()), motor(Vector3::UnitY())}, {}, GetParam()));
     pair.world.set_target_velocity(pair.joint, 0.5, driven);
     pair.world.advance(2, kStep);
-    const Pose from =
-        GetParam() == std::string("world") ? Pose::Zero : pair.world.pose(pair.world.tree().find("/base"));
-    const Vector3 direction = driven == 0 ? Vector3::UnitZ : Vector3::UnitY;
+    const Pose from = GetParam() == std::string("world") ? Pose() : pair.world.pose(pair.world.tree().find("/base"));
+    const Vector3 direction = driven == 0 ? Vector3::UnitZ() : Vector3::UnitY();
     const double turned = turn_about(direction, from, pair.world.pose(pair.arm));
     EXPECT_NEAR(turned, 1, 0.01);
     EXPECT_NEAR(pair.world.joint_position(pair.joint, driven), turned, 1e-4);
@@ -41,7 +40,8 @@ TEST_P(Universal, EachAxisTurnsTheChildPositively) {
 }
 
 TEST_P(Universal, SecondAxisTurnsAlongWithTheFirst) {
-  Jointed pair(joint("universal", {axis(Vector3::UnitZ, MotorMode::kPosition), motor(Vector3::UnitY)}, {}, GetParam()));
+  Jointed pair(
+      joint("universal", {axis(Vector3::UnitZ(), MotorMode::kPosition), motor(Vector3::UnitY())}, {}, GetParam()));
   pair.world.set_target_position(pair.joint, M_PI / 2, 0);  // the second axis then points along -x
   pair.world.advance(2, kStep);
   pair.world.set_target_velocity(pair.joint, 0.3, 1);
@@ -49,12 +49,13 @@ TEST_P(Universal, SecondAxisTurnsAlongWithTheFirst) {
   const ObjectId base = pair.world.tree().find("/base");
   const bool fixed = GetParam() == std::string("world");
   const Vector3 spin =
-      pair.world.velocity(pair.arm).angular - (fixed ? Vector3::Zero : pair.world.velocity(base).angular);
-  EXPECT_NEAR((fixed ? spin : pair.world.pose(base).Rot().RotateVectorReverse(spin)).X(), -0.3, 0.01);
+      pair.world.velocity(pair.arm).angular - (fixed ? Vector3::Zero() : pair.world.velocity(base).angular);
+  const Quaternion axes = fixed ? Quaternion() : pair.world.pose(base).orientation;
+  EXPECT_NEAR((axes.conjugate() * spin).x(), -0.3, 0.01);
 }
 
 TEST_P(Universal, LimitsHold) {
-  JointDescription described = joint("universal", {motor(Vector3::UnitZ), motor(Vector3::UnitY)}, {}, GetParam());
+  JointDescription described = joint("universal", {motor(Vector3::UnitZ()), motor(Vector3::UnitY())}, {}, GetParam());
   described.axes[1].lower = -0.2;
   described.axes[1].upper = 0.4;
   Jointed pair(described);
@@ -66,7 +67,7 @@ TEST_P(Universal, LimitsHold) {
 }
 
 JointDescription screw(double lead, const std::string& parent = "world") {
-  JointDescription described = joint("screw", {motor(Vector3::UnitZ)}, {}, parent);
+  JointDescription described = joint("screw", {motor(Vector3::UnitZ())}, {}, parent);
   described.screw_lead = lead;
   return described;
 }
@@ -80,10 +81,11 @@ TEST(Screw, MovesByItsLeadForEachTurn) {
       const double turns = pair.world.joint_position(pair.joint) / (2 * M_PI);
       EXPECT_NEAR(turns, 3, 0.1);
       const bool fixed = parent == std::string("world");
-      const Pose base = fixed ? Pose::Zero : pair.world.pose(pair.world.tree().find("/base"));
-      EXPECT_NEAR((base.Inverse() * pair.world.pose(pair.arm)).Pos().Z(), turns * lead, std::abs(lead) * 1e-3) << lead;
+      const Pose base = fixed ? Pose() : pair.world.pose(pair.world.tree().find("/base"));
+      EXPECT_NEAR((base.inverse() * pair.world.pose(pair.arm)).position.z(), turns * lead, std::abs(lead) * 1e-3)
+          << lead;
       EXPECT_NEAR(
-          std::remainder(turn_about(Vector3::UnitZ, base, pair.world.pose(pair.arm)) - turns * 2 * M_PI, 2 * M_PI), 0,
+          std::remainder(turn_about(Vector3::UnitZ(), base, pair.world.pose(pair.arm)) - turns * 2 * M_PI, 2 * M_PI), 0,
           1e-3)
           << lead;
       EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 2 * M_PI, 1e-3);
@@ -101,7 +103,7 @@ TEST(Screw, FallsAsItsInertiaLetsIt) {
   // m g = (m + I / p^2) a, with the lead p per radian, here for 1 kg and 1 kg m^2.
   const double slope = kLead / (2 * M_PI);
   const double acceleration = 9.81 / (1 + 1 / (slope * slope));
-  EXPECT_NEAR(pair.world.velocity(pair.arm).linear.Z(), -acceleration, acceleration * 1e-3);
+  EXPECT_NEAR(pair.world.velocity(pair.arm).linear.z(), -acceleration, acceleration * 1e-3);
 }
 
 TEST(Screw, LimitsCountWholeTurns) {
@@ -126,7 +128,7 @@ SceneDescription geared(double ratio, const Vector3& first, const Vector3& secon
   for (int i = 0; i < 3; ++i) box.joints[static_cast<std::size_t>(i)].name = "joint" + std::to_string(i);
   box.joints[2].gearbox_ratio = ratio;
   box.joints[2].gearbox_reference = reference;
-  return scene({box}, Vector3::Zero);
+  return scene({box}, Vector3::Zero());
 }
 
 struct Gears {
@@ -134,12 +136,13 @@ struct Gears {
   Vector3 first, second, apart;
 };
 class Gearbox : public ::testing::TestWithParam<Gears> {};
-INSTANTIATE_TEST_SUITE_P(Places, Gearbox,
-                         ::testing::Values(Gears{"world", Vector3::UnitZ, Vector3::UnitZ, {0.4, 0, 0}},
-                                           Gears{"base", Vector3::UnitY, Vector3::UnitY, {0.3, 0, 0.1}},
-                                           Gears{"base", Vector3::UnitZ, Vector3::UnitX, {0.2, 0, 0}},
-                                           Gears{"world", Vector3::UnitX, Vector3::UnitX, {0.5, 0, 0}},  // on one line
-                                           Gears{"base", Vector3::UnitZ, Vector3::UnitZ, {0, 0, 0.1}}));
+INSTANTIATE_TEST_SUITE_P(
+    Places, Gearbox,
+    ::testing::Values(Gears{"world", Vector3::UnitZ(), Vector3::UnitZ(), {0.4, 0, 0}},
+                      Gears{"base", Vector3::UnitY(), Vector3::UnitY(), {0.3, 0, 0.1}},
+                      Gears{"base", Vector3::UnitZ(), Vector3::UnitX(), {0.2, 0, 0}},
+                      Gears{"world", Vector3::UnitX(), Vector3::UnitX(), {0.5, 0, 0}},  // on one line
+                      Gears{"base", Vector3::UnitZ(), Vector3::UnitZ(), {0, 0, 0.1}}));
 
 TEST_P(Gearbox, ChildTurnsMinusRatioTimesTheParent) {
   const Gears& gears = GetParam();
@@ -189,12 +192,12 @@ TEST_P(Gearbox, GoesWithAModelThatIsPutElsewhere) {
   world.set_pose(world.tree().find("/Box"), Pose(100, -50, 3, 0.4, 1, -2));
   world.advance(1, kStep);
   EXPECT_NEAR(world.joint_velocity(world.tree().find("/joint1")), -2, 0.02);
-  EXPECT_LT((world.pose(world.tree().find("/Box")).Pos() - Vector3(100, -50, 3)).Length(), 0.05);
+  EXPECT_LT((world.pose(world.tree().find("/Box")).position - Vector3(100, -50, 3)).norm(), 0.05);
 }
 
 /// `arm` on one axis against the world, 1 kg and 1 kg m^2.
 Jointed sprung(const char* type, double stiffness, double damping, double reference) {
-  JointDescription described = joint(type, {axis(Vector3::UnitZ)}, {}, "world");
+  JointDescription described = joint(type, {axis(Vector3::UnitZ())}, {}, "world");
   described.axes[0].spring_stiffness = stiffness;
   described.axes[0].damping = damping;
   described.axes[0].spring_reference = reference;
@@ -230,7 +233,7 @@ TEST_P(Spring, OfAnyStiffnessStaysStable) {
 }
 
 TEST_P(Spring, HoldsAWeightWhereTheForcesBalance) {
-  SceneDescription described = jointed(joint("prismatic", {axis(Vector3::UnitZ)}, {}, "world"));
+  SceneDescription described = jointed(joint("prismatic", {axis(Vector3::UnitZ())}, {}, "world"));
   described.gravity = {0, 0, -9.81};
   described.models[0].joints[0].axes[0].spring_stiffness = 200;
   described.models[0].joints[0].axes[0].damping = 20;
@@ -249,7 +252,7 @@ class Motorised : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, Motorised, ::testing::Values("revolute", "prismatic"));
 
 TEST_P(Motorised, FrictionTakesItsShareOfTheForce) {
-  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ)}, {}, "world");
+  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ())}, {}, "world");
   described.axes[0].max_force = 3;
   described.axes[0].friction = 1;
   Jointed pair(described);
@@ -259,7 +262,7 @@ TEST_P(Motorised, FrictionTakesItsShareOfTheForce) {
 }
 
 TEST_P(Motorised, FrictionHoldsAWeakMotor) {
-  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ)}, {}, "world");
+  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ())}, {}, "world");
   described.axes[0].max_force = 1;
   described.axes[0].friction = 2;
   Jointed pair(described);
@@ -269,7 +272,7 @@ TEST_P(Motorised, FrictionHoldsAWeakMotor) {
 }
 
 TEST_P(Motorised, DampingSetsTheSpeedOfAWeakMotor) {
-  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ)}, {}, "world");
+  JointDescription described = joint(GetParam(), {motor(Vector3::UnitZ())}, {}, "world");
   described.axes[0].max_force = 3;
   described.axes[0].damping = 2;
   Jointed pair(described);
@@ -282,8 +285,8 @@ TEST_P(Motorised, DampingSetsTheSpeedOfAWeakMotor) {
 SceneDescription mimicking(MimicDescription mimic) {
   ModelDescription hand = model("Hand", link("left"));
   hand.links.push_back(link("right", {1, 0, 0}));
-  hand.joints = {joint("revolute", {motor(Vector3::UnitZ)}, {}, "world", "left"),
-                 joint("revolute", {axis(Vector3::UnitZ)}, {1, 0, 0}, "world", "right")};
+  hand.joints = {joint("revolute", {motor(Vector3::UnitZ())}, {}, "world", "left"),
+                 joint("revolute", {axis(Vector3::UnitZ())}, {1, 0, 0}, "world", "right")};
   hand.joints[0].name = "leader";
   hand.joints[1].name = "follower";
   for (JointDescription& finger : hand.joints) {
@@ -292,7 +295,7 @@ SceneDescription mimicking(MimicDescription mimic) {
   }
   mimic.joint = "leader";
   hand.joints[1].axes[0].mimic = mimic;
-  return scene({hand}, Vector3::Zero);
+  return scene({hand}, Vector3::Zero());
 }
 
 TEST(Mimic, FollowsByMultiplierAndOffset) {

@@ -21,7 +21,7 @@ class Axis {
   double velocity() const { return world.joint_velocity(joint); }
   void push(double velocity) {
     const bool slides = world.tree().at(joint).name == "prismatic";
-    const Vector3 along = Vector3::UnitZ * velocity;
+    const Vector3 along = Vector3::UnitZ() * velocity;
     world.set_velocity(world.tree().find("/arm"), slides ? Twist{along, {}} : Twist{{}, along});
   }
 
@@ -42,14 +42,14 @@ class AnyAxis : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, AnyAxis, ::testing::Values("revolute", "prismatic"));
 
 TEST_P(AnyAxis, VelocityMotorReachesItsTarget) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
   axis.world.set_target_velocity(axis.joint, -1.5);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), -1.5, 1e-6);
 }
 
 TEST_P(AnyAxis, ForceLimitBoundsTheAcceleration) {
-  AxisDescription weak = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  AxisDescription weak = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   weak.max_force = 2;
   Axis axis(GetParam(), weak);
   axis.world.set_target_velocity(axis.joint, 100);
@@ -58,7 +58,7 @@ TEST_P(AnyAxis, ForceLimitBoundsTheAcceleration) {
 }
 
 TEST_P(AnyAxis, ForceLimitCanBeSetWhileRunning) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
   axis.world.set_max_force(axis.joint, 3);
   axis.world.set_target_velocity(axis.joint, 100);
   axis.run(0.5);
@@ -67,7 +67,7 @@ TEST_P(AnyAxis, ForceLimitCanBeSetWhileRunning) {
 }
 
 TEST_P(AnyAxis, VelocityLimitBoundsTheMotor) {
-  AxisDescription slow = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  AxisDescription slow = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   slow.max_velocity = 0.7;
   Axis axis(GetParam(), slow);
   axis.world.set_target_velocity(axis.joint, 100);
@@ -76,7 +76,7 @@ TEST_P(AnyAxis, VelocityLimitBoundsTheMotor) {
 }
 
 TEST_P(AnyAxis, PositionMotorReachesItsTargetAndHoldsIt) {
-  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  AxisDescription servo = test::axis(Vector3::UnitZ(), MotorMode::kPosition);
   servo.lower = -2;
   servo.upper = 2;
   Axis axis(GetParam(), servo, {0, 0, -9.81});
@@ -89,7 +89,7 @@ TEST_P(AnyAxis, PositionMotorReachesItsTargetAndHoldsIt) {
 }
 
 TEST_P(AnyAxis, PositionMotorStopsAtALimitBeforeItsTarget) {
-  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  AxisDescription servo = test::axis(Vector3::UnitZ(), MotorMode::kPosition);
   servo.lower = -0.5;
   servo.upper = 0.25;
   Axis axis(GetParam(), servo);
@@ -99,7 +99,7 @@ TEST_P(AnyAxis, PositionMotorStopsAtALimitBeforeItsTarget) {
 }
 
 TEST(EndlessJoint, PositionMotorTakesTheShortWay) {
-  Axis axis("continuous", test::axis(Vector3::UnitZ, MotorMode::kPosition));
+  Axis axis("continuous", test::axis(Vector3::UnitZ(), MotorMode::kPosition));
   axis.world.set_target_position(axis.joint, 3);
   axis.run(2);
   EXPECT_NEAR(axis.position(), 3, 1e-6);
@@ -112,14 +112,14 @@ TEST(EndlessJoint, PositionMotorTakesTheShortWay) {
 }
 
 TEST(EndlessJoint, TargetBeyondATurnMeansTheSameDirection) {
-  Axis axis("continuous", test::axis(Vector3::UnitZ, MotorMode::kPosition));
+  Axis axis("continuous", test::axis(Vector3::UnitZ(), MotorMode::kPosition));
   axis.world.set_target_position(axis.joint, 2 * M_PI * 3 + 0.5);
   axis.run(2);
   EXPECT_NEAR(axis.position(), 0.5, 1e-6);
 }
 
 TEST(WideLimits, PositionMotorReachesATargetBeyondHalfATurn) {
-  AxisDescription servo = test::axis(Vector3::UnitZ, MotorMode::kPosition);
+  AxisDescription servo = test::axis(Vector3::UnitZ(), MotorMode::kPosition);
   servo.lower = -6.2;
   servo.upper = 6.2;
   Axis axis("revolute", servo);
@@ -132,7 +132,7 @@ TEST(WideLimits, PositionMotorReachesATargetBeyondHalfATurn) {
 }
 
 TEST(WideLimits, HoldBeyondHalfATurn) {
-  AxisDescription wide = test::axis(Vector3::UnitZ);
+  AxisDescription wide = test::axis(Vector3::UnitZ());
   wide.lower = -0.5;
   wide.upper = 4;
   Axis axis("revolute", wide);
@@ -147,7 +147,7 @@ TEST(WideLimits, HoldBeyondHalfATurn) {
 
 TEST_P(AnyAxis, LimitsStopAMovingLinkWithoutRebound) {
   for (const double side : {-0.7, 1.0, 20.0}) {
-    AxisDescription limited = test::axis(Vector3::UnitZ);
+    AxisDescription limited = test::axis(Vector3::UnitZ());
     limited.lower = -0.4;
     limited.upper = 0.4;
     Axis axis(GetParam(), limited);
@@ -166,7 +166,7 @@ TEST_P(AnyAxis, LimitsStopAMovingLinkWithoutRebound) {
 }
 
 TEST_P(AnyAxis, LimitHoldsALinkThatFallsOnIt) {
-  AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  AxisDescription limited = test::axis(Vector3::UnitZ(), MotorMode::kEffort);
   limited.lower = -0.4;
   limited.upper = 0.4;
   Axis axis(GetParam(), limited);
@@ -183,7 +183,7 @@ TEST_P(AnyAxis, LimitHoldsALinkThatFallsOnIt) {
 
 TEST_P(AnyAxis, LimitHoldsAgainstAMotorOfAnyForce) {
   for (const double force : {1.0, 1e4, kInfinity}) {
-    AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+    AxisDescription limited = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
     limited.lower = -0.4;
     limited.upper = 0.4;
     limited.max_force = force;
@@ -199,7 +199,7 @@ TEST_P(AnyAxis, LimitHoldsAgainstAMotorOfAnyForce) {
 }
 
 TEST_P(AnyAxis, DampedLinkRestsOnItsLimit) {
-  AxisDescription damped = test::axis(Vector3::UnitZ);
+  AxisDescription damped = test::axis(Vector3::UnitZ());
   damped.lower = -0.4;
   damped.upper = 0.4;
   damped.damping = 5;
@@ -211,7 +211,7 @@ TEST_P(AnyAxis, DampedLinkRestsOnItsLimit) {
 }
 
 TEST(Friction, HoldsBelowItsForceAndYieldsAbove) {
-  AxisDescription rough = test::axis(Vector3::UnitZ);
+  AxisDescription rough = test::axis(Vector3::UnitZ());
   rough.friction = 10;
   Axis holds("prismatic", rough, {0, 0, -9.81});
   holds.run(1);
@@ -223,7 +223,7 @@ TEST(Friction, HoldsBelowItsForceAndYieldsAbove) {
 }
 
 TEST_P(AnyAxis, FrictionStopsAMovingLinkAfterItsTime) {
-  AxisDescription rough = test::axis(Vector3::UnitZ);
+  AxisDescription rough = test::axis(Vector3::UnitZ());
   rough.friction = 0.5;
   Axis axis(GetParam(), rough);
   axis.push(1);
@@ -235,7 +235,7 @@ TEST_P(AnyAxis, FrictionStopsAMovingLinkAfterItsTime) {
 
 TEST_P(AnyAxis, DampingDecaysExponentially) {
   for (const double damping : {0.2, 1.0, 5.0}) {
-    AxisDescription damped = test::axis(Vector3::UnitZ);
+    AxisDescription damped = test::axis(Vector3::UnitZ());
     damped.damping = damping;
     Axis axis(GetParam(), damped);
     axis.push(1);
@@ -247,7 +247,7 @@ TEST_P(AnyAxis, DampingDecaysExponentially) {
 }
 
 TEST_P(AnyAxis, StrongDampingStaysStable) {
-  AxisDescription damped = test::axis(Vector3::UnitZ);
+  AxisDescription damped = test::axis(Vector3::UnitZ());
   damped.damping = 1e6;
   Axis axis(GetParam(), damped);
   axis.push(1);
@@ -257,7 +257,7 @@ TEST_P(AnyAxis, StrongDampingStaysStable) {
 }
 
 TEST_P(AnyAxis, FrictionAndDampingAddUp) {
-  AxisDescription both = test::axis(Vector3::UnitZ);
+  AxisDescription both = test::axis(Vector3::UnitZ());
   both.friction = 0.5;
   both.damping = 0.4;
   Axis axis(GetParam(), both);
@@ -271,7 +271,7 @@ TEST_P(AnyAxis, FrictionAndDampingAddUp) {
 }
 
 TEST_P(AnyAxis, EffortIsAcceleration) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kEffort));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kEffort));
   axis.world.set_target_effort(axis.joint, -1.5);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), -1.5 * 0.5, 1e-9) << "v = F/m t";
@@ -283,7 +283,7 @@ TEST_P(AnyAxis, EffortIsAcceleration) {
 }
 
 TEST_P(AnyAxis, EffortKeepsToTheForceLimitAndNotToTheVelocityLimit) {
-  AxisDescription weak = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  AxisDescription weak = test::axis(Vector3::UnitZ(), MotorMode::kEffort);
   weak.max_force = 2;
   weak.max_velocity = 0.1;
   Axis axis(GetParam(), weak);
@@ -294,7 +294,7 @@ TEST_P(AnyAxis, EffortKeepsToTheForceLimitAndNotToTheVelocityLimit) {
 }
 
 TEST_P(AnyAxis, EffortPushesAgainstAStop) {
-  AxisDescription stopped = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  AxisDescription stopped = test::axis(Vector3::UnitZ(), MotorMode::kEffort);
   stopped.lower = -0.2;
   stopped.upper = 0.1;
   Axis axis(GetParam(), stopped);
@@ -305,7 +305,7 @@ TEST_P(AnyAxis, EffortPushesAgainstAStop) {
 }
 
 TEST_P(AnyAxis, EffortActsBesideFrictionAndDamping) {
-  AxisDescription both = test::axis(Vector3::UnitZ, MotorMode::kEffort);
+  AxisDescription both = test::axis(Vector3::UnitZ(), MotorMode::kEffort);
   both.friction = 0.5;
   both.damping = 0.4;
   Axis axis(GetParam(), both);
@@ -315,7 +315,7 @@ TEST_P(AnyAxis, EffortActsBesideFrictionAndDamping) {
 }
 
 TEST_P(AnyAxis, ModesCanBeChangedWhileRunning) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
   axis.world.set_target_velocity(axis.joint, 1);
   axis.world.set_target_effort(axis.joint, 2);
   axis.run(0.1);
@@ -329,7 +329,7 @@ TEST_P(AnyAxis, ModesCanBeChangedWhileRunning) {
 }
 
 TEST_P(AnyAxis, TargetEffortIsStateAndEndsWithAReset) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kEffort));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kEffort));
   const std::uint64_t before = axis.world.state_hash();
   axis.world.set_target_effort(axis.joint, 2);
   EXPECT_EQ(axis.world.target_effort(axis.joint), 2);
@@ -343,7 +343,7 @@ TEST_P(AnyAxis, TargetEffortIsStateAndEndsWithAReset) {
 }
 
 TEST_P(AnyAxis, MotorEffortIsKnownInTheFirstStep) {
-  Axis axis(GetParam(), test::axis(Vector3::UnitZ, MotorMode::kVelocity));
+  Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
   EXPECT_EQ(axis.world.motor_effort(axis.joint), 0) << "before the first step";
   axis.world.set_target_velocity(axis.joint, 0.5);
   axis.run(0.05);
@@ -351,7 +351,7 @@ TEST_P(AnyAxis, MotorEffortIsKnownInTheFirstStep) {
 }
 
 TEST_P(AnyAxis, MotorEffortOfAMotorWithoutForceIsZero) {
-  AxisDescription limited = test::axis(Vector3::UnitZ, MotorMode::kVelocity);
+  AxisDescription limited = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   limited.lower = -10;  // a motor joint of its own
   Axis axis(GetParam(), limited);
   axis.world.set_target_velocity(axis.joint, 0.5);
@@ -367,7 +367,7 @@ TEST(Pendulum, SwingsWithThePeriodOfTheory) {
   constexpr double kFineStep = 0.001;
   ModelDescription pendulum = model("Pendulum", link("arm", {kLength, 0, 0}));
   pendulum.links[0].inertia_diagonal = Vector3(0.01, 0.01, 0.01);
-  pendulum.joints.push_back(joint("revolute", {axis(Vector3::UnitY)}, {}, "world"));
+  pendulum.joints.push_back(joint("revolute", {axis(Vector3::UnitY())}, {}, "world"));
   SceneDescription described = scene({pendulum}, Vector3(9.81, 0, 0));  // gravity along the arm
   World world(described, 0);
   const ObjectId id = world.tree().find("/joint");

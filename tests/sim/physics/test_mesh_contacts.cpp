@@ -19,7 +19,7 @@ constexpr double kLayer = 0.001;  // m, allowed penetration
 
 ModelDescription solid(const char* name, const Geometry& geometry, const Pose& pose) {
   ModelDescription described = model(name, link_with(geometry), pose);
-  described.links[0].inertia_diagonal = Vector3::One * 0.01;
+  described.links[0].inertia_diagonal = Vector3::Ones() * 0.01;
   return described;
 }
 
@@ -36,10 +36,10 @@ Rest after_two_seconds(const Geometry& geometry, const Pose& pose, const ModelDe
 }
 
 void expect_at_rest(const Rest& rest, double height) {
-  EXPECT_NEAR(rest.pose.Pos().Z(), height, 3 * kLayer);
-  EXPECT_LT(std::hypot(rest.pose.Pos().X(), rest.pose.Pos().Y()), 0.01);
-  EXPECT_LT(rest.velocity.linear.Length(), 1e-3);
-  EXPECT_LT(rest.velocity.angular.Length(), 1e-2);
+  EXPECT_NEAR(rest.pose.position.z(), height, 3 * kLayer);
+  EXPECT_LT(std::hypot(rest.pose.position.x(), rest.pose.position.y()), 0.01);
+  EXPECT_LT(rest.velocity.linear.norm(), 1e-3);
+  EXPECT_LT(rest.velocity.angular.norm(), 1e-2);
 }
 
 /// Grounds with their surface at z = 0.
@@ -89,7 +89,7 @@ TEST(MeshContact, ASurfaceThatIsTooFineIsSimplifiedWithinAMillimetre) {
       const double* place = &coarse->coordinates[3 * coarse->indices[i + corner]];
       middle += Vector3(place[0], place[1], place[2]) / 3;
     }
-    EXPECT_NEAR(middle.Z(), wave(static_cast<float>(middle.X()), static_cast<float>(middle.Y())), 0.001);
+    EXPECT_NEAR(middle.z(), wave(static_cast<float>(middle.x()), static_cast<float>(middle.y())), 0.001);
   }
   const auto fine_enough = collision_mesh(fine_ground(60, wave), MeshUse::kStatic);
   EXPECT_EQ(fine_enough->indices.size(), 3U * 2 * 60 * 60);
@@ -104,7 +104,7 @@ TEST(MeshContact, EveryShapeRestsOnTriangles) {
 }
 
 TEST(MeshContact, AManySidedPrismStandsStill) {
-  std::vector<ignition::math::Vector2d> outline;
+  std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i < 64; ++i) outline.emplace_back(0.2 * std::cos(M_PI * i / 32), 0.2 * std::sin(M_PI * i / 32));
   const Mesh prism{extrude({{outline, 0.2}})};
   for (const ModelDescription& ground : grounds()) {
@@ -114,30 +114,30 @@ TEST(MeshContact, AManySidedPrismStandsStill) {
 
 TEST(MeshContact, AConcaveThingKeepsItsHollow) {
   // An arch: a ball of 0.15 m fits below it.
-  const std::vector<ignition::math::Vector2d> outline = {{-0.4, 0}, {-0.3, 0}, {-0.3, 0.4}, {0.3, 0.4},
-                                                         {0.3, 0},  {0.4, 0},  {0.4, 0.5},  {-0.4, 0.5}};
+  const std::vector<Eigen::Vector2d> outline = {{-0.4, 0}, {-0.3, 0}, {-0.3, 0.4}, {0.3, 0.4},
+                                                {0.3, 0},  {0.4, 0},  {0.4, 0.5},  {-0.4, 0.5}};
   ModelDescription arch =
       model("Arch", link_with(Mesh{extrude({{outline, 0.4}})}), Pose(0, 0.2, 0.002, M_PI / 2, 0, 0));
   arch.links[0].centre_of_mass = {0, 0.3, 0.2};
   World world(scene({floor(), arch, solid("Ball", Sphere{0.15}, at(0, 0, 0.16))}), 0);
   world.advance(2, kStep);
-  EXPECT_NEAR(world.pose(world.tree().find("/Ball")).Pos().Z(), 0.15, 3 * kLayer);
-  EXPECT_NEAR(world.pose(world.tree().find("/Arch")).Pos().Z(), 0, 5 * kLayer);
+  EXPECT_NEAR(world.pose(world.tree().find("/Ball")).position.z(), 0.15, 3 * kLayer);
+  EXPECT_NEAR(world.pose(world.tree().find("/Arch")).position.z(), 0, 5 * kLayer);
 }
 
 TEST(MeshContact, ABallRollsDownASlopeOfTrianglesAsOnABox) {
   // Rolling without slipping: a = 5/7 g sin(angle).
   const double angle = 0.1;
-  const Quaternion tilt = turn(0, angle, 0);
+  const Quaternion tilt = from_rpy(0, angle, 0);
   for (const Geometry& geometry : {Geometry(box_mesh({20, 4, 1})), Geometry(Box{{20, 4, 1}})}) {
-    const ModelDescription slope = still(model("Slope", link_with(geometry), Pose(Vector3::Zero, tilt)));
-    ModelDescription ball = model("Ball", link_with(Sphere{0.1}), Pose(tilt.RotateVector({0, 0, 0.6}), tilt));
-    ball.links[0].inertia_diagonal = Vector3::One * 0.4 * 0.1 * 0.1;
+    const ModelDescription slope = still(model("Slope", link_with(geometry), Pose(Vector3::Zero(), tilt)));
+    ModelDescription ball = model("Ball", link_with(Sphere{0.1}), Pose(tilt * Vector3(0, 0, 0.6), tilt));
+    ball.links[0].inertia_diagonal = Vector3::Ones() * 0.4 * 0.1 * 0.1;
     World world(scene({slope, ball}), 0);
     world.advance(1, kStep);
     const double acceleration = 5.0 / 7 * 9.81 * std::sin(angle);
-    const Vector3 way = world.pose(world.tree().find("/Ball")).Pos() - ball.pose.Pos();
-    EXPECT_NEAR(way.Length(), acceleration / 2, 0.02 * acceleration);
+    const Vector3 way = world.pose(world.tree().find("/Ball")).position - ball.pose.position;
+    EXPECT_NEAR(way.norm(), acceleration / 2, 0.02 * acceleration);
   }
 }
 
@@ -147,14 +147,14 @@ TEST(MeshContact, AnEllipsoidOfEqualRadiiIsASphere) {
 
 TEST(MeshContact, AnEllipsoidComesToRestOnItsFlatSide) {
   const Rest rest = after_two_seconds(Ellipsoid{{0.4, 0.4, 0.1}}, at(0, 0, 0.11), floor());
-  EXPECT_NEAR(rest.pose.Pos().Z(), 0.1, 3 * kLayer);
+  EXPECT_NEAR(rest.pose.position.z(), 0.1, 3 * kLayer);
 }
 
 TEST(MeshContact, GroundFromHeightsHoldsABallInItsValley) {
   // A V along y, 1 m deep over 2 m: a ball of radius r touches both slopes, its centre is r * sqrt(2) above the bottom.
   const auto ground = raise_ground(Heights{3, 2, {1, 0, 1, 1, 0, 1}}, {2, 2, 1});
   const Rest rest = after_two_seconds(Sphere{0.1}, at(0, 0, 0.2), still(model("Valley", link_with(Mesh{ground}))));
-  EXPECT_NEAR(rest.pose.Pos().Z(), 0.1 * std::sqrt(2.0), 3 * kLayer);
+  EXPECT_NEAR(rest.pose.position.z(), 0.1 * std::sqrt(2.0), 3 * kLayer);
 }
 
 TEST(MeshContact, IsTheSameInEveryRun) {

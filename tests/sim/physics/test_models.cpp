@@ -23,7 +23,7 @@ std::vector<ModelDescription> heap() {
 
 /// Two links with a joint of each kind of ODE handle, a sonar and a shape.
 ModelDescription robot(const Pose& pose) {
-  AxisDescription limited = axis(Vector3::UnitZ, MotorMode::kVelocity);
+  AxisDescription limited = axis(Vector3::UnitZ(), MotorMode::kVelocity);
   limited.lower = -1;
   limited.upper = 1;
   ModelDescription described = model("Robot", link("base"), pose);
@@ -76,7 +76,7 @@ TEST(AddedModel, IsStoodUpon) {
     world.advance(0.1, 0.005);
     world.add_model(still(model("Table", link_with(Box{{1, 1, 1}}), at(x, 0, 0.5))));
     world.advance(3, 0.005);
-    EXPECT_NEAR(world.pose(world.tree().find("/Ball")).Pos().Z(), 1.1, 0.003) << x;
+    EXPECT_NEAR(world.pose(world.tree().find("/Ball")).position.z(), 1.1, 0.003) << x;
   }
 }
 
@@ -86,7 +86,7 @@ TEST(AddedModel, BringsItsObjects) {
   const ObjectId id = simulation.add_model(robot(at(5, 6, 7)));
   const World& world = simulation.world();
   EXPECT_EQ(world.tree().path(id), "/Robot");
-  EXPECT_EQ(world.pose(world.tree().find("/Robot/arm")).Pos(), Vector3(6, 6, 7));
+  EXPECT_EQ(world.pose(world.tree().find("/Robot/arm")).position, Vector3(6, 6, 7));
   simulation.world().set_target_velocity(world.tree().find("/Robot/joint"), 0.5);
   const ObjectId sonar = world.tree().find("/Robot/Sonar");
   EXPECT_FALSE(simulation.read_proximity(sonar).detected);
@@ -102,11 +102,12 @@ TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
     std::string text;
   };
   const std::vector<Case> cases = {
-      {[](auto& m) { m.pose.Pos().X() = kNaN; }, "/Robot: the position is (nan, 6, 7)"},
-      {[](auto& m) { m.pose.Pos().X() = 1e300; }, "/Robot: the position is (1e+300, 6, 7)"},
-      {[](auto& m) { m.pose.Rot() = Quaternion(0, 0, 0, 0); }, "/Robot: the orientation (x, y, z, w) is (0, 0, 0, 0)"},
+      {[](auto& m) { m.pose.position.x() = kNaN; }, "/Robot: the position is (nan, 6, 7)"},
+      {[](auto& m) { m.pose.position.x() = 1e300; }, "/Robot: the position is (1e+300, 6, 7)"},
+      {[](auto& m) { m.pose.orientation = Quaternion(0, 0, 0, 0); },
+       "/Robot: the orientation (x, y, z, w) is (0, 0, 0, 0)"},
       {[](auto& m) { m.links[1].mass = 0; }, "/Robot/arm: the mass is 0 kg"},
-      {[](auto& m) { m.links[1].inertia_diagonal.X() = -1; }, "/Robot/arm: the inertia is"},
+      {[](auto& m) { m.links[1].inertia_diagonal.x() = -1; }, "/Robot/arm: the inertia is"},
       {[](auto& m) { m.links.clear(); }, "/Robot: has no link"},
       {[](auto& m) { m.joints[0].child = "amr"; }, "did you mean arm"},
       {[](auto& m) { m.name = "Box0"; }, "/Box0: a model with this name exists already"},
@@ -136,7 +137,7 @@ TEST(RemovedModel, LeavesAWorldWithoutIt) {
   for (int i = 0; i < 10; ++i) simulation.step();
   simulation.remove_model(simulation.world().tree().find("/Table"));
   for (int i = 0; i < 40; ++i) simulation.step();
-  EXPECT_NEAR(simulation.world().pose(simulation.world().tree().find("/Ball")).Pos().Z(), 0.1, 0.003);
+  EXPECT_NEAR(simulation.world().pose(simulation.world().tree().find("/Ball")).position.z(), 0.1, 0.003);
   EXPECT_FALSE(simulation.world().cast_ray({0, 0, 5}, {0, 0, -1}, 4.5));
 }
 
@@ -146,7 +147,7 @@ TEST(RemovedModel, WhoseContactsHeldOthersLetsThemFall) {
   for (int i = 0; i < 10; ++i) simulation.step();
   simulation.remove_model(simulation.world().tree().find("/Below"));
   for (int i = 0; i < 40; ++i) simulation.step();
-  EXPECT_NEAR(simulation.world().pose(simulation.world().tree().find("/Above")).Pos().Z(), 0.1, 0.003);
+  EXPECT_NEAR(simulation.world().pose(simulation.world().tree().find("/Above")).position.z(), 0.1, 0.003);
 }
 
 TEST(RemovedModel, ThatCameBeforeLeavesNoTrace) {

@@ -37,7 +37,7 @@ ModelDescription robot(double mass) {
     part.inertia_products = Vector3(0.01, 0.02, 0) * mass;
     part.collisions.push_back(shape(Box{{0.3, 0.2, 0.1}}));
   }
-  made.joints.push_back(joint("revolute", {axis(Vector3::UnitY, MotorMode::kVelocity)}, {0.25, 0, 0}));
+  made.joints.push_back(joint("revolute", {axis(Vector3::UnitY(), MotorMode::kVelocity)}, {0.25, 0, 0}));
   made.joints[0].axes[0].lower = -kInfinity;
   made.joints[0].axes[0].upper = kInfinity;
   made.joints[0].axes[0].max_force = 3;
@@ -68,7 +68,7 @@ TEST(Properties, AChangedMassIsLikeThatOfTheDescription) {
 }
 
 TEST(Properties, AMassChangesTheAccelerationAndNotTheCentre) {
-  World world(scene({robot(1)}, Vector3::Zero), 1);
+  World world(scene({robot(1)}, Vector3::Zero()), 1);
   const ObjectId base = world.tree().find("/base");
   const Pose before = world.pose(base);
   run(world, 20);
@@ -83,8 +83,8 @@ TEST(Properties, AMassChangesTheAccelerationAndNotTheCentre) {
   for (const char* name : {"/base", "/arm"}) {
     const ObjectId link = world.tree().find(name);
     const Twist twist = world.velocity(link);
-    const Vector3 lever = world.pose(link).Rot().RotateVector({0.1, 0, 0.05});
-    momentum += world.mass(link) * (twist.linear + twist.angular.Cross(lever)).X();
+    const Vector3 lever = world.pose(link).orientation * Vector3(0.1, 0, 0.05);
+    momentum += world.mass(link) * (twist.linear + twist.angular.cross(lever)).x();
   }
   EXPECT_NEAR(momentum, 8 * kStep, 1e-9);
 }
@@ -104,9 +104,9 @@ double slide(double mu, double angle, bool jointed) {
   world.set_friction(id, mu);
   EXPECT_EQ(world.friction(id), mu);
   for (int i = 0; i < 20; ++i) world.advance(kStep, kStep);
-  const double before = world.velocity(id).linear.X();
+  const double before = world.velocity(id).linear.x();
   for (int i = 0; i < 100; ++i) world.advance(kStep, kStep);
-  return (world.velocity(id).linear.X() - before) / (100 * kStep);
+  return (world.velocity(id).linear.x() - before) / (100 * kStep);
 }
 
 TEST(Properties, AChangedFrictionFollowsCoulombsLaw) {
@@ -122,16 +122,16 @@ TEST(Properties, TheFrictionOfAStaticModelCanBeSet) {
   world.set_friction(world.tree().find("/Floor"), 0);
   world.set_gravity({3, 0, -9.81});
   for (int i = 0; i < 100; ++i) world.advance(kStep, kStep);
-  EXPECT_NEAR(world.velocity(world.tree().find("/Block")).linear.X(), 3 * 100 * kStep, 0.02);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Block")).linear.x(), 3 * 100 * kStep, 0.02);
 }
 
 TEST(Properties, AnotherGravityWakesWhatSleeps) {
   World world(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 0.5))}), 1);
   for (int i = 0; i < 400; ++i) world.advance(kStep, kStep);
   world.set_gravity({0, 0, 2});
-  EXPECT_EQ(world.gravity().Z(), 2);
+  EXPECT_EQ(world.gravity().z(), 2);
   for (int i = 0; i < 200; ++i) world.advance(kStep, kStep);
-  EXPECT_NEAR(world.velocity(world.tree().find("/Box")).linear.Z(), 2.0 * 200 * kStep, 0.05);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Box")).linear.z(), 2.0 * 200 * kStep, 0.05);
 }
 
 TEST(Properties, AResetPutsAllBack) {
@@ -149,7 +149,7 @@ TEST(Properties, AResetPutsAllBack) {
     run(world, 60);
     world.reset();
     EXPECT_EQ(world.state_hash(), start);
-    EXPECT_EQ(world.gravity().Z(), -9.81);
+    EXPECT_EQ(world.gravity().z(), -9.81);
     EXPECT_EQ(world.mass(world.tree().find("/Robot")), 2);
     EXPECT_EQ(world.friction(world.tree().find("/Floor")), 1);
     run(world, 60);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kStep = 0.005;
 
 ModelDescription box(const std::string& name, const Vector3& position) {
-  ModelDescription made = model(name, link_with(Box{{0.5, 0.5, 0.5}}), Pose(position, Quaternion::Identity));
+  ModelDescription made = model(name, link_with(Box{{0.5, 0.5, 0.5}}), Pose(position, Quaternion()));
   made.links[0].inertia_diagonal = Vector3(0.042, 0.042, 0.042);
   return made;
 }
@@ -33,7 +33,7 @@ TEST(Pile, StandsAndRepeatsBitByBit) {
   first.advance(1, kStep);
   for (int row = 0; row < 4; ++row) {
     const ObjectId id = first.tree().find("/Box" + std::to_string(row) + "_1");
-    EXPECT_NEAR(first.pose(id).Pos().Z(), 0.25 + 0.5 * row, 0.03);
+    EXPECT_NEAR(first.pose(id).position.z(), 0.25 + 0.5 * row, 0.03);
   }
   World second(wall(4), 3);
   second.advance(1, kStep);
@@ -83,7 +83,7 @@ TEST(Sleep, EndsWhenItIsTouched) {
   sleeper.world.advance(2, kStep);
   sleeper.world.set_state(ball, at(-1, 0, 0.8), {{8, 0, 0}, {}});
   sleeper.world.advance(0.3, kStep);
-  EXPECT_GT(sleeper.world.pose(sleeper.top).Pos().X(), 0.01);
+  EXPECT_GT(sleeper.world.pose(sleeper.top).position.x(), 0.01);
 }
 
 TEST(Sleep, EndsWhenWhatLiesBelowIsTakenAway) {
@@ -92,7 +92,7 @@ TEST(Sleep, EndsWhenWhatLiesBelowIsTakenAway) {
     const ObjectId base = sleeper.world.tree().find("/Base");
     removed ? sleeper.world.remove_model(base) : sleeper.world.set_pose(base, at(3, 0, 0.25));
     sleeper.world.advance(1, kStep);
-    EXPECT_NEAR(sleeper.world.pose(sleeper.top).Pos().Z(), 0.25, 0.01);
+    EXPECT_NEAR(sleeper.world.pose(sleeper.top).position.z(), 0.25, 0.01);
   }
 }
 
@@ -100,14 +100,14 @@ TEST(Sleep, EndsByACommand) {
   Sleeper sleeper;
   sleeper.world.set_velocity(sleeper.top, {{0, 0, 2}, {}});
   sleeper.world.advance(0.1, kStep);
-  EXPECT_GT(sleeper.world.pose(sleeper.top).Pos().Z(), 0.8);
+  EXPECT_GT(sleeper.world.pose(sleeper.top).position.z(), 0.8);
 }
 
 TEST(Sleep, IsNotForModelsWithJoints) {
   ModelDescription robot = model("Robot", link("base", {0, 0, 1}));
   robot.links.push_back(link("arm", {0, 0, 1}));
   robot.joints = {joint("fixed", {}, {}, "world", "base"),
-                  joint("revolute", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {}, "base", "arm")};
+                  joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "base", "arm")};
   robot.joints[1].name = "motor";
   World world(scene({robot}), 0);
   world.advance(5, kStep);

@@ -44,7 +44,7 @@ ModelDescription ball(double rolling, bool jointed) {
 ModelDescription lying_cylinder(double rolling, bool jointed, double direction) {
   Surface surface;
   surface.rolling = rolling;
-  const Quaternion lying = turn(0, 0, direction * kDegree) * turn(M_PI / 2, 0, 0);
+  const Quaternion lying = from_rpy(0, 0, direction * kDegree) * from_rpy(M_PI / 2, 0, 0);
   return roller(Cylinder{kRadius, 0.2}, 0.5, surface, jointed, Pose(Vector3(0, 0, kRadius), lying));
 }
 
@@ -54,7 +54,7 @@ Vector3 slowed(ModelDescription rolls, double direction) {
   world.advance(0.5, kStep);
   const ObjectId id = world.tree().find("/Roller");
   const Vector3 velocity = heading(direction) * 3;
-  world.set_velocity(id, {velocity, Vector3::UnitZ.Cross(velocity) / kRadius});
+  world.set_velocity(id, {velocity, Vector3::UnitZ().cross(velocity) / kRadius});
   world.advance(0.2, kStep);
   const Vector3 before = world.velocity(id).linear;
   world.advance(1, kStep);
@@ -73,8 +73,8 @@ TEST_P(RollingResistance, SlowsABallAlikeInAnyDirection) {
     for (const double direction : {0.0, 20.0, 45.0, 70.0, 135.0}) {
       const Vector3 change = slowed(ball(rolling, GetParam()), direction);
       const double theory = deceleration(rolling, 0.4);
-      EXPECT_NEAR(change.Dot(heading(direction)), theory, 0.01 * theory) << rolling << " " << direction;
-      EXPECT_NEAR(change.Cross(heading(direction)).Length(), 0, 0.01 * theory) << rolling << " " << direction;
+      EXPECT_NEAR(change.dot(heading(direction)), theory, 0.01 * theory) << rolling << " " << direction;
+      EXPECT_NEAR(change.cross(heading(direction)).norm(), 0, 0.01 * theory) << rolling << " " << direction;
     }
   }
 }
@@ -83,7 +83,7 @@ TEST_P(RollingResistance, SlowsACylinder) {
   for (const double direction : {0.0, 30.0, 45.0}) {
     const double theory = deceleration(0.005, 0.5);
     const Vector3 change = slowed(lying_cylinder(0.005, GetParam(), direction), direction);
-    EXPECT_NEAR(change.Dot(heading(direction)), theory, 0.02 * theory) << direction;
+    EXPECT_NEAR(change.dot(heading(direction)), theory, 0.02 * theory) << direction;
   }
 }
 
@@ -92,13 +92,13 @@ TEST_P(RollingResistance, HoldsABallOnASlopeUpToItsAngle) {
   const double angle = std::atan(rolling / kRadius);
   for (const double direction : {0.0, 30.0, 45.0, 100.0}) {
     const auto gained = [&](double slope) {
-      const Vector3 gravity = (heading(direction) * std::sin(slope) - Vector3::UnitZ * std::cos(slope)) * kG;
+      const Vector3 gravity = (heading(direction) * std::sin(slope) - Vector3::UnitZ() * std::cos(slope)) * kG;
       World world(scene({floor(), ball(rolling, GetParam())}, gravity), 0);
       world.advance(0.5, kStep);
       const ObjectId id = world.tree().find("/Roller");
-      const double before = world.velocity(id).linear.Length();
+      const double before = world.velocity(id).linear.norm();
       world.advance(1, kStep);
-      return world.velocity(id).linear.Length() - before;
+      return world.velocity(id).linear.norm() - before;
     };
     EXPECT_LT(gained(0.98 * angle), 1e-4) << direction;
     for (const double slope : {1.05 * angle, 2 * angle}) {
@@ -112,12 +112,12 @@ TEST_P(RollingResistance, StopsABallAndDoesNotTurnItBack) {
   World world(scene({floor(), ball(0.02, GetParam())}), 0);
   world.advance(0.5, kStep);
   const ObjectId id = world.tree().find("/Roller");
-  const Vector3 start = world.pose(id).Pos();
+  const Vector3 start = world.pose(id).position;
   world.set_velocity(id, {{0.6, 0.8, 0}, {-8, 6, 0}});
   world.advance(2, kStep);
   const double theory = 1 / (2 * deceleration(0.02, 0.4));
-  EXPECT_NEAR((world.pose(id).Pos() - start).Length(), theory, 0.02 * theory);
-  EXPECT_LT(world.velocity(id).linear.Cross(Vector3::UnitZ).Length(), 1e-9);
+  EXPECT_NEAR((world.pose(id).position - start).norm(), theory, 0.02 * theory);
+  EXPECT_LT(world.velocity(id).linear.cross(Vector3::UnitZ()).norm(), 1e-9);
 }
 
 /// A cart on free wheels; many of them need the iterative solver.
@@ -136,7 +136,7 @@ double cart_deceleration(int pairs) {
     wheel.collisions.push_back(shape(Sphere{kRadius}));
     wheel.collisions[0].surface.rolling = 0.005;
     made.links.push_back(wheel);
-    made.joints.push_back(joint("revolute", {axis(Vector3::UnitY)}, place, "base", name));
+    made.joints.push_back(joint("revolute", {axis(Vector3::UnitY())}, place, "base", name));
     made.joints.back().name = name + "_axle";
   }
   World world(scene({floor(), made}), 0);
@@ -146,11 +146,11 @@ double cart_deceleration(int pairs) {
     world.set_velocity(world.tree().find("/wheel" + std::to_string(i)), {{3, 0, 0}, {0, 3 / kRadius, 0}});
   }
   world.advance(0.2, kStep);
-  const double before = world.velocity(world.tree().find("/base")).linear.X();
+  const double before = world.velocity(world.tree().find("/base")).linear.x();
   world.advance(1, kStep);
   const double total = mass + 0.1 * 2 * pairs;
   const double theory = 0.005 / kRadius * total * kG / (total + 0.4 * 0.1 * 2 * pairs);
-  return (before - world.velocity(world.tree().find("/base")).linear.X()) / theory;
+  return (before - world.velocity(world.tree().find("/base")).linear.x()) / theory;
 }
 
 TEST(Rolling, SlowsACartInTheExactAndTheIterativeSolver) {
@@ -164,15 +164,15 @@ TEST_P(RollingResistance, TorsionLeavesFrictionAlikeInAllDirections) {
   surface.torsion = 0.001;
   for (const double direction : {0.0, 45.0}) {
     const double slope = 35 * kDegree;
-    const Vector3 gravity = (heading(direction) * std::sin(slope) - Vector3::UnitZ * std::cos(slope)) * kG;
+    const Vector3 gravity = (heading(direction) * std::sin(slope) - Vector3::UnitZ() * std::cos(slope)) * kG;
     ModelDescription box = roller(Box{{0.2, 0.2, 0.1}}, 0.4, surface, GetParam(), at(0, 0, 0.05));
     World world(scene({floor(), box}, gravity), 0);
     world.advance(0.5, kStep);
     const ObjectId id = world.tree().find("/Roller");
-    const double before = world.velocity(id).linear.Length();
+    const double before = world.velocity(id).linear.norm();
     world.advance(1, kStep);
     const double theory = kG * (std::sin(slope) - 0.5 * std::cos(slope));
-    EXPECT_NEAR(world.velocity(id).linear.Length() - before, theory, 0.02 * theory) << direction;
+    EXPECT_NEAR(world.velocity(id).linear.norm() - before, theory, 0.02 * theory) << direction;
   }
 }
 
@@ -184,13 +184,13 @@ TEST_P(RollingResistance, TorsionByDepthFollowsThePatchOfASphere) {
   World world(scene({floor(), roller(Sphere{kRadius}, 0.4, soft, GetParam(), at(0, 0, kRadius))}), 0);
   world.advance(1, kStep);
   const ObjectId id = world.tree().find("/Roller");
-  const double depth = kRadius - world.pose(id).Pos().Z();
+  const double depth = kRadius - world.pose(id).position.z();
   world.set_velocity(id, {{}, {0, 0, 50}});
   world.advance(0.2, kStep);
-  const double before = world.velocity(id).angular.Z();
+  const double before = world.velocity(id).angular.z();
   world.advance(0.2, kStep);
   const double theory = 0.3 * std::sqrt(depth) * 2 * kG / (0.4 * 2 * kRadius * kRadius);
-  EXPECT_NEAR((before - world.velocity(id).angular.Z()) / 0.2, theory, 0.02 * theory);
+  EXPECT_NEAR((before - world.velocity(id).angular.z()) / 0.2, theory, 0.02 * theory);
 }
 
 }  // namespace

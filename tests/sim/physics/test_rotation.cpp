@@ -20,14 +20,14 @@ LinkDescription body(const std::string& name, const Vector3& inertia) {
 class Spinning {
  public:
   Spinning(const Vector3& inertia, const Vector3& velocity)
-      : world(scene({model("Body", body("link", inertia))}, Vector3::Zero), 0), inertia_(inertia) {
+      : world(scene({model("Body", body("link", inertia))}, Vector3::Zero()), 0), inertia_(inertia) {
     world.set_velocity(id, {{}, velocity});
   }
 
-  Vector3 velocity_in_body() const { return turn().RotateVectorReverse(world.velocity(id).angular); }
-  Vector3 momentum() const { return turn().RotateVector(inertia_ * velocity_in_body()); }
-  double energy() const { return velocity_in_body().Dot(inertia_ * velocity_in_body()) / 2; }
-  Quaternion turn() const { return world.pose(id).Rot(); }
+  Vector3 velocity_in_body() const { return turn().conjugate() * world.velocity(id).angular; }
+  Vector3 momentum() const { return turn() * inertia_.cwiseProduct(velocity_in_body()); }
+  double energy() const { return velocity_in_body().dot(inertia_.cwiseProduct(velocity_in_body())) / 2; }
+  Quaternion turn() const { return world.pose(id).orientation; }
 
   World world;
   ObjectId id = world.tree().find("/Body");
@@ -41,17 +41,17 @@ TEST(FreeRotation, TurnsOverAfterTheTimeOfJacobisFunctions) {
   Spinning spinning(inertia, {0.01, 5, 0});
   // With L^2 < 2 E I2: w2 is a Jacobi sn of this rate and parameter; it changes its sign every 2 K.
   const double twice_energy = 2 * spinning.energy();
-  const double square = spinning.momentum().SquaredLength();
-  ASSERT_LT(square, twice_energy * inertia.Y());
-  const double fast = (inertia.Z() * twice_energy - square) * (inertia.Y() - inertia.X());
-  const double slow = (square - inertia.X() * twice_energy) * (inertia.Z() - inertia.Y());
+  const double square = spinning.momentum().squaredNorm();
+  ASSERT_LT(square, twice_energy * inertia.y());
+  const double fast = (inertia.z() * twice_energy - square) * (inertia.y() - inertia.x());
+  const double slow = (square - inertia.x() * twice_energy) * (inertia.z() - inertia.y());
   const double interval =
-      2 * std::comp_ellint_1(std::sqrt(slow / fast)) * std::sqrt(inertia.X() * inertia.Y() * inertia.Z() / fast);
+      2 * std::comp_ellint_1(std::sqrt(slow / fast)) * std::sqrt(inertia.x() * inertia.y() * inertia.z() / fast);
   std::vector<double> turned;
   double before = 1;
   for (int i = 1; turned.size() < 4 && i < 20000; ++i) {
     spinning.world.advance(0.001, 0.001);
-    const double now = spinning.velocity_in_body().Y();
+    const double now = spinning.velocity_in_body().y();
     if (now * before < 0) turned.push_back(i * 0.001);
     before = now;
   }
@@ -66,14 +66,14 @@ TEST(FreeRotation, KeepsMomentumAndEnergy) {
     const Vector3 momentum = spinning.momentum();
     spinning.world.advance(20, step);
     EXPECT_NEAR(spinning.energy() / energy, 1, 1e-6) << step;
-    EXPECT_LT(spinning.momentum().Distance(momentum) / momentum.Length(), 1e-10) << step;
+    EXPECT_LT((spinning.momentum() - momentum).norm() / momentum.norm(), 1e-10) << step;
   }
 }
 
 TEST(FreeRotation, KeepsTheAngleOfItsNutation) {
   Spinning spinning({1, 1, 2}, {1, 0, 10});
   const auto angle = [&] {
-    return std::acos(spinning.turn().RotateVector(Vector3::UnitZ).Dot(spinning.momentum().Normalized()));
+    return std::acos((spinning.turn() * Vector3::UnitZ()).dot(spinning.momentum().normalized()));
   };
   const double before = angle();
   spinning.world.advance(20, 0.005);
@@ -86,7 +86,7 @@ TEST(FreeRotation, IsStableAtAThousandRadiansPerSecond) {
   const Vector3 momentum = spinning.momentum();
   spinning.world.advance(5, 0.005);
   EXPECT_NEAR(spinning.energy() / energy, 1, 0.01);
-  EXPECT_LT(spinning.momentum().Distance(momentum) / momentum.Length(), 1e-9);
+  EXPECT_LT((spinning.momentum() - momentum).norm() / momentum.norm(), 1e-9);
 }
 
 TEST(FreeRotation, TakesATorqueAsTheRateOfItsMomentum) {
@@ -97,7 +97,7 @@ TEST(FreeRotation, TakesATorqueAsTheRateOfItsMomentum) {
     spinning.world.apply_wrench(spinning.id, {{}, torque});
     spinning.world.advance(0.05, 0.005);
   }
-  EXPECT_LT((spinning.momentum() - momentum).Distance(torque), 1e-9) << "torque times 1 s";
+  EXPECT_LT(((spinning.momentum() - momentum) - torque).norm(), 1e-9) << "torque times 1 s";
 }
 
 /// A symmetric top of 1 kg on a ball joint, in steady precession: the axis keeps its angle to the vertical.
@@ -114,12 +114,12 @@ class Top {
     const double about_joint = kAcross + kLever * kLever;
     const double spin =
         (kGravity * kLever + about_joint * precession * precession * std::cos(kAngle)) / (kAxial * precession);
-    const Vector3 angular = Vector3::UnitZ * precession + axis() * (spin - precession * std::cos(kAngle));
+    const Vector3 angular = Vector3::UnitZ() * precession + axis() * (spin - precession * std::cos(kAngle));
     world.set_velocity(id, {{}, angular});
-    speed = angular.Length();
+    speed = angular.norm();
   }
 
-  Vector3 axis() const { return world.pose(id).Rot().RotateVector(Vector3::UnitZ); }
+  Vector3 axis() const { return world.pose(id).orientation * Vector3::UnitZ(); }
 
   World world;
   ObjectId id = world.tree().find("/Top");
@@ -143,9 +143,9 @@ TEST(ConstrainedRotation, TopPrecessesSteadily) {
     for (int i = 0; i < 100; ++i) {
       top.world.advance(0.05, step);
       const Vector3 now = top.axis();
-      angle += std::remainder(std::atan2(now.Y(), now.X()) - std::atan2(before.Y(), before.X()), 2 * M_PI);
+      angle += std::remainder(std::atan2(now.y(), now.x()) - std::atan2(before.y(), before.x()), 2 * M_PI);
       before = now;
-      EXPECT_NEAR(std::acos(now.Z()), Top::kAngle, 2e-3) << step;
+      EXPECT_NEAR(std::acos(now.z()), Top::kAngle, 2e-3) << step;
     }
     EXPECT_NEAR(angle / 5, 1, 5e-3) << "rad/s, with a spin of " << top.speed << " rad/s and substeps of " << step;
   }
@@ -155,7 +155,7 @@ TEST(ConstrainedRotation, IsStableAtAThousandRadiansPerSecond) {
   Top top(0.1);
   ASSERT_GT(top.speed, 900);
   top.world.advance(5, 0.005);
-  EXPECT_LT(top.world.velocity(top.id).angular.Length(), 1.2 * top.speed) << "five radians in a substep";
+  EXPECT_LT(top.world.velocity(top.id).angular.norm(), 1.2 * top.speed) << "five radians in a substep";
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ SceneDescription pile(bool of_balls, int count) {
 double fastest(const World& world, int count) {
   double speed = 0;
   for (int i = 0; i < count; ++i) {
-    speed = std::max(speed, world.velocity(world.tree().find("/" + numbered(i))).linear.Length());
+    speed = std::max(speed, world.velocity(world.tree().find("/" + numbered(i))).linear.norm());
   }
   return speed;
 }
@@ -59,7 +59,7 @@ TEST(Stack, OfTenBoxesDoesNotMove) {
   const ObjectId top = world.tree().find("/" + numbered(9));
   const Pose before = world.pose(top);
   world.advance(60, kStep);
-  EXPECT_LT((world.pose(top).Pos() - before.Pos()).Length(), 2e-3);
+  EXPECT_LT((world.pose(top).position - before.position).norm(), 2e-3);
 }
 
 TEST(Stack, OfTwentyBoxesStandsForTenMinutes) {
@@ -68,7 +68,7 @@ TEST(Stack, OfTwentyBoxesStandsForTenMinutes) {
   const Pose before = world.pose(top);
   world.advance(600, kStep);
   // It stands; each of its contacts settles within the millimetre by which rigid shapes overlap.
-  EXPECT_LT((world.pose(top).Pos() - before.Pos()).Length(), 0.02);
+  EXPECT_LT((world.pose(top).position - before.position).norm(), 0.02);
 }
 
 TEST(Pile, OfBoxesComesToRest) {
@@ -83,7 +83,7 @@ TEST(Pile, OfBallsKeepsNoEnergy) {
   // Balls roll on the floor without resistance; none flies.
   double highest = 0;
   for (int i = 0; i < 200; ++i) {
-    highest = std::max(highest, world.velocity(world.tree().find("/" + numbered(i))).linear.Z());
+    highest = std::max(highest, world.velocity(world.tree().find("/" + numbered(i))).linear.z());
   }
   EXPECT_LT(highest, 0.02);
 }

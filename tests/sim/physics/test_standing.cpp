@@ -49,7 +49,7 @@ ModelDescription carrier(int shapes, double min_depth, const Pose& pose) {
   for (const double y : {0.22, -0.22}) {
     const std::string name = y > 0 ? "left" : "right";
     robot.links.push_back(wheel(name, 0, y, shapes, min_depth));
-    robot.joints.push_back(hinge("base", name, {0, y, kRadius}, Vector3::UnitY, MotorMode::kVelocity));
+    robot.joints.push_back(hinge("base", name, {0, y, kRadius}, Vector3::UnitY(), MotorMode::kVelocity));
   }
   for (const double x : {0.34, -0.27}) {
     for (const double y : {0.2, -0.2}) {
@@ -58,9 +58,9 @@ ModelDescription carrier(int shapes, double min_depth, const Pose& pose) {
       fork.mass = 0.3;
       fork.inertia_diagonal = {6e-4, 5e-4, 2e-4};
       robot.links.push_back(fork);
-      robot.joints.push_back(hinge("base", fork.name, {x, y, 0.15}, Vector3::UnitZ, MotorMode::kNone));
+      robot.joints.push_back(hinge("base", fork.name, {x, y, 0.15}, Vector3::UnitZ(), MotorMode::kNone));
       robot.links.push_back(wheel(name, x - 0.04, y, shapes, min_depth));
-      robot.joints.push_back(hinge(fork.name, name, {x - 0.04, y, kRadius}, Vector3::UnitY, MotorMode::kNone));
+      robot.joints.push_back(hinge(fork.name, name, {x - 0.04, y, kRadius}, Vector3::UnitY(), MotorMode::kNone));
     }
   }
   return robot;
@@ -101,7 +101,7 @@ ModelDescription rover() {
   Surface tyre;
   tyre.mu = 3;
   tyre.mu2 = 0.5;
-  tyre.fdir1 = Vector3::UnitX;
+  tyre.fdir1 = Vector3::UnitX();
   tyre.kp = 1e6;
   tyre.kd = 100;
   tyre.min_depth = 0.003;
@@ -117,13 +117,13 @@ ModelDescription rover() {
       mesh.surface = tyre;
       made.collisions.push_back(mesh);
       robot.links.push_back(made);
-      robot.joints.push_back(hinge("base", name, {x, y, kRadius}, Vector3::UnitY, MotorMode::kVelocity));
+      robot.joints.push_back(hinge("base", name, {x, y, kRadius}, Vector3::UnitY(), MotorMode::kVelocity));
     }
   }
   return robot;
 }
 
-double lean(const Pose& pose) { return std::acos(pose.Rot().RotateVector(Vector3::UnitZ).Z()); }
+double lean(const Pose& pose) { return std::acos((pose.orientation * Vector3::UnitZ()).z()); }
 
 /// Drops a robot slightly tilted, lets it settle, and measures its motion for half a minute.
 void expect_to_stand(int shapes, double min_depth) {
@@ -136,13 +136,13 @@ void expect_to_stand(int shapes, double min_depth) {
   const Pose after = world.pose(robot);
   // Each wheel rests within a millimetre above its allowed penetration: over 0.4 m that is at most 0.14 degrees.
   EXPECT_LT(lean(after), 0.001 / 0.4);
-  EXPECT_LE(after.Pos().Z(), 1e-4 - (min_depth - 0.001));
-  EXPECT_GE(after.Pos().Z(), -1e-4 - min_depth);
+  EXPECT_LE(after.position.z(), 1e-4 - (min_depth - 0.001));
+  EXPECT_GE(after.position.z(), -1e-4 - min_depth);
   // A loaded contact yields slowly within the layer of a millimetre, but nothing creeps sideways.
-  const Vector3 moved = after.Pos() - before.Pos();
-  EXPECT_LT(std::hypot(moved.X(), moved.Y()), 1e-4);
-  EXPECT_LT(std::abs(moved.Z()), 1e-3);
-  EXPECT_LT(std::abs((after.Rot() * before.Rot().Inverse()).Yaw()), 1e-3);
+  const Vector3 moved = after.position - before.position;
+  EXPECT_LT(std::hypot(moved.x(), moved.y()), 1e-4);
+  EXPECT_LT(std::abs(moved.z()), 1e-3);
+  EXPECT_LT(std::abs(to_rpy(after.orientation * before.orientation.inverse()).z()), 1e-3);
 }
 
 TEST(Robot, StandsOnWheelsThatTouchInManyPoints) {
@@ -160,13 +160,13 @@ TEST(Robot, StandsOnMeshesAfterTurningOnTheSpot) {
   const ObjectId robot = world.tree().find("/Robot");
   turn(5);
   world.advance(3, kStep);
-  EXPECT_GT(std::abs(world.pose(robot).Rot().Yaw()), 0.1);
+  EXPECT_GT(std::abs(to_rpy(world.pose(robot).orientation).z()), 0.1);
   turn(0);
   world.advance(6, kStep);
   const Pose before = world.pose(robot);
   world.advance(30, kStep);
-  EXPECT_LT(world.pose(robot).Pos().Distance(before.Pos()), 1e-4);
-  EXPECT_LT(std::abs((world.pose(robot).Rot() * before.Rot().Inverse()).Yaw()), 1e-4);
+  EXPECT_LT((world.pose(robot).position - before.position).norm(), 1e-4);
+  EXPECT_LT(std::abs(to_rpy(world.pose(robot).orientation * before.orientation.inverse()).z()), 1e-4);
 }
 
 TEST(Robot, StandsUprightOnWheelsThatMaySinkIn) {

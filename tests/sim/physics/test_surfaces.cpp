@@ -44,7 +44,7 @@ double rebound(const Surface& ball, const Surface& ground) {
   bool has_touched = false;
   for (int i = 0; i < 200; ++i) {
     fall.world.advance(kStep, kStep);
-    const double height = fall.world.pose(fall.id).Pos().Z() - 0.1;
+    const double height = fall.world.pose(fall.id).position.z() - 0.1;
     has_touched = has_touched || height < 0.02;
     if (has_touched) highest = std::max(highest, height);
   }
@@ -68,10 +68,10 @@ TEST(Softness, ThingSinksInByItsWeight) {
   soft.kd = 20;
   Fall alone(soft, Surface{}, Sphere{0.3}, at(0, 0, 0.3));
   alone.world.advance(3, kStep);
-  EXPECT_NEAR(0.3 - alone.world.pose(alone.id).Pos().Z(), 9.81 / 1000 + kLayer, 1e-4);
+  EXPECT_NEAR(0.3 - alone.world.pose(alone.id).position.z(), 9.81 / 1000 + kLayer, 1e-4);
   Fall both(soft, soft, Sphere{0.3}, at(0, 0, 0.3));
   both.world.advance(3, kStep);
-  EXPECT_NEAR(0.3 - both.world.pose(both.id).Pos().Z(), 9.81 / 500 + kLayer, 1e-4) << "two springs in series";
+  EXPECT_NEAR(0.3 - both.world.pose(both.id).position.z(), 9.81 / 500 + kLayer, 1e-4) << "two springs in series";
 }
 
 TEST(Softness, StiffContactsAreRigid) {
@@ -83,7 +83,7 @@ TEST(Softness, StiffContactsAreRigid) {
     stiff.min_depth = 0.003;
     Fall fall(stiff, Surface{}, Box{{1, 1, 0.4}}, at(0, 0, 0.21));
     fall.world.advance(2, kStep);
-    EXPECT_NEAR(fall.world.pose(fall.id).Pos().Z(), 0.2 - 0.0015, 0.0016) << "within its min_depth, " << kp;
+    EXPECT_NEAR(fall.world.pose(fall.id).position.z(), 0.2 - 0.0015, 0.0016) << "within its min_depth, " << kp;
   }
 }
 
@@ -91,10 +91,10 @@ TEST(MaxVel, OverlappingShapesPartThatFast) {
   Surface quick;
   quick.max_vel = 0.5;
   SceneDescription described =
-      scene({still(thing(Sphere{0.5}, quick, at(0.7, 0, 0))), model("Ball", link_with(Sphere{0.5}))}, Vector3::Zero);
+      scene({still(thing(Sphere{0.5}, quick, at(0.7, 0, 0))), model("Ball", link_with(Sphere{0.5}))}, Vector3::Zero());
   World world(described, 0);
   world.advance(2 * kStep, kStep);
-  EXPECT_NEAR(world.velocity(world.tree().find("/Ball")).linear.Length(), 0.5, 0.05);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Ball")).linear.norm(), 0.5, 0.05);
 }
 
 /// Velocity of a box a second after it was pushed along x and y over the ground.
@@ -115,29 +115,29 @@ Surface slippery_along(const Vector3& direction) {
 }
 
 TEST(FrictionDirection, MuCountsAlongItAndMu2Across) {
-  const Vector3 velocity = pushed(slippery_along(Vector3::UnitX), Surface{}, at(0, 0, 0.05));
-  EXPECT_NEAR(velocity.X(), 3, 0.02);
-  EXPECT_NEAR(velocity.Y(), 3 - 0.5 * 9.81 * 0.5, 0.1) << "v = v0 - mu g t";
+  const Vector3 velocity = pushed(slippery_along(Vector3::UnitX()), Surface{}, at(0, 0, 0.05));
+  EXPECT_NEAR(velocity.x(), 3, 0.02);
+  EXPECT_NEAR(velocity.y(), 3 - 0.5 * 9.81 * 0.5, 0.1) << "v = v0 - mu g t";
 }
 
 TEST(FrictionDirection, TurnsWithTheShape) {
-  const Vector3 velocity = pushed(slippery_along(Vector3::UnitX), Surface{}, Pose(0, 0, 0.05, 0, 0, M_PI / 2));
-  EXPECT_NEAR(velocity.Y(), 3, 0.02);
-  EXPECT_LT(velocity.X(), 1);
+  const Vector3 velocity = pushed(slippery_along(Vector3::UnitX()), Surface{}, Pose(0, 0, 0.05, 0, 0, M_PI / 2));
+  EXPECT_NEAR(velocity.y(), 3, 0.02);
+  EXPECT_LT(velocity.x(), 1);
 }
 
 TEST(Slip, LetsThingsSlideAtASpeedByTheForce) {
   Surface slips;
-  slips.fdir1 = Vector3::UnitX;
+  slips.fdir1 = Vector3::UnitX();
   slips.slip1 = 0.2;
   // On a slope of 0.1 rad; four contacts side by side slip a quarter as much.
-  const Quaternion tilt = turn(0, 0.1, 0);
-  ModelDescription slope = still(model("Slope", link_with(Box{{40, 4, 1}}), Pose(Vector3::Zero, tilt)));
-  ModelDescription box = thing(Sphere{0.2}, slips, Pose(tilt.RotateVector({0, 0, 0.7}), tilt));
+  const Quaternion tilt = from_rpy(0, 0.1, 0);
+  ModelDescription slope = still(model("Slope", link_with(Box{{40, 4, 1}}), Pose(Vector3::Zero(), tilt)));
+  ModelDescription box = thing(Sphere{0.2}, slips, Pose(tilt * Vector3(0, 0, 0.7), tilt));
   box.links[0].inertia_diagonal = Vector3(1e3, 1e3, 1e3);  // does not roll
   World world(scene({slope, box}), 0);
   world.advance(3, kStep);
-  EXPECT_NEAR(world.velocity(world.tree().find("/Thing")).linear.Length(), 0.2 * 9.81 * std::sin(0.1), 0.01);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Thing")).linear.norm(), 0.2 * 9.81 * std::sin(0.1), 0.01);
 }
 
 TEST(Torsion, BrakesASpinOnTheSpot) {
@@ -147,7 +147,7 @@ TEST(Torsion, BrakesASpinOnTheSpot) {
   fall.world.advance(0.2, kStep);
   fall.world.set_velocity(fall.id, {{}, {0, 0, 1}});
   fall.world.advance(1, kStep);
-  EXPECT_NEAR(fall.world.velocity(fall.id).angular.Z(), 1 - 0.02 * 9.81, 0.01) << "w = w0 - torsion m g t / I";
+  EXPECT_NEAR(fall.world.velocity(fall.id).angular.z(), 1 - 0.02 * 9.81, 0.01) << "w = w0 - torsion m g t / I";
 }
 
 TEST(CollideWithoutContact, LetsThingsThrough) {
@@ -155,7 +155,7 @@ TEST(CollideWithoutContact, LetsThingsThrough) {
   ghost.collide_without_contact = true;
   Fall fall(ghost, Surface{}, Sphere{0.3}, at(0, 0, 0.3));
   fall.world.advance(1, kStep);
-  EXPECT_LT(fall.world.pose(fall.id).Pos().Z(), -4);
+  EXPECT_LT(fall.world.pose(fall.id).position.z(), -4);
 }
 
 TEST(SurfacePair, DoesNotDependOnTheOrder) {
@@ -163,7 +163,7 @@ TEST(SurfacePair, DoesNotDependOnTheOrder) {
   a.mu = 0.4;
   a.kp = 2e4;
   a.slip1 = 0.1;
-  Surface b = slippery_along(Vector3::UnitY);
+  Surface b = slippery_along(Vector3::UnitY());
   b.kd = 7;
   const dSurfaceParameters one = combine(a, b, kStep).ode;
   const dSurfaceParameters other = combine(b, a, kStep).ode;

@@ -18,9 +18,9 @@ void add_rod(ModelDescription& model, const std::string& name, const std::string
   rod.mass = mass;
   rod.centre_of_mass = {0, 0, -0.5};
   rod.inertia_diagonal = Vector3(1.0 / 12, 1.0 / 12, 1e-3) * mass;
-  rod.pose = Pose(from, Quaternion(0, angle, 0));
+  rod.pose = Pose(from, from_rpy(0, angle, 0));
   model.links.push_back(rod);
-  JointDescription hinge = joint("revolute", {axis(Vector3::UnitY)}, from, parent, name);
+  JointDescription hinge = joint("revolute", {axis(Vector3::UnitY())}, from, parent, name);
   hinge.name = "to_" + name;
   model.joints.push_back(hinge);
 }
@@ -64,7 +64,7 @@ double widest_gap(int rods, double ratio, double step, double duration) {
     world.advance(0.05, step);
     for (int i = 1; i < rods; ++i) {
       const ObjectId hinge = world.tree().find("/to_rod" + std::to_string(i));
-      widest = std::max(widest, world.pose(hinge).Pos().Distance(world.joint_child_pose(hinge).Pos()));
+      widest = std::max(widest, (world.pose(hinge).position - world.joint_child_pose(hinge).position).norm());
     }
   }
   return widest;

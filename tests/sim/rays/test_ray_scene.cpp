@@ -41,7 +41,7 @@ struct Traced {
   }
 
   bool lit(const Vector3& point, const Vector3& to_light) const {
-    rays::RayPacket packet = trace({0, 0, 1e4}, Vector3::UnitZ);
+    rays::RayPacket packet = trace({0, 0, 1e4}, Vector3::UnitZ());
     rays::aim(packet.data.ray, 0, point, to_light);
     rays.occlude(packet.data.ray, packet.mask);
     return packet.data.ray.tfar[0] >= 0;
@@ -57,7 +57,7 @@ struct Traced {
 void expect_hit(const std::optional<RayHit>& found, double distance, const Vector3& normal, ObjectId link) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->distance, distance, kExact);
-  EXPECT_LT((found->normal - normal).Length(), 1e-5);
+  EXPECT_LT((found->normal - normal).norm(), 1e-5);
   EXPECT_EQ(found->link, link);
 }
 
@@ -77,8 +77,8 @@ TEST_P(RayOnMovingAndStill, MeetsEachFaceOfABoxFromOutside) {
   const ObjectId link = traced.find("/Target/link");
   for (const Vector3& face : {Vector3(1, 0, 0), Vector3(0, 2, 0), Vector3(0, 0, 3)}) {
     for (const double side : {1.0, -1.0}) {
-      const Vector3 normal = face.Normalized() * side;
-      expect_hit(traced.hit(normal * 10, -normal), 10 - face.Length(), normal, link);
+      const Vector3 normal = face.normalized() * side;
+      expect_hit(traced.hit(normal * 10, -normal), 10 - face.norm(), normal, link);
     }
   }
 }
@@ -87,7 +87,7 @@ TEST_P(RayOnMovingAndStill, DoesNotSeeAShapeFromInside) {
   for (const Geometry& geometry :
        {Geometry(kBox), Geometry(Sphere{1}), Geometry(Cylinder{1, 2}), Geometry(Capsule{1, 2}),
         Geometry(Ellipsoid{{1, 2, 3}}), Geometry(box_mesh({2, 4, 6}))}) {
-    EXPECT_FALSE(one(geometry).hit({0.1, 0.2, 0.3}, Vector3(1, 2, 3).Normalized()));
+    EXPECT_FALSE(one(geometry).hit({0.1, 0.2, 0.3}, Vector3(1, 2, 3).normalized()));
   }
 }
 
@@ -95,28 +95,28 @@ TEST_P(RayOnMovingAndStill, FromInsideAShapeSeesWhatStandsOutside) {
   ModelDescription housing = model("Housing", link_with(kBox));
   housing.is_static = GetParam();
   const Traced traced(scene({housing, still(model("Wall", link_with(Box{{1, 9, 9}}), at(5.5, 0, 0)))}));
-  expect_hit(traced.hit({0, 0, 0.5}, Vector3::UnitX), 5, {-1, 0, 0}, traced.find("/Wall/link"));
+  expect_hit(traced.hit({0, 0, 0.5}, Vector3::UnitX()), 5, {-1, 0, 0}, traced.find("/Wall/link"));
 }
 
 TEST_P(RayOnMovingAndStill, EndsAtItsLength) {
-  EXPECT_TRUE(one(Sphere{1}, at(kFar + 0.9, 0, 0)).hit({}, Vector3::UnitX));
-  EXPECT_FALSE(one(Sphere{1}, at(kFar + 1.1, 0, 0)).hit({}, Vector3::UnitX));
+  EXPECT_TRUE(one(Sphere{1}, at(kFar + 0.9, 0, 0)).hit({}, Vector3::UnitX()));
+  EXPECT_FALSE(one(Sphere{1}, at(kFar + 1.1, 0, 0)).hit({}, Vector3::UnitX()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RayOnMovingAndStill, ::testing::Bool());
 
 TEST(RayScene, WithoutAnythingIsEmpty) {
   const Traced traced(scene({}));
-  EXPECT_FALSE(traced.hit({}, Vector3::UnitX));
-  EXPECT_TRUE(traced.lit({}, Vector3::UnitX));
+  EXPECT_FALSE(traced.hit({}, Vector3::UnitX()));
+  EXPECT_TRUE(traced.lit({}, Vector3::UnitX()));
 }
 
 TEST(RayScene, HasItsInfinitePlanesSolidBelow) {
   const Traced traced(scene({floor()}));
-  expect_hit(traced.hit({0, 0, 3}, Vector3(3, 4, -5).Normalized()), 3 * std::sqrt(2.0), {0, 0, 1},
+  expect_hit(traced.hit({0, 0, 3}, Vector3(3, 4, -5).normalized()), 3 * std::sqrt(2.0), {0, 0, 1},
              traced.find("/Floor/link"));
-  EXPECT_FALSE(traced.hit({0, 0, 3}, Vector3::UnitX));
-  EXPECT_FALSE(traced.hit({0, 0, -1}, Vector3::UnitZ));
+  EXPECT_FALSE(traced.hit({0, 0, 3}, Vector3::UnitX()));
+  EXPECT_FALSE(traced.hit({0, 0, -1}, Vector3::UnitZ()));
 }
 
 /// Shapes of all kinds in any pose; every second one can move.
@@ -128,7 +128,7 @@ SceneDescription clutter(std::mt19937& random) {
   for (int i = 0; i < 60; ++i) {
     const Vector3 sizes(size(random), size(random), size(random));
     const std::array<Geometry, 6> kinds = {
-        Box{sizes},           Sphere{sizes.X()}, Cylinder{sizes.X(), sizes.Y()}, Capsule{sizes.X() / 2, sizes.Y()},
+        Box{sizes},           Sphere{sizes.x()}, Cylinder{sizes.x(), sizes.y()}, Capsule{sizes.x() / 2, sizes.y()},
         Ellipsoid{sizes / 2}, box_mesh(sizes)};
     const Geometry& geometry = kinds[static_cast<std::size_t>(i) % kinds.size()];
     LinkDescription body = link_with(geometry);
@@ -137,7 +137,7 @@ SceneDescription clutter(std::mt19937& random) {
     models.push_back(model("Thing" + std::to_string(i), body, pose));
     models.back().is_static = i % 4 < 2;
   }
-  return scene(models, Vector3::Zero);
+  return scene(models, Vector3::Zero());
 }
 
 /// Random rays; those that only touch an edge may or may not hit.
@@ -150,7 +150,7 @@ void expect_as_exact_rays(const Traced& traced, std::mt19937& random, ObjectId i
     // Origins that are exact in single precision: the exact ray is then the same.
     const Vector3 origin(static_cast<float>(place(random)), static_cast<float>(place(random)),
                          static_cast<float>(place(random) + 8));
-    const Vector3 direction = Vector3(any(random), any(random), any(random)).Normalized();
+    const Vector3 direction = Vector3(any(random), any(random), any(random)).normalized();
     const auto exact = traced.world.cast_ray(origin, direction, kFar, ignored);
     const auto traced_hit = traced.hit(origin, direction, ignored, i % 2 == 0);
     if (exact.has_value() != traced_hit.has_value() || (exact && exact->link != traced_hit->link)) {
@@ -159,10 +159,10 @@ void expect_as_exact_rays(const Traced& traced, std::mt19937& random, ObjectId i
     }
     if (!exact) continue;
     ++hits;
-    const double grazing = std::abs(exact->normal.Dot(direction));
+    const double grazing = std::abs(exact->normal.dot(direction));
     if (grazing < 0.01) continue;
     EXPECT_NEAR(traced_hit->distance, exact->distance, kExact);
-    EXPECT_LT((traced_hit->normal - exact->normal).Length(), 1e-3);
+    EXPECT_LT((traced_hit->normal - exact->normal).norm(), 1e-3);
   }
   EXPECT_GT(hits, 400);
   EXPECT_LE(differing, 2);
@@ -197,11 +197,11 @@ TEST(RayScene, FollowsWhatMoves) {
 TEST(RayScene, LosesWhatIsRemovedAndTakesItBack) {
   const ModelDescription ball = model("Ball", link_with(Sphere{1}), at(5, 0, 0));
   const ModelDescription wall = still(model("Wall", link_with(Box{{1, 9, 9}}), at(8.5, 0, 0)));
-  Traced traced(scene({floor(), ball, wall}, Vector3::Zero));
+  Traced traced(scene({floor(), ball, wall}, Vector3::Zero()));
   const Vector3 eye(0, 0, 0.5);
   const auto seen = [&] {
     traced.rays.refresh(traced.world);
-    const auto hit = traced.hit(eye, Vector3::UnitX);
+    const auto hit = traced.hit(eye, Vector3::UnitX());
     return hit ? hit->link : kNoObject;
   };
   EXPECT_EQ(seen(), traced.find("/Ball/link"));
@@ -210,7 +210,7 @@ TEST(RayScene, LosesWhatIsRemovedAndTakesItBack) {
   traced.rays.remove_model(traced.find("/Wall"));
   EXPECT_EQ(seen(), kNoObject);
   traced.rays.remove_model(traced.find("/Floor"));
-  EXPECT_FALSE(traced.hit(eye, -Vector3::UnitZ));
+  EXPECT_FALSE(traced.hit(eye, -Vector3::UnitZ()));
   traced.rays.add_model(traced.world, traced.find("/Wall"), wall);
   traced.rays.add_model(traced.world, traced.find("/Ball"), ball);
   EXPECT_EQ(seen(), traced.find("/Ball/link"));
@@ -223,7 +223,7 @@ TEST(RayScene, ShowsVisualsInPlaceOfCollisionShapes) {
   visual.laser_retro = 7;
   robot.links[0].visuals.push_back(visual);
   const Traced traced(scene({robot}));
-  const rays::RayPacket packet = traced.trace({10, 0, 0}, -Vector3::UnitX);
+  const rays::RayPacket packet = traced.trace({10, 0, 0}, -Vector3::UnitX());
   ASSERT_TRUE(packet.hit(0));
   EXPECT_NEAR(packet.data.ray.tfar[0], 8, kExact);
   EXPECT_EQ(traced.rays.shape(packet, 0).laser_retro, 7);
@@ -232,9 +232,9 @@ TEST(RayScene, ShowsVisualsInPlaceOfCollisionShapes) {
 TEST(Shadow, FallsFromStillAndMovingShapesAlike) {
   const Traced traced(scene({still(model("Still", link_with(Sphere{1}), at(0, 0, 5))),
                              model("Moving", link_with(Box{{1, 1, 1}}), at(5, 0, 5)), floor()}));
-  EXPECT_FALSE(traced.lit({0.5, 0, 0}, Vector3::UnitZ));
-  EXPECT_FALSE(traced.lit({5.4, 0, 0}, Vector3::UnitZ));
-  EXPECT_TRUE(traced.lit({2.5, 0, 0}, Vector3::UnitZ));
+  EXPECT_FALSE(traced.lit({0.5, 0, 0}, Vector3::UnitZ()));
+  EXPECT_FALSE(traced.lit({5.4, 0, 0}, Vector3::UnitZ()));
+  EXPECT_TRUE(traced.lit({2.5, 0, 0}, Vector3::UnitZ()));
 }
 
 }  // namespace

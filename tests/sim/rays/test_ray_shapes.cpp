@@ -18,13 +18,13 @@ constexpr double kFar = 1000;
 std::optional<RayHit> hit(const Geometry& geometry, const Vector3& origin, const Vector3& direction,
                           double max_distance = kFar, const Pose& pose = {}) {
   const World world(scene({still(model("Target", link_with(geometry), pose))}), 0);
-  return world.cast_ray(origin, direction.Normalized(), max_distance);
+  return world.cast_ray(origin, direction.normalized(), max_distance);
 }
 
 void expect_hit(const std::optional<RayHit>& found, double distance, const Vector3& normal) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->distance, distance, 1e-12 * (1 + distance));
-  EXPECT_LT((found->normal - normal).Length(), 1e-12);
+  EXPECT_LT((found->normal - normal).norm(), 1e-12);
 }
 
 const Box kBox{{2, 4, 6}};
@@ -95,7 +95,7 @@ TEST(RayOnEllipsoid, MeetsItAtTheClosedForm) {
   expect_hit(hit(kEllipsoid, {5, 0, 0}, {-1, 0, 0}), 4, {1, 0, 0});
   expect_hit(hit(kEllipsoid, {0, 0, -9}, {0, 0, 1}), 6, {0, 0, -1});
   // At y = 1.2 the ellipse x^2 + y^2 / 4 = 1 has x = 0.8; its normal there is (x, y / 4).
-  expect_hit(hit(kEllipsoid, {5, 1.2, 0}, {-1, 0, 0}), 4.2, Vector3(0.8, 0.3, 0).Normalized());
+  expect_hit(hit(kEllipsoid, {5, 1.2, 0}, {-1, 0, 0}), 4.2, Vector3(0.8, 0.3, 0).normalized());
   EXPECT_FALSE(hit(kEllipsoid, {5, 2.001, 0}, {-1, 0, 0}));
 }
 
@@ -142,33 +142,33 @@ TEST_P(RayOnAnyShape, EndsAtItsLength) {
 
 TEST_P(RayOnAnyShape, FollowsItsPose) {
   if (std::holds_alternative<Plane>(GetParam())) return;  // looks the same from most sides
-  const Pose moved(Vector3(3, -2, 7), turn(0.4, -1.1, 2.5));
+  const Pose moved(Vector3(3, -2, 7), from_rpy(0.4, -1.1, 2.5));
   const Vector3 origin(0.2, 0.1, 10);
   const Vector3 direction(0.01, -0.02, -1);
   const auto here = hit(GetParam(), origin, direction);
-  const auto there = hit(GetParam(), moved.CoordPositionAdd(origin), moved.Rot().RotateVector(direction), kFar, moved);
+  const auto there = hit(GetParam(), moved * origin, moved.orientation * direction, kFar, moved);
   ASSERT_TRUE(here && there);
   EXPECT_NEAR(here->distance, there->distance, 1e-9);
-  EXPECT_LT((moved.Rot().RotateVector(here->normal) - there->normal).Length(), 1e-9);
+  EXPECT_LT((moved.orientation * here->normal - there->normal).norm(), 1e-9);
 }
 
 /// Below zero inside the shape, above zero outside; not a distance.
 double outside(const Geometry& geometry, const Vector3& p) {
   if (const auto* box = std::get_if<Box>(&geometry)) {
-    return std::max({std::abs(p.X()) - box->size.X() / 2, std::abs(p.Y()) - box->size.Y() / 2,
-                     std::abs(p.Z()) - box->size.Z() / 2});
+    return std::max({std::abs(p.x()) - box->size.x() / 2, std::abs(p.y()) - box->size.y() / 2,
+                     std::abs(p.z()) - box->size.z() / 2});
   }
   if (std::holds_alternative<Mesh>(geometry)) return outside(kBox, p);
   if (const auto* capsule = std::get_if<Capsule>(&geometry)) {
     const double half = capsule->length / 2;
-    return p.Distance(Vector3(0, 0, std::clamp(p.Z(), -half, half))) - capsule->radius;
+    return (p - Vector3(0, 0, std::clamp(p.z(), -half, half))).norm() - capsule->radius;
   }
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry)) return (p / ellipsoid->radii).Length() - 1;
-  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return p.Length() - sphere->radius;
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&geometry)) return p.cwiseQuotient(ellipsoid->radii).norm() - 1;
+  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return p.norm() - sphere->radius;
   if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
-    return std::max(std::hypot(p.X(), p.Y()) - cylinder->radius, std::abs(p.Z()) - cylinder->length / 2);
+    return std::max(std::hypot(p.x(), p.y()) - cylinder->radius, std::abs(p.z()) - cylinder->length / 2);
   }
-  return std::get<Plane>(geometry).normal.Dot(p);
+  return std::get<Plane>(geometry).normal.dot(p);
 }
 
 TEST_P(RayOnAnyShape, AgreesWithSamplingAlongRandomRays) {
@@ -182,7 +182,7 @@ TEST_P(RayOnAnyShape, AgreesWithSamplingAlongRandomRays) {
   int hits = 0;
   for (int i = 0; i < 400; ++i) {
     const Vector3 origin(place(random), place(random), place(random));
-    const Vector3 direction = Vector3(any(random), any(random), any(random)).Normalized();
+    const Vector3 direction = Vector3(any(random), any(random), any(random)).normalized();
     if (outside(geometry, origin) <= 0) continue;
     const auto found = world.cast_ray(origin, direction, kReach);
     if (found) {
@@ -190,7 +190,7 @@ TEST_P(RayOnAnyShape, AgreesWithSamplingAlongRandomRays) {
       const Vector3 point = origin + direction * found->distance;
       EXPECT_NEAR(outside(geometry, point), 0, 1e-9) << "on the surface";
       EXPECT_GT(outside(geometry, point + found->normal * 1e-6), 0) << "the normal points outwards";
-      EXPECT_LE(found->normal.Dot(direction), 1e-12) << "the ray enters";
+      EXPECT_LE(found->normal.dot(direction), 1e-12) << "the ray enters";
     }
     const double end = found ? found->distance : kReach;
     for (int s = 0; s < kSamples; ++s) {
@@ -207,11 +207,11 @@ TEST(RayInAWorld, NearestOfSeveralShapesCountsAndModelsCanBeLeftOut) {
   const World world(scene({still(model("Near", link_with(Sphere{1}), at(5, 0, 0))),
                            still(model("Far", link_with(Sphere{1}), at(9, 0, 0)))}),
                     0);
-  const auto near = world.cast_ray({}, Vector3::UnitX, kFar);
+  const auto near = world.cast_ray({}, Vector3::UnitX(), kFar);
   ASSERT_TRUE(near);
   EXPECT_DOUBLE_EQ(near->distance, 4);
   EXPECT_EQ(world.tree().path(near->link), "/Near/link");
-  const auto far = world.cast_ray({}, Vector3::UnitX, kFar, world.tree().find("/Near"));
+  const auto far = world.cast_ray({}, Vector3::UnitX(), kFar, world.tree().find("/Near"));
   ASSERT_TRUE(far);
   EXPECT_DOUBLE_EQ(far->distance, 8);
 }
@@ -219,8 +219,8 @@ TEST(RayInAWorld, NearestOfSeveralShapesCountsAndModelsCanBeLeftOut) {
 TEST(RayInAWorld, SeesABodyWhereItHasMovedTo) {
   World world(scene({model("Ball", link_with(Sphere{1}), at(5, 0, 0))}), 0);
   world.set_pose(world.tree().find("/Ball"), at(0, 8, 0));
-  EXPECT_FALSE(world.cast_ray({}, Vector3::UnitX, kFar));
-  const auto found = world.cast_ray({}, Vector3::UnitY, kFar);
+  EXPECT_FALSE(world.cast_ray({}, Vector3::UnitX(), kFar));
+  const auto found = world.cast_ray({}, Vector3::UnitY(), kFar);
   ASSERT_TRUE(found);
   EXPECT_DOUBLE_EQ(found->distance, 7);
 }

@@ -63,7 +63,7 @@ TEST(Batch, EqualsSingleSimulationsForAnyNumberOfThreads) {
       EXPECT_EQ(batch[i].state_hash(), alone.state_hash());
       const double* row = &observed[i * batch.observations().width()];
       EXPECT_EQ(row[0], alone.state_time());
-      EXPECT_EQ(row[1], alone.world().pose(tree.find("/Tricycle")).Pos().X());
+      EXPECT_EQ(row[1], alone.world().pose(tree.find("/Tricycle")).position.x());
     }
   }
 }

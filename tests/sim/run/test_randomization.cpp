@@ -92,12 +92,12 @@ TEST(Randomization, DependsOnTheSeedAndTheQuantityAlone) {
   Simulation two(boxes({place, mass}), 7);
   EXPECT_EQ(mass_of(one), mass_of(two));
   EXPECT_NE(mass_of(one), mass_of(Simulation(boxes({mass}), 8)));
-  const Vector3 position = two.world().pose(two.world().tree().find("/Other")).Pos();
+  const Vector3 position = two.world().pose(two.world().tree().find("/Other")).position;
   for (unsigned i = 0; i < 3; ++i) {
     EXPECT_GE(position[i], i + 1);
     EXPECT_LT(position[i], i + 2);
   }
-  EXPECT_NE(position.X() - 1, position.Y() - 2);
+  EXPECT_NE(position.x() - 1, position.y() - 2);
 }
 
 TEST(Randomization, AResetDrawsTheSameAgain) {
@@ -108,7 +108,7 @@ TEST(Randomization, AResetDrawsTheSameAgain) {
   const std::string start = simulation.save();
   const double mass = mass_of(simulation);
   EXPECT_NE(mass, mass_of(simulation, "/Other"));
-  EXPECT_NE(simulation.world().gravity().Z(), -9.81);
+  EXPECT_NE(simulation.world().gravity().z(), -9.81);
   simulation.step();
   simulation.reset();
   EXPECT_TRUE(simulation.save() == start);

@@ -61,8 +61,8 @@ TEST(Pass, PhysicsRunBetweenActuationAndSensing) {
   const ObjectId ball = simulation.world().tree().find("/Ball");
   std::vector<double> speeds;
   Caller caller;
-  caller.on_actuate = [&](World& world, double) { speeds.push_back(world.velocity(ball).linear.X()); };
-  caller.on_sense = [&](const World& world, double) { speeds.push_back(world.velocity(ball).linear.X()); };
+  caller.on_actuate = [&](World& world, double) { speeds.push_back(world.velocity(ball).linear.x()); };
+  caller.on_sense = [&](const World& world, double) { speeds.push_back(world.velocity(ball).linear.x()); };
   simulation.add(caller);
   simulation.step();
   ASSERT_EQ(speeds.size(), 2u);
@@ -101,7 +101,7 @@ SceneDescription approach(double update_rate) {
   sonar.kind = SonarDescription{0, 10, 0};
   eye.links[0].sensors.push_back(sonar);
   ModelDescription ball = model("Ball", link_with(Sphere{1}), at(6, 0, 0));
-  return scene({eye, ball}, Vector3::Zero);
+  return scene({eye, ball}, Vector3::Zero());
 }
 
 struct Approach {
@@ -176,8 +176,8 @@ TEST(Reading, HoldsWhatWasSeen) {
   const ProximityReading reading = approach.simulation.read_proximity(approach.sonar);
   EXPECT_TRUE(reading.detected);
   EXPECT_NEAR(reading.distance, 5, kExact);
-  EXPECT_LT(reading.point.Distance({5, 0, 0}), kExact);
-  EXPECT_LT(reading.normal.Distance({-1, 0, 0}), kExact);
+  EXPECT_LT((reading.point - Vector3(5, 0, 0)).norm(), kExact);
+  EXPECT_LT((reading.normal - Vector3(-1, 0, 0)).norm(), kExact);
   EXPECT_EQ(reading.object, approach.simulation.world().tree().find("/Ball/link"));
 }
 
@@ -200,7 +200,7 @@ TEST(Reading, OfWhatIsNoSensorIsRefused) {
 TEST(Sonar, DoesNotSeeItsOwnModel) {
   SceneDescription described = approach(0);
   described.models[0].links[0].collisions.push_back(shape(Box{{1, 1, 1}}));
-  described.models[0].links[0].collisions[0].pose.Pos() = {2, 0, 0};
+  described.models[0].links[0].collisions[0].pose.position = {2, 0, 0};
   Simulation simulation(described);
   EXPECT_NEAR(simulation.read_proximity(simulation.world().tree().find("/Sonar")).distance, 5, kExact);
 }

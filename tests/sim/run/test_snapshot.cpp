@@ -83,7 +83,7 @@ TEST(Snapshot, KeepsTheFutureOfEveryScene) {
 }
 
 JointDescription driven(const std::string& type, const std::string& parent, const std::string& child, MotorMode mode) {
-  JointDescription made = joint(type, {axis(Vector3::UnitY, mode)}, {0, 0, 0}, parent, child);
+  JointDescription made = joint(type, {axis(Vector3::UnitY(), mode)}, {0, 0, 0}, parent, child);
   made.name = parent + "_" + child;
   made.axes[0].lower = -0.4;
   made.axes[0].upper = 0.5;
@@ -172,7 +172,7 @@ TEST(Snapshot, KeepsMassFrictionAndGravity) {
   const std::vector<std::string> expected = run(simulation, 20, 40);
   Simulation other(scene, 6);
   other.restore(saved);
-  EXPECT_EQ(other.world().gravity().Z(), -2);
+  EXPECT_EQ(other.world().gravity().z(), -2);
   EXPECT_EQ(other.world().mass(world.tree().find("/Box1")), 0.3);
   EXPECT_EQ(other.world().friction(world.tree().find("/Box2")), 0.05);
   expect_equal(run(other, 20, 40), expected, "properties, other simulation");

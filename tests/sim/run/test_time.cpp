@@ -40,7 +40,7 @@ SceneDescription scene_of_mover(double update_rate) {
   add("Camera", camera);
   add("Imu", ImuDescription{});
   const ModelDescription wall = still(model("Wall", link_with(Box{{1, 40, 40}}), at(kWall + 0.5, 0, 0)));
-  return scene({model("Mover", body), wall}, Vector3::Zero);
+  return scene({model("Mover", body), wall}, Vector3::Zero());
 }
 
 struct Mover {
@@ -65,13 +65,13 @@ struct Mover {
       EXPECT_NEAR(image->depth.at(4) * std::cos(yaw), ahead, kExact) << "camera at " << reading.time;
     } else {
       const Quaternion& turned = std::get<ImuReading>(reading.measurement).orientation;
-      EXPECT_NEAR(turned.Yaw(), yaw, kExact) << "IMU at " << reading.time;
+      EXPECT_NEAR(to_rpy(turned).z(), yaw, kExact) << "IMU at " << reading.time;
     }
   }
 
   /// Checks what the sensors return now, on request and at their rate; both must have the time `expected`.
   void check_all(double expected) {
-    EXPECT_NEAR(simulation.world().pose(find("/Mover")).Pos().X(), kSpeed * expected, kRounding);
+    EXPECT_NEAR(simulation.world().pose(find("/Mover")).position.x(), kSpeed * expected, kRounding);
     EXPECT_NEAR(simulation.state_time(), expected, kRounding);
     for (const char* name : {"/Lidar", "/Sonar", "/Camera", "/Imu"}) {
       for (const auto& reading : {simulation.read(find(name)), simulation.measure(find(name))}) {

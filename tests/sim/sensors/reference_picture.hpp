@@ -43,11 +43,11 @@ class ReferencePicture {
   ReferencePixel at(double column, double row) const {
     const double focal = camera_.width / (2 * std::tan(camera_.horizontal_fov / 2));
     const Vector3 along(1, (camera_.width / 2.0 - column) / focal, (camera_.height / 2.0 - row) / focal);
-    const Vector3 direction = pose_.Rot().RotateVector(along);
-    const std::optional<Hit> hit = nearest({pose_.Pos(), direction.Normalized()}, camera_.near * direction.Length(),
-                                           camera_.far * direction.Length());
+    const Vector3 direction = pose_.orientation * along;
+    const std::optional<Hit> hit = nearest({pose_.position, direction.normalized()}, camera_.near * direction.norm(),
+                                           camera_.far * direction.norm());
     if (!hit) return {background(direction)};
-    return {shade(*hit), hit->distance / direction.Length(), hit->shape->object};
+    return {shade(*hit), hit->distance / direction.norm(), hit->shape->object};
   }
 
   /// The mean of four rays, as with antialias.
@@ -79,8 +79,8 @@ class ReferencePicture {
   std::optional<Hit> nearest(const Ray& ray, double from, double to) const {
     std::optional<Hit> found;
     for (const Shape& shape : shapes_) {
-      const Ray own{shape.pose.Rot().RotateVectorReverse(ray.origin - shape.pose.Pos()),
-                    shape.pose.Rot().RotateVectorReverse(ray.direction)};
+      const Ray own{shape.pose.orientation.conjugate() * (ray.origin - shape.pose.position),
+                    shape.pose.orientation.conjugate() * ray.direction};
       const auto hit = intersect(own, shape.visual.geometry, to);
       if (!hit || hit->distance < from || (found && hit->distance >= found->distance)) continue;
       found = Hit{&shape, hit->distance, ray.origin + ray.direction * hit->distance,
@@ -93,11 +93,11 @@ class ReferencePicture {
   /// Texture coordinates, and smooth normals of meshes.
   static void complete(Hit& hit) {
     if (const auto* box = std::get_if<Box>(&hit.shape->visual.geometry)) {
-      const Vector3 part = hit.inside / box->size;
+      const Vector3 part = hit.inside.cwiseQuotient(box->size);
       const Vector3& n = hit.normal;
-      if (std::abs(n.X()) > 0.5) hit.texture = {(n.X() > 0 ? 1 : -1) * part.Y() + 0.5, part.Z() + 0.5};
-      if (std::abs(n.Y()) > 0.5) hit.texture = {(n.Y() > 0 ? -1 : 1) * part.X() + 0.5, part.Z() + 0.5};
-      if (std::abs(n.Z()) > 0.5) hit.texture = {(n.Z() > 0 ? -1 : 1) * part.Y() + 0.5, part.X() + 0.5};
+      if (std::abs(n.x()) > 0.5) hit.texture = {(n.x() > 0 ? 1 : -1) * part.y() + 0.5, part.z() + 0.5};
+      if (std::abs(n.y()) > 0.5) hit.texture = {(n.y() > 0 ? -1 : 1) * part.x() + 0.5, part.z() + 0.5};
+      if (std::abs(n.z()) > 0.5) hit.texture = {(n.z() > 0 ? -1 : 1) * part.y() + 0.5, part.x() + 0.5};
     }
     const auto* mesh = std::get_if<Mesh>(&hit.shape->visual.geometry);
     if (mesh == nullptr) return;
@@ -106,11 +106,11 @@ class ReferencePicture {
       const Vector3 a = known.corner(triangle, 0);
       const Vector3 ab = known.corner(triangle, 1) - a;
       const Vector3 ac = known.corner(triangle, 2) - a;
-      const Vector3 normal = ab.Cross(ac);
+      const Vector3 normal = ab.cross(ac);
       const Vector3 ap = hit.inside - a;
-      if (std::abs(normal.Normalized().Dot(ap)) > 1e-9) continue;
-      const double v = ap.Cross(ac).Dot(normal) / normal.SquaredLength();
-      const double w = ab.Cross(ap).Dot(normal) / normal.SquaredLength();
+      if (std::abs(normal.normalized().dot(ap)) > 1e-9) continue;
+      const double v = ap.cross(ac).dot(normal) / normal.squaredNorm();
+      const double w = ab.cross(ap).dot(normal) / normal.squaredNorm();
       if (v < -1e-9 || w < -1e-9 || v + w > 1 + 1e-9) continue;
       const std::array<double, 3> parts = {1 - v - w, v, w};
       if (!known.texture_coordinates.empty()) {
@@ -127,7 +127,7 @@ class ReferencePicture {
         const TriangleMesh::Point& n = known.normals[triangle[corner]];
         hit.normal += Vector3(n[0], n[1], n[2]) * parts[corner];
       }
-      hit.normal.Normalize();
+      hit.normal.normalize();
       return;
     }
   }
@@ -163,25 +163,26 @@ class ReferencePicture {
 
   Vector3 background(const Vector3& direction) const {
     if (!environment_.sky) return rgb(environment_.background);
-    const double up = std::sqrt(std::max(direction.Normalized().Z(), 0.0));
+    const double up = std::sqrt(std::max(direction.normalized().z(), 0.0));
     return Vector3(0.85, 0.9, 0.95) * (1 - up) + Vector3(0.35, 0.55, 0.85) * up;
   }
 
   Vector3 shade(const Hit& hit) const {
     const Vector3 surface = diffuse(hit);
-    const Vector3 normal = hit.shape->pose.Rot().RotateVector(hit.normal);
-    Vector3 sum = rgb(hit.shape->visual.material.emissive) + surface * rgb(environment_.ambient);
+    const Vector3 normal = hit.shape->pose.orientation * hit.normal;
+    Vector3 sum = rgb(hit.shape->visual.material.emissive) + surface.cwiseProduct(rgb(environment_.ambient));
     for (const Light& light : environment_.lights) {
       const bool directional = light.kind == LightKind::kDirectional;
-      const Vector3 way = directional ? -light.direction : light.position - hit.place;
-      const double distance = directional ? 1e3 : way.Length();
-      const Vector3 to_light = way.Normalized();
-      const double cosine = normal.Dot(to_light);
+      const Vector3 way = directional ? Vector3(-light.direction) : light.position - hit.place;
+      const double distance = directional ? 1e3 : way.norm();
+      const Vector3 to_light = way.normalized();
+      const double cosine = normal.dot(to_light);
       if (cosine <= 0 || (!directional && distance > light.range)) continue;
       if (environment_.shadows && light.cast_shadows && is_shaded(hit.place + normal * 2e-4, to_light, distance)) {
         continue;
       }
-      sum += surface * rgb(light.diffuse) * (cosine * (directional ? 1 : brightness(light, distance, to_light)));
+      sum += surface.cwiseProduct(rgb(light.diffuse)) *
+             (cosine * (directional ? 1 : brightness(light, distance, to_light)));
     }
     return sum;
   }
@@ -190,7 +191,7 @@ class ReferencePicture {
     const double fading = light.constant_attenuation + light.linear_attenuation * distance +
                           light.quadratic_attenuation * distance * distance;
     if (light.kind != LightKind::kSpot) return 1 / fading;
-    const double cosine = -to_light.Dot(light.direction.Normalized());
+    const double cosine = -to_light.dot(light.direction.normalized());
     const double outer = std::cos(light.outer_angle / 2);
     const double inner = std::cos(light.inner_angle / 2);
     return std::pow(std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0), light.falloff) / fading;
@@ -199,8 +200,8 @@ class ReferencePicture {
   bool is_shaded(const Vector3& place, const Vector3& to_light, double distance) const {
     return std::any_of(shapes_.begin(), shapes_.end(), [&](const Shape& shape) {
       if (!shape.visual.cast_shadows || std::holds_alternative<Plane>(shape.visual.geometry)) return false;
-      const Ray own{shape.pose.Rot().RotateVectorReverse(place - shape.pose.Pos()),
-                    shape.pose.Rot().RotateVectorReverse(to_light)};
+      const Ray own{shape.pose.orientation.conjugate() * (place - shape.pose.position),
+                    shape.pose.orientation.conjugate() * to_light};
       return intersect(own, shape.visual.geometry, distance).has_value();
     });
   }

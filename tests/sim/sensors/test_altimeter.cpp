@@ -15,7 +15,7 @@ SceneDescription carried(const Kind& kind, const Pose& pose) {
   sensor.kind = kind;
   ModelDescription robot = model("Robot", link("link"), pose);
   robot.links[0].sensors.push_back(sensor);
-  return scene({robot}, Vector3::Zero);
+  return scene({robot}, Vector3::Zero());
 }
 
 template <class Kind>
@@ -47,7 +47,7 @@ TEST(Magnetometer, FeelsTheFieldOfTheWorldInItsOwnAxes) {
   SceneDescription described = carried(MagnetometerDescription{}, Pose(0, 0, 0, 0, 0, M_PI / 2));
   described.environment.magnetic_field = {2e-5, 1e-5, -4e-5};
   Simulation simulation(described);
-  EXPECT_LT(measured<MagnetometerReading>(simulation).field.Distance({1e-5, -2e-5, -4e-5}), 1e-12);
+  EXPECT_LT((measured<MagnetometerReading>(simulation).field - Vector3(1e-5, -2e-5, -4e-5)).norm(), 1e-12);
 }
 
 }  // namespace

@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "bubblesim/simulation.hpp"
+#include "near.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_forces {
 namespace {
 
 constexpr double kGravity = 9.81;
-
-void expect_near(const Vector3& found, const Vector3& wanted, double tolerance) {
-  EXPECT_LT(found.Distance(wanted), tolerance) << found << " instead of " << wanted;
-}
 
 template <class Kind>
 SensorDescription sensor(const std::string& name, const Kind& kind) {
@@ -30,7 +27,7 @@ ModelDescription turning_hand(const ForceTorqueDescription& kind) {
   LinkDescription hand = link("hand");
   hand.centre_of_mass = {0.5, 0, 0};
   robot.links.push_back(hand);
-  robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {}, "world", "arm"));
+  robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world", "arm"));
   JointDescription wrist = joint("fixed", {}, {}, "arm", "hand");
   wrist.name = "wrist";
   wrist.sensors.push_back(sensor("Wrist", kind));
@@ -44,7 +41,7 @@ TEST(ForceTorque, FastTurnIsMeasuredInItsAxesAtEachMoment) {
                            ForceTorqueDescription::Frame::kSensor}) {
     ForceTorqueDescription kind;
     kind.frame = frame;
-    Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero));
+    Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero()));
     const SceneTree& tree = simulation.world().tree();
     simulation.world().set_target_velocity(tree.find("/joint"), kTurn);
     for (int i = 0; i < 7; ++i) simulation.step();
@@ -58,21 +55,21 @@ TEST(ForceTorque, BandwidthIsThatOfAFirstOrderLowPass) {
   constexpr double kBandwidth = 2;  // Hz
   ForceTorqueDescription kind;
   kind.bandwidth = kBandwidth;
-  Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero));
+  Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero()));
   const SceneTree& tree = simulation.world().tree();
   simulation.step();
   for (int i = 1; i <= 3; ++i) {
     simulation.world().apply_wrench(tree.find("/Robot/*", kNoObject, 1), {{0, 0, 4}, {}});
     simulation.step();
     const auto reading = std::get<ForceTorqueReading>(simulation.measure(tree.find("/Wrist"))->measurement);
-    EXPECT_NEAR(reading.force.Z(), 4 * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i)), 1e-6);
+    EXPECT_NEAR(reading.force.z(), 4 * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i)), 1e-6);
   }
 }
 
 /// A box of 1 kg and 0.2 m with a contact sensor, at a height above the floor.
 ModelDescription box(const std::string& name, double z) {
   LinkDescription described = link(name);
-  described.inertia_diagonal = Vector3::One * (1.0 / 150);
+  described.inertia_diagonal = Vector3::Ones() * (1.0 / 150);
   described.collisions.push_back(shape(Box{{0.2, 0.2, 0.2}}));
   described.sensors.push_back(sensor(name + "_bumper", ContactDescription{}));
   return model(name, described, at(0, 0, z));

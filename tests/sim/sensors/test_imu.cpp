@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bubblesim/simulation.hpp"
+#include "near.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_imu {
@@ -24,10 +25,6 @@ ImuReading measured(Simulation& simulation) {
   return std::get<ImuReading>(simulation.measure(simulation.world().tree().find("/Imu"))->measurement);
 }
 
-void expect_near(const Vector3& found, const Vector3& wanted, double tolerance) {
-  EXPECT_LT(found.Distance(wanted), tolerance) << found << " instead of " << wanted;
-}
-
 TEST(Imu, AtRestFeelsWhatHoldsItAgainstGravity) {
   Simulation simulation(scene({floor(), with_imu(link_with(Box{{1, 1, 1}}), {}, at(0, 0, 0.499))}));
   for (int i = 0; i < 20; ++i) simulation.step();
@@ -41,7 +38,7 @@ TEST(Imu, MeasuresInItsOwnFrame) {
   Simulation simulation(scene({still(with_imu(link("link"), leaning))}));
   const ImuReading reading = measured(simulation);
   expect_near(reading.linear_acceleration, {0, kGravity * std::sin(0.5), kGravity * std::cos(0.5)}, 1e-9);
-  EXPECT_TRUE(reading.orientation.Equal(leaning.Rot(), 1e-9));
+  expect_near(reading.orientation, leaning.orientation, 1e-9);
 }
 
 TEST(Imu, FallingFeelsNothing) {
@@ -53,7 +50,7 @@ TEST(Imu, FallingFeelsNothing) {
 TEST(Imu, AwayFromTheAxisFeelsTheTurn) {
   constexpr double kTurn = 2;     // rad/s
   constexpr double kLever = 0.5;  // m
-  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero));
+  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero()));
   simulation.world().set_velocity(simulation.world().tree().find("/Robot"), {{}, {0, 0, kTurn}});
   for (int i = 0; i < 7; ++i) simulation.step();
   const ImuReading reading = measured(simulation);
@@ -64,7 +61,7 @@ TEST(Imu, AwayFromTheAxisFeelsTheTurn) {
 TEST(Imu, FastTurnIsMeasuredInItsAxesAtEachMoment) {
   constexpr double kTurn = 10;    // rad/s: half a radian in a simulation step
   constexpr double kLever = 0.5;  // m
-  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero));
+  Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero()));
   simulation.world().set_velocity(simulation.world().tree().find("/Robot"), {{}, {0, 0, kTurn}});
   for (int i = 0; i < 7; ++i) simulation.step();
   const ImuReading reading = measured(simulation);
@@ -76,8 +73,8 @@ TEST(Imu, OffTheCentreOfMassOfAHingedLink) {
   LinkDescription arm = link("arm");
   arm.centre_of_mass = {0.5, 0, 0};
   ModelDescription robot = with_imu(arm, Pose(0.5, 0, 0, 0, 0, 0));
-  robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ, MotorMode::kVelocity)}, {}, "world", "arm"));
-  Simulation simulation(scene({robot}, Vector3::Zero));
+  robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world", "arm"));
+  Simulation simulation(scene({robot}, Vector3::Zero()));
   simulation.world().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
   for (int i = 0; i < 7; ++i) simulation.step();
   expect_near(measured(simulation).linear_acceleration, {-kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);
@@ -88,7 +85,7 @@ TEST(Imu, BandwidthIsThatOfAFirstOrderLowPass) {
   constexpr double kForce = 3;      // N on 1 kg
   ImuDescription slow;
   slow.bandwidth = kBandwidth;
-  Simulation simulation(scene({with_imu(link("link"), {}, {}, slow)}, Vector3::Zero));
+  Simulation simulation(scene({with_imu(link("link"), {}, {}, slow)}, Vector3::Zero()));
   simulation.step();
   for (int i = 1; i <= 4; ++i) {
     simulation.world().apply_wrench(simulation.world().tree().find("/Robot"), {{kForce, 0, 0}, {}});
@@ -106,10 +103,10 @@ TEST(Imu, HasNoiseOnEachAxisForItself) {
   Simulation simulation(scene({still(with_imu(link("link"), {}, {}, noisy))}), 5);
   const ImuReading reading = measured(simulation);
   expect_near(reading.angular_velocity, {0, 0.25, 0}, 1e-12);
-  EXPECT_NEAR(reading.linear_acceleration.X(), 0.5, 1e-12);
-  EXPECT_EQ(reading.linear_acceleration.Y(), 0);
-  EXPECT_NE(reading.linear_acceleration.Z(), kGravity);
-  EXPECT_NEAR(reading.linear_acceleration.Z(), kGravity, 0.5) << "five standard deviations";
+  EXPECT_NEAR(reading.linear_acceleration.x(), 0.5, 1e-12);
+  EXPECT_EQ(reading.linear_acceleration.y(), 0);
+  EXPECT_NE(reading.linear_acceleration.z(), kGravity);
+  EXPECT_NEAR(reading.linear_acceleration.z(), kGravity, 0.5) << "five standard deviations";
 }
 
 }  // namespace

@@ -200,8 +200,8 @@ TEST(Picture, FarFromTheOriginIsThatOfASlowRenderer) {
   SceneDescription scene = lit_things(camera());
   const Pose far(64, -128, 0, 0, 0, 0);  // exact in single precision
   for (ModelDescription& model : scene.models) model.pose = far * model.pose;
-  for (Light& light : scene.environment.lights) light.position += far.Pos();
-  scene.models[0].pose = Pose::Zero;
+  for (Light& light : scene.environment.lights) light.position += far.position;
+  scene.models[0].pose = Pose();
   const Taken taken(scene);
   const ReferencePicture reference(scene, camera(), far * kEye);
   std::size_t differing = 0;

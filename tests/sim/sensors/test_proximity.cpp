@@ -21,8 +21,7 @@ ProximityReading reading(ProximityVolume volume, const Vector3& ball, double rad
   kind.volume = volume;
   sensor.kind = kind;
   eye.links[0].sensors.push_back(sensor);
-  Simulation simulation(
-      scene({eye, still(model("Ball", link_with(Sphere{radius}), Pose(ball, Quaternion::Identity)))}));
+  Simulation simulation(scene({eye, still(model("Ball", link_with(Sphere{radius}), Pose(ball, Quaternion())))}));
   return simulation.read_proximity(simulation.world().tree().find("/Sensor"));
 }
 
@@ -39,8 +38,8 @@ TEST_P(AnyVolume, MeasuresWhatStandsStraightAhead) {
   const ProximityReading seen = reading(GetParam(), {1.5, 0, 0});
   ASSERT_TRUE(seen.detected);
   EXPECT_NEAR(seen.distance, 1.4, kExact);
-  EXPECT_LT(seen.point.Distance({1.4, 0, 0}), kExact);
-  EXPECT_LT(seen.normal.Distance({-1, 0, 0}), kExact);
+  EXPECT_LT((seen.point - Vector3(1.4, 0, 0)).norm(), kExact);
+  EXPECT_LT((seen.normal - Vector3(-1, 0, 0)).norm(), kExact);
 }
 
 TEST_P(AnyVolume, EndsAtItsMaximalRange) {
@@ -109,7 +108,7 @@ TEST(CylinderVolume, IsAsWideAtItsBeginningAsAtItsEnd) {
 TEST(CylinderVolume, MeasuresAlongItsAxis) {
   const ProximityReading seen = reading(ProximityVolume::kCylinder, {1, kEndRadius, 0});
   EXPECT_NEAR(seen.distance, 0.9, kExact);
-  EXPECT_LT(seen.point.Distance({0.9, kEndRadius, 0}), kExact);
+  EXPECT_LT((seen.point - Vector3(0.9, kEndRadius, 0)).norm(), kExact);
 }
 
 }  // namespace
