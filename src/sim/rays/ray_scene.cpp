@@ -25,8 +25,6 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
   return context;
 }
 
-/// Whether two poses are equal to the bit. The == of poses allows a difference, with which rays would depend on where a
-/// link was before.
 /// Rejects hits from inside and on the ignored model.
 void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);

@@ -148,7 +148,7 @@ class ReferencePicture {
   static Vector3 texel(const Texture& texture, const std::array<double, 2>& place) {
     const double x = (place[0] - std::floor(place[0])) * texture.width - 0.5;
     const double y = (1 - place[1] - std::floor(1 - place[1])) * texture.height - 0.5;
-    const auto pixel = [&](double column, double row) {
+    const auto pixel = [&](double column, double row) -> Vector3 {
       const int c = (static_cast<int>(column) + texture.width) % texture.width;
       const int r = (static_cast<int>(row) + texture.height) % texture.height;
       const std::uint8_t* bytes = &texture.rgb.at(3 * static_cast<std::size_t>(r * texture.width + c));
