@@ -14,6 +14,7 @@
 #include "physics/world_state.hpp"
 #include "run/prepared.hpp"
 #include "scene/fnv1a.hpp"
+#include "scene/unit_rotations.hpp"
 
 namespace bubblesim {
 namespace {
@@ -117,7 +118,7 @@ ObjectId World::add_model(ModelDescription model, std::vector<Problem>* warnings
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   ode::prepare_this_thread();
-  model.pose.orientation.normalize();
+  make_rotations_unit(model);
   const bool is_static = model.is_static;
   const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
   // The scene and its other simulations keep their tree.

@@ -7,6 +7,7 @@
 #include "physics/world_state.hpp"
 #include "run/prepared.hpp"
 #include "scene/scene_hash.hpp"
+#include "scene/unit_rotations.hpp"
 
 namespace bubblesim {
 namespace {
@@ -17,12 +18,18 @@ SceneDescription checked(SceneDescription description) {
   return description;
 }
 
+SceneDescription with_unit_rotations(SceneDescription description) {
+  for (ModelDescription& model : description.models) make_rotations_unit(model);
+  return description;
+}
+
 }  // namespace
 
 Scene::Scene(SceneDescription description) : Scene(Checked{}, checked(std::move(description)), {}) {}
 
 Scene::Scene(Checked, SceneDescription description, std::vector<Problem> warnings)
-    : description_(std::make_shared<const SceneDescription>(std::move(description))), warnings_(std::move(warnings)) {
+    : description_(std::make_shared<const SceneDescription>(with_unit_rotations(std::move(description)))),
+      warnings_(std::move(warnings)) {
   auto tree = std::make_shared<SceneTree>();
   auto prepared = std::make_unique<Prepared>();
   for (const ModelDescription& model : description_->models) {

@@ -5,6 +5,7 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/world.hpp"
+#include "near.hpp"
 #include "scene_files.hpp"
 #include "scenes.hpp"
 
@@ -108,7 +109,7 @@ TEST(Inertia, OfZeroIsReplaced) {
   const SceneDescription scene = loaded(
       in_world("<model name='m'><link name='l'><inertial><mass>2</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz>"
                "</inertia></inertial></link></model>"));
-  EXPECT_EQ(the_robot(scene).links[0].inertia_diagonal, Vector3::Ones() * 0.008);
+  expect_near(the_robot(scene).links[0].inertia_diagonal, Vector3::Constant(0.008), 1e-12);
 }
 
 TEST(Inertia, ThatIsPositiveByRoundingOnlyIsReplaced) {

@@ -49,6 +49,21 @@ TEST_F(RobotWorld, PosesAreWhereTheSceneSays) {
   expect_near(world.pose(find("/Wall/link")), described.models[1].pose, 1e-12);
 }
 
+TEST_F(RobotWorld, QuaternionsOfFewDigitsAreRotations) {
+  constexpr double kRounded = 1.0005;
+  SceneDescription rounded = described;
+  for (ModelDescription& model : rounded.models) {
+    model.pose.orientation.coeffs() *= kRounded;
+    for (LinkDescription& link : model.links) link.pose.orientation.coeffs() *= kRounded;
+    for (JointDescription& joint : model.joints) joint.pose.orientation.coeffs() *= kRounded;
+  }
+  rounded.models[0].links[0].sensors[0].pose.orientation.coeffs() *= kRounded;
+  const World same{rounded, 0};
+  for (const char* path : {"/Robot", "/base", "/arm", "/joint", "/Sonar", "/Wall/link"}) {
+    expect_near(same.pose(same.tree().find(path)), world.pose(find(path)), 1e-12);
+  }
+}
+
 TEST_F(RobotWorld, VelocityOfEachObjectIsThatOfItsOrigin) {
   const Vector3 linear(0.3, -0.2, 0.1);
   const Vector3 angular(0.2, 0.5, -0.7);
