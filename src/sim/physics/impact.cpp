@@ -18,8 +18,6 @@ namespace {
 // floors, which they overlap by a millimetre.
 constexpr double kShrink = 0.2;
 
-Transform body_transform(dBodyID body) { return frame_of(dBodyGetPosition(body), dBodyGetRotation(body)); }
-
 /// A link that moved far.
 struct FastLink {
   PlacedModel* model = nullptr;
@@ -64,18 +62,16 @@ class ImpactSearch {
     dReal box[6];
     dGeomGetAABB(collider.geom.get(), box);
     const RigidMotion motion = motion_of(*collider.link);
-    const Vec3 middle{(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, (box[4] + box[5]) / 2};
-    const Vec3 half{(box[1] - box[0]) / 2, (box[3] - box[2]) / 2, (box[5] - box[4]) / 2};
-    Bounds swept{middle, middle};
-    swept.include(motion.back_to(0).place(middle));
-    const double reach = length(half);
-    const Vec3 size = swept.high - swept.low + Vec3{2 * reach, 2 * reach, 2 * reach};
-    const Vec3 centre = (swept.high + swept.low) * 0.5;
-    dGeomBoxSetLengths(probe_.get(), size.x, size.y, size.z);
-    dGeomSetPosition(probe_.get(), centre.x, centre.y, centre.z);
+    const Bounds own(Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5]));
+    const Vector3 middle = own.center();
+    const Bounds centres = Bounds(middle).extend(motion.back_to(0) * middle);
+    const Vector3 size = centres.sizes() + Vector3::Constant(own.diagonal().norm());
+    const Vector3 centre = centres.center();
+    dGeomBoxSetLengths(probe_.get(), size.x(), size.y(), size.z());
+    dGeomSetPosition(probe_.get(), centre.x(), centre.y(), centre.z());
     dGeomSetCategoryBits(probe_.get(), dGeomGetCategoryBits(collider.geom.get()));
     dGeomSetCollideBits(probe_.get(), dGeomGetCollideBits(collider.geom.get()));
-    swept_ = {centre - size * 0.5, centre + size * 0.5};
+    swept_ = Bounds(centre - size / 2, centre + size / 2);
     for (dSpaceID space : {state_.movers.get(), state_.statics.get(), state_.planes.get()}) {
       dSpaceCollide2(probe_.get(), reinterpret_cast<dGeomID>(space), this, meet);
     }
@@ -149,32 +145,27 @@ class ImpactSearch {
   void list_plane(dGeomID geom) {
     dVector4 values;
     dGeomPlaneGetParams(geom, values);
-    const Vec3 normal{values[0], values[1], values[2]};
-    const double size = 2 * length(swept_.high - swept_.low);
-    const Vec3 middle = (swept_.high + swept_.low) * 0.5;
-    const Vec3 foot = middle - normal * (dot(middle, normal) - values[3]);
-    const Vec3 u = across(normal);
+    const Vector3 normal = to_vector(values);
+    const double size = 2 * swept_.diagonal().norm();
+    const Vector3 middle = swept_.center();
+    const Vector3 foot = middle - normal * (middle.dot(normal) - values[3]);
     dGeomBoxSetLengths(probe_.get(), size, size, size);
     ConvexShape solid(probe_.get());
-    solid.set_frame({foot - normal * (size / 2), u, cross(normal, u), normal});
+    solid.set_frame({foot - normal * (size / 2), turn_from_z(normal).toRotationMatrix()});
     obstacles_.push_back(solid);
   }
 
   void list_triangles(const Collider& b) {
-    const Transform frame = frame_of(dGeomGetPosition(b.geom.get()), dGeomGetRotation(b.geom.get()));
-    const Transform back = inverse(frame);
-    Bounds local{back.place(swept_.low), back.place(swept_.low)};
-    for (int i = 1; i < 8; ++i) {
-      local.include(
-          back.place({(i & 1) != 0 ? swept_.high.x : swept_.low.x, (i & 2) != 0 ? swept_.high.y : swept_.low.y,
-                      (i & 4) != 0 ? swept_.high.z : swept_.low.z}));
-    }
+    const Transform frame = geom_transform(b.geom.get());
+    const Transform back = frame.inverse();
+    Bounds local;
+    for (int i = 0; i < 8; ++i) local.extend(back * swept_.corner(static_cast<Bounds::CornerType>(i)));
     near_.clear();
     const TriangleTree& tree = b.mesh->tree();
     tree.near(local, near_);
     for (const std::uint32_t number : near_) {
-      std::array<Vec3, 3> corners = tree.corners(number);
-      for (Vec3& corner : corners) corner = frame.place(corner);
+      std::array<Vector3, 3> corners = tree.corners(number);
+      for (Vector3& corner : corners) corner = frame * corner;
       obstacles_.emplace_back(corners);
     }
   }
@@ -196,8 +187,9 @@ void put_back(const World::State& state, const PlacedModel& model, double fracti
   for (const Link& link : model.links) {
     dBodyID body = link.body.get();
     const Transform at = RigidMotion(link.sweep.start, body_transform(body)).at(fraction);
-    const dMatrix3 rotation = {at.x.x, at.y.x, at.z.x, 0, at.x.y, at.y.y, at.z.y, 0, at.x.z, at.y.z, at.z.z, 0};
-    dBodySetPosition(body, at.origin.x, at.origin.y, at.origin.z);
+    dMatrix3 rotation = {};
+    Eigen::Map<Eigen::Matrix<dReal, 3, 4, Eigen::RowMajor>>(rotation).leftCols<3>() = at.rotation;
+    dBodySetPosition(body, at.position.x(), at.position.y(), at.position.z());
     dBodySetRotation(body, rotation);
     if (dBodyGetGravityMode(body) == 0) continue;
     const dReal* v = dBodyGetLinearVel(body);
@@ -215,9 +207,9 @@ Size size_of(const Collider& collider) {
   if (collider.mesh != nullptr) {
     Size size;
     for (const ConvexPart& part : collider.mesh->parts) {
-      const Vec3 box = part.high - part.low;
-      size.half = std::min({size.half, box.x / 2, box.y / 2, box.z / 2});
-      size.reach = std::max(size.reach, length(part.centre) + part.reach);
+      const Vector3 box = part.high - part.low;
+      size.half = std::min(size.half, box.minCoeff() / 2);
+      size.reach = std::max(size.reach, part.centre.norm() + part.reach);
     }
     return size;
   }
@@ -259,12 +251,10 @@ void stop_at_impacts(World::State& state, double step) {
     for (const Link& link : model->links) {
       const Sweep& sweep = link.sweep;
       if (sweep.half_size == Sweep::kNoSize) continue;
-      const dReal* at = dBodyGetPosition(link.body.get());
-      const Vec3 travel = Vec3{at[0], at[1], at[2]} - sweep.start.origin;
-      const dReal* spin = dBodyGetAngularVel(link.body.get());
-      const double turned = length({spin[0], spin[1], spin[2]}) * step * sweep.spin_reach;
+      const Vector3 travel = to_vector(dBodyGetPosition(link.body.get())) - sweep.start.position;
+      const double turned = to_vector(dBodyGetAngularVel(link.body.get())).norm() * step * sweep.spin_reach;
       const double left = sweep.half_size - turned;
-      if (left < 0 || dot(travel, travel) > left * left) fast.push_back({model, &link});
+      if (left < 0 || travel.squaredNorm() > left * left) fast.push_back({model, &link});
     }
   }
   if (fast.empty()) return;

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "bubblesim/math.hpp"
+#include "scene/transform.hpp"
 
 namespace bubblesim {
 
@@ -16,6 +17,16 @@ inline Quaternion to_quaternion(const dReal* values) { return {values[0], values
 
 inline Matrix3 to_matrix(const dReal* values) {
   return Eigen::Map<const Eigen::Matrix<dReal, 3, 3, Eigen::RowMajor>, Eigen::Unaligned, Eigen::OuterStride<4>>(values);
+}
+
+/// Of a shape in the world.
+inline Transform geom_transform(dGeomID geom) {
+  return {to_vector(dGeomGetPosition(geom)), to_matrix(dGeomGetRotation(geom))};
+}
+
+/// Of a body's centre of mass in the world.
+inline Transform body_transform(dBodyID body) {
+  return {to_vector(dBodyGetPosition(body)), to_matrix(dBodyGetRotation(body))};
 }
 
 inline std::array<dReal, 4> to_ode(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }

@@ -106,7 +106,7 @@ struct Intersector {
   std::optional<ShapeHit> operator()(const Ellipsoid& ellipsoid) const {
     const Vector3 o = ray.origin.cwiseQuotient(ellipsoid.radii);
     const Vector3 d = ray.direction.cwiseQuotient(ellipsoid.radii);
-    const auto roots = inside_quadric(d.dot(d), o.dot(d), o.squaredNorm() - 1);
+    const auto roots = inside_quadric(d.squaredNorm(), o.dot(d), o.squaredNorm() - 1);
     if (!roots) return std::nullopt;
     const Vector3 normal = (o + d * roots->first).cwiseQuotient(ellipsoid.radii);
     return entry({roots->first, roots->second, normal.normalized()});

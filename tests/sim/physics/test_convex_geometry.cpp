@@ -20,20 +20,14 @@ namespace {
 
 ConvexPart part_of(const std::vector<Vector3>& corners) { return make_part(convex_hull(*hull_mesh(corners))); }
 
-Transform placed(const Pose& pose) {
-  const Quaternion& q = pose.orientation;
-  const auto to = [](const Vector3& v) { return Vec3{v.x(), v.y(), v.z()}; };
-  return {to(pose.position), to(q * Vector3::UnitX()), to(q * Vector3::UnitY()), to(q * Vector3::UnitZ())};
-}
-
 double volume(const ConvexPart& part) {
   double sum = 0;
   for (const ConvexPart::Face& face : part.faces) {
     for (std::uint32_t i = 1; i + 1 < face.count; ++i) {
-      const Vec3& a = part.corners[part.loops[face.first]];
-      const Vec3& b = part.corners[part.loops[face.first + i]];
-      const Vec3& c = part.corners[part.loops[face.first + i + 1]];
-      sum += dot(a, cross(b, c)) / 6;
+      const Vector3& a = part.corners[part.loops[face.first]];
+      const Vector3& b = part.corners[part.loops[face.first + i]];
+      const Vector3& c = part.corners[part.loops[face.first + i + 1]];
+      sum += a.dot(b.cross(c)) / 6;
     }
   }
   return sum;
@@ -68,10 +62,10 @@ TEST(ConvexPart, FindsTheFarthestCornerOfManyAsASearchOfAllDoes) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 direction{normal(random), normal(random), normal(random)};
+    const Vector3 direction{normal(random), normal(random), normal(random)};
     double most = -1;
-    for (const Vec3& corner : part.corners) most = std::max(most, dot(corner, direction));
-    EXPECT_NEAR(dot(part.corners[part.farthest(direction, 0)], direction), most, 1e-12);
+    for (const Vector3& corner : part.corners) most = std::max(most, corner.dot(direction));
+    EXPECT_NEAR(part.corners[part.farthest(direction, 0)].dot(direction), most, 1e-12);
   }
 }
 
@@ -79,7 +73,7 @@ TEST(CoreDistance, IsThatOfCubesAtCornersEdgesAndFaces) {
   const ConvexPart unit_cube = part_of(cube(1));
   const ConvexShape fixed(unit_cube, {});
   const auto distance = [&](const Vector3& offset) {
-    return core_distance(fixed, ConvexShape(unit_cube, placed(Pose(offset, Quaternion())))).distance;
+    return core_distance(fixed, ConvexShape(unit_cube, Transform(Pose(offset, Quaternion())))).distance;
   };
   EXPECT_NEAR(distance({1.25, 0.3, 0.2}), 0.25, 1e-12);
   EXPECT_NEAR(distance({1.3, 0.1, 1.4}), 0.5, 1e-12);
@@ -92,39 +86,39 @@ TEST(Penetration, OfCubesIsTheLeastOverlapOfTheirFaces) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> offset(-0.99, 0.99);
   for (int i = 0; i < 300; ++i) {
-    const Vec3 by{offset(random), offset(random), offset(random)};
-    const ConvexShape moved(unit_cube, placed(at(by.x, by.y, by.z)));
+    const Vector3 by{offset(random), offset(random), offset(random)};
+    const ConvexShape moved(unit_cube, Transform(at(by.x(), by.y(), by.z())));
     const auto found = penetration(moved, fixed);
     ASSERT_TRUE(found);
-    const double expected = 1 - std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)});
-    EXPECT_NEAR(found->depth, expected, 1e-9) << by.x << " " << by.y << " " << by.z;
-    EXPECT_GT(dot(found->normal, by), 0) << "into the first shape";
+    const double expected = 1 - std::max({std::abs(by.x()), std::abs(by.y()), std::abs(by.z())});
+    EXPECT_NEAR(found->depth, expected, 1e-9) << by.x() << " " << by.y() << " " << by.z();
+    EXPECT_GT(found->normal.dot(by), 0) << "into the first shape";
   }
 }
 
 /// The least overlap over the normals of all faces and the cross products of all edges: exact for polytopes.
 double least_overlap(const ConvexPart& a, const Transform& of_a, const ConvexPart& b, const Transform& of_b) {
-  std::vector<Vec3> directions;
+  std::vector<Vector3> directions;
   const auto edges = [](const ConvexPart& part, const Transform& frame) {
-    std::vector<Vec3> found;
+    std::vector<Vector3> found;
     for (const ConvexPart::Face& face : part.faces) {
       for (std::uint32_t i = 0; i < face.count; ++i) {
         const std::uint32_t next = (i + 1) % face.count;
-        found.push_back(
-            frame.turn(part.corners[part.loops[face.first + next]] - part.corners[part.loops[face.first + i]]));
+        found.push_back(frame.rotation *
+                        (part.corners[part.loops[face.first + next]] - part.corners[part.loops[face.first + i]]));
       }
     }
     return found;
   };
-  for (const ConvexPart::Face& face : a.faces) directions.push_back(-of_a.turn(face.normal));
-  for (const ConvexPart::Face& face : b.faces) directions.push_back(of_b.turn(face.normal));
-  for (const Vec3& x : edges(a, of_a)) {
-    for (const Vec3& y : edges(b, of_b)) {
-      if (length(cross(x, y)) > 1e-9) directions.push_back(unit(cross(x, y)));
+  for (const ConvexPart::Face& face : a.faces) directions.push_back(-(of_a.rotation * face.normal));
+  for (const ConvexPart::Face& face : b.faces) directions.push_back(of_b.rotation * face.normal);
+  for (const Vector3& x : edges(a, of_a)) {
+    for (const Vector3& y : edges(b, of_b)) {
+      if (x.cross(y).norm() > 1e-9) directions.push_back(x.cross(y).normalized());
     }
   }
   double least = 1e9;
-  for (const Vec3& direction : directions) {
+  for (const Vector3& direction : directions) {
     least = std::min(least, depth_along(ConvexShape(a, of_a), ConvexShape(b, of_b), direction));
   }
   return least;
@@ -141,9 +135,9 @@ TEST(Penetration, OfTurnedPolyhedraIsThatOfTheSeparatingAxes) {
     const ConvexPart& a = parts[static_cast<std::size_t>(i) % 4];
     const ConvexPart& b = parts[static_cast<std::size_t>(i / 4) % 4];
     const Transform of_a =
-        placed(Pose(place(random), place(random), place(random), angle(random), angle(random), angle(random)));
+        Transform(Pose(place(random), place(random), place(random), angle(random), angle(random), angle(random)));
     const Transform of_b =
-        placed(Pose(place(random), place(random), place(random), angle(random), angle(random), angle(random)));
+        Transform(Pose(place(random), place(random), place(random), angle(random), angle(random), angle(random)));
     const double expected = least_overlap(a, of_a, b, of_b);
     const auto found = penetration(ConvexShape(a, of_a), ConvexShape(b, of_b));
     ASSERT_EQ(found.has_value(), expected > 0) << i << " " << expected;
@@ -179,14 +173,14 @@ std::vector<ManifoldPoint> manifold(const ConvexShape& a, const ConvexShape& b) 
 TEST(Manifold, OfOffsetCubesHasTheCornersOfTheOverlapOfTheirFaces) {
   const ConvexPart small = part_of(cube(0.2));
   const double deep = 0.0005;
-  const auto points = manifold(ConvexShape(small, placed(at(0.05, 0.03, 0.2 - deep))), ConvexShape(small, {}));
+  const auto points = manifold(ConvexShape(small, Transform(at(0.05, 0.03, 0.2 - deep))), ConvexShape(small, {}));
   ASSERT_EQ(points.size(), 4U);
   std::set<std::pair<long, long>> places;  // 0.1 mm
   for (const ManifoldPoint& point : points) {
     EXPECT_NEAR(point.depth, deep, 1e-7);
-    EXPECT_NEAR(point.normal.z, 1, 1e-9);
-    EXPECT_NEAR(point.at.z, 0.1 - deep / 2, 1e-7);
-    places.insert({std::lround(point.at.x * 1e4), std::lround(point.at.y * 1e4)});
+    EXPECT_NEAR(point.normal.z(), 1, 1e-9);
+    EXPECT_NEAR(point.at.z(), 0.1 - deep / 2, 1e-7);
+    places.insert({std::lround(point.at.x() * 1e4), std::lround(point.at.y() * 1e4)});
   }
   EXPECT_EQ(places, (std::set<std::pair<long, long>>{{-500, -700}, {-500, 1000}, {1000, -700}, {1000, 1000}}));
 }
@@ -194,10 +188,11 @@ TEST(Manifold, OfOffsetCubesHasTheCornersOfTheOverlapOfTheirFaces) {
 TEST(Manifold, OfATurnedCubeIsTheOctagonOfBothFaces) {
   // A square on one of the same size, turned by 45 degrees: a regular octagon with an inscribed circle of half a side.
   const ConvexPart small = part_of(cube(0.2));
-  const auto points = manifold(ConvexShape(small, placed(Pose(0, 0, 0.1995, 0, 0, M_PI / 4))), ConvexShape(small, {}));
+  const auto points =
+      manifold(ConvexShape(small, Transform(Pose(0, 0, 0.1995, 0, 0, M_PI / 4))), ConvexShape(small, {}));
   ASSERT_EQ(points.size(), 8U);
   for (const ManifoldPoint& point : points) {
-    EXPECT_NEAR(std::hypot(point.at.x, point.at.y), 0.1 / std::cos(M_PI / 8), 1e-6);
+    EXPECT_NEAR(std::hypot(point.at.x(), point.at.y()), 0.1 / std::cos(M_PI / 8), 1e-6);
   }
 }
 
@@ -205,13 +200,14 @@ TEST(Manifold, OfCrossedEdgesIsOnePoint) {
   // The upper cube stands on an edge along x, the lower one lies with an edge along y on top.
   const ConvexPart small = part_of(cube(0.2));
   const double half_diagonal = 0.1 * std::sqrt(2.0);
-  const auto points = manifold(ConvexShape(small, placed(Pose(0.01, 0.02, 2 * half_diagonal - 0.001, M_PI / 4, 0, 0))),
-                               ConvexShape(small, placed(Pose(0, 0, 0, 0, M_PI / 4, 0))));
+  const auto points =
+      manifold(ConvexShape(small, Transform(Pose(0.01, 0.02, 2 * half_diagonal - 0.001, M_PI / 4, 0, 0))),
+               ConvexShape(small, Transform(Pose(0, 0, 0, 0, M_PI / 4, 0))));
   ASSERT_EQ(points.size(), 1U);
   EXPECT_NEAR(points[0].depth, 0.001, 1e-6);
-  EXPECT_NEAR(points[0].normal.z, 1, 1e-6);
-  EXPECT_NEAR(points[0].at.x, 0, 1e-6);
-  EXPECT_NEAR(points[0].at.y, 0.02, 1e-6);
+  EXPECT_NEAR(points[0].normal.z(), 1, 1e-6);
+  EXPECT_NEAR(points[0].at.x(), 0, 1e-6);
+  EXPECT_NEAR(points[0].at.y(), 0.02, 1e-6);
 }
 
 TEST(Manifold, OfALyingCylinderIsItsLine) {
@@ -223,7 +219,7 @@ TEST(Manifold, OfALyingCylinderIsItsLine) {
   dGeomSetPosition(roller.get(), 0.1, 0, 0.5995);
   const auto points = manifold(ConvexShape(roller.get()), ConvexShape(plate, {}));
   ASSERT_EQ(points.size(), 2U);
-  EXPECT_NEAR(std::abs(points[0].at.x - points[1].at.x), 0.4, 1e-9);
+  EXPECT_NEAR(std::abs(points[0].at.x() - points[1].at.x()), 0.4, 1e-9);
   for (const ManifoldPoint& point : points) EXPECT_NEAR(point.depth, 0.0005, 1e-7);
 }
 

@@ -15,20 +15,17 @@ using Parts = std::vector<ConvexPart>;
 
 const Parts& parts_of(dGeomID geom) { return **static_cast<const Parts**>(dGeomGetClassData(geom)); }
 
-Transform geom_frame(dGeomID geom) { return frame_of(dGeomGetPosition(geom), dGeomGetRotation(geom)); }
-
 void find_bounds(dGeomID geom, dReal bounds[6]) {
-  const Transform frame = geom_frame(geom);
-  const std::array<Vec3, 3> axes = {Vec3{frame.x.x, frame.y.x, frame.z.x}, Vec3{frame.x.y, frame.y.y, frame.z.y},
-                                    Vec3{frame.x.z, frame.y.z, frame.z.z}};
-  const std::array<double, 3> origin = {frame.origin.x, frame.origin.y, frame.origin.z};
-  for (std::size_t i = 0; i < 3; ++i) {
+  const Transform frame = geom_transform(geom);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 axis = frame.rotation.row(i).transpose();  // of the world, in the shape
     bounds[2 * i] = dInfinity;
     bounds[2 * i + 1] = -dInfinity;
     for (const ConvexPart& part : parts_of(geom)) {
-      bounds[2 * i] = std::min(bounds[2 * i], origin[i] + dot(axes[i], part.corners[part.farthest(-axes[i], 0)]));
-      bounds[2 * i + 1] =
-          std::max(bounds[2 * i + 1], origin[i] + dot(axes[i], part.corners[part.farthest(axes[i], 0)]));
+      const double low = axis.dot(part.corners[part.farthest(-axis, 0)]);
+      const double high = axis.dot(part.corners[part.farthest(axis, 0)]);
+      bounds[2 * i] = std::min(bounds[2 * i], frame.position[i] + low);
+      bounds[2 * i + 1] = std::max(bounds[2 * i + 1], frame.position[i] + high);
     }
   }
 }
@@ -47,12 +44,12 @@ int convex_class() {
 void add_plane_contacts(dGeomID convex, dGeomID plane, std::vector<ManifoldPoint>& points) {
   dVector4 values;
   dGeomPlaneGetParams(plane, values);
-  const Vec3 normal{values[0], values[1], values[2]};
-  const Transform frame = geom_frame(convex);
+  const Vector3 normal = to_vector(values);
+  const Transform frame = geom_transform(convex);
   for (const ConvexPart& part : parts_of(convex)) {
-    for (const Vec3& corner : part.corners) {
-      const Vec3 at = frame.place(corner);
-      const double depth = values[3] - dot(at, normal);
+    for (const Vector3& corner : part.corners) {
+      const Vector3 at = frame * corner;
+      const double depth = values[3] - at.dot(normal);
       if (depth > 0) points.push_back({at, normal, depth});
     }
   }
@@ -60,8 +57,8 @@ void add_plane_contacts(dGeomID convex, dGeomID plane, std::vector<ManifoldPoint
 
 void add_mesh_contacts(dGeomID convex, dGeomID mesh, std::vector<ManifoldPoint>& points) {
   const TriangleTree& tree = static_cast<const Collider*>(dGeomGetData(mesh))->mesh->tree();
-  const Transform frame = geom_frame(mesh);
-  const Transform own = geom_frame(convex);
+  const Transform frame = geom_transform(mesh);
+  const Transform own = geom_transform(convex);
   for (const ConvexPart& part : parts_of(convex)) add_terrain_contacts(ConvexShape(part, own), tree, frame, points);
 }
 
@@ -72,7 +69,7 @@ void add_convex_contacts(dGeomID first, dGeomID second, std::vector<ManifoldPoin
   shapes_of(second, of_second);
   for (const ConvexShape& a : of_first) {
     for (const ConvexShape& b : of_second) {
-      if (length(a.centre() - b.centre()) > a.reach() + b.reach()) continue;
+      if ((a.centre() - b.centre()).norm() > a.reach() + b.reach()) continue;
       if (const std::optional<Penetration> overlap = penetration(a, b)) add_manifold(a, b, *overlap, points);
     }
   }
@@ -86,7 +83,7 @@ void shapes_of(dGeomID geom, std::vector<ConvexShape>& shapes) {
     if (ConvexShape::knows(geom)) shapes.emplace_back(geom);
     return;
   }
-  const Transform frame = geom_frame(geom);
+  const Transform frame = geom_transform(geom);
   for (const ConvexPart& part : parts_of(geom)) shapes.emplace_back(part, frame);
 }
 
@@ -120,12 +117,12 @@ void find_convex_contacts(dGeomID first, dGeomID second, std::vector<dContactGeo
   const double sign = reversed ? -1 : 1;
   for (const ManifoldPoint& point : points) {
     dContactGeom contact{};
-    contact.pos[0] = point.at.x;
-    contact.pos[1] = point.at.y;
-    contact.pos[2] = point.at.z;
-    contact.normal[0] = sign * point.normal.x;
-    contact.normal[1] = sign * point.normal.y;
-    contact.normal[2] = sign * point.normal.z;
+    contact.pos[0] = point.at.x();
+    contact.pos[1] = point.at.y();
+    contact.pos[2] = point.at.z();
+    contact.normal[0] = sign * point.normal.x();
+    contact.normal[1] = sign * point.normal.y();
+    contact.normal[2] = sign * point.normal.z();
     contact.depth = point.depth;
     contact.g1 = first;
     contact.g2 = second;

@@ -16,7 +16,7 @@ constexpr double kAligned = 0.99;        // cosine between the normals of triang
 constexpr std::size_t kFewCorners = 24;  // trying all is faster than following edges
 
 struct TriangleFacts {
-  Vec3 normal;
+  Vector3 normal;
   double area = 0;  // twice
 };
 
@@ -26,8 +26,8 @@ class FaceFinder {
   FaceFinder(const Hull& hull, ConvexPart& part) : hull_(hull), part_(part), face_of_(hull.triangles.size(), false) {
     for (std::size_t i = 0; i < hull.triangles.size(); ++i) {
       const auto& [a, b, c] = hull.triangles[i];
-      const Vec3 normal = cross(part.corners[b] - part.corners[a], part.corners[c] - part.corners[a]);
-      facts_.push_back({unit(normal), length(normal)});
+      const Vector3 normal = (part.corners[b] - part.corners[a]).cross(part.corners[c] - part.corners[a]);
+      facts_.push_back({normal.normalized(), normal.norm()});
       for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) at_edge_[edge].push_back(i);
     }
   }
@@ -44,12 +44,12 @@ class FaceFinder {
 
  private:
   bool in_plane(std::size_t triangle, std::size_t seed) const {
-    const Vec3& normal = facts_[seed].normal;
-    const Vec3& on = part_.corners[hull_.triangles[seed][0]];
-    if (facts_[triangle].area > 0 && dot(facts_[triangle].normal, normal) < kAligned) return false;
+    const Vector3& normal = facts_[seed].normal;
+    const Vector3& on = part_.corners[hull_.triangles[seed][0]];
+    if (facts_[triangle].area > 0 && facts_[triangle].normal.dot(normal) < kAligned) return false;
     const TriangleMesh::Triangle& corners = hull_.triangles[triangle];
     return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t i) {
-      return std::abs(dot(part_.corners[i] - on, normal)) < kFlat * part_.size;
+      return std::abs((part_.corners[i] - on).dot(normal)) < kFlat * part_.size;
     });
   }
 
@@ -71,15 +71,14 @@ class FaceFinder {
     add_face(facts_[seed].normal, {corners.begin(), corners.end()});
   }
 
-  void add_face(const Vec3& normal, std::vector<std::uint32_t> corners) {
-    Vec3 middle;
-    for (const std::uint32_t i : corners)
-      middle = middle + part_.corners[i] * (1.0 / static_cast<double>(corners.size()));
-    const Vec3 u = across(normal);
-    const Vec3 v = cross(normal, u);
+  void add_face(const Vector3& normal, std::vector<std::uint32_t> corners) {
+    Vector3 middle;
+    for (const std::uint32_t i : corners) middle += part_.corners[i] / static_cast<double>(corners.size());
+    const Vector3 u = normal.unitOrthogonal();
+    const Vector3 v = normal.cross(u);
     const auto angle = [&](std::uint32_t i) {
-      const Vec3 from_middle = part_.corners[i] - middle;
-      return std::atan2(dot(from_middle, v), dot(from_middle, u));
+      const Vector3 from_middle = part_.corners[i] - middle;
+      return std::atan2(from_middle.dot(v), from_middle.dot(u));
     };
     std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
     part_.faces.push_back(
@@ -124,12 +123,12 @@ void list_faces(ConvexPart& part) {
 
 }  // namespace
 
-std::uint32_t ConvexPart::farthest(const Vec3& direction, std::uint32_t from) const {
+std::uint32_t ConvexPart::farthest(const Vector3& direction, std::uint32_t from) const {
   std::uint32_t best = from;
-  double reach = dot(corners[from], direction);
+  double reach = corners[from].dot(direction);
   if (corners.size() <= kFewCorners) {
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
-      const double next = dot(corners[i], direction);
+      const double next = corners[i].dot(direction);
       if (next > reach) {
         reach = next;
         best = i;
@@ -139,7 +138,7 @@ std::uint32_t ConvexPart::farthest(const Vec3& direction, std::uint32_t from) co
   }
   for (std::uint32_t at = from;; at = best) {
     for (std::uint32_t i = start[at]; i < start[at + 1]; ++i) {
-      const double next = dot(corners[neighbours[i]], direction);
+      const double next = corners[neighbours[i]].dot(direction);
       if (next > reach) {
         reach = next;
         best = neighbours[i];
@@ -151,15 +150,15 @@ std::uint32_t ConvexPart::farthest(const Vec3& direction, std::uint32_t from) co
 
 ConvexPart make_part(const Hull& hull) {
   ConvexPart part;
-  for (const Vector3& corner : hull.corners) part.corners.push_back({corner.x(), corner.y(), corner.z()});
+  part.corners = hull.corners;
   part.low = part.high = part.corners.front();
-  for (const Vec3& corner : part.corners) {
-    part.low = {std::min(part.low.x, corner.x), std::min(part.low.y, corner.y), std::min(part.low.z, corner.z)};
-    part.high = {std::max(part.high.x, corner.x), std::max(part.high.y, corner.y), std::max(part.high.z, corner.z)};
-    part.centre = part.centre + corner * (1.0 / static_cast<double>(part.corners.size()));
+  for (const Vector3& corner : part.corners) {
+    part.low = part.low.cwiseMin(corner);
+    part.high = part.high.cwiseMax(corner);
+    part.centre += corner / static_cast<double>(part.corners.size());
   }
-  part.size = length(part.high - part.low);
-  for (const Vec3& corner : part.corners) part.reach = std::max(part.reach, length(corner - part.centre));
+  part.size = (part.high - part.low).norm();
+  for (const Vector3& corner : part.corners) part.reach = std::max(part.reach, (corner - part.centre).norm());
   FaceFinder(hull, part).find();
   list_neighbours(hull, part);
   list_faces(part);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/ode_math.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr double kFacesEnd = 0.707;  // cosine to its axis above which an end of
 
 double signed_half(double half, double direction) { return direction < 0 ? -half : half; }
 
-Vec3 scaled(const Vec3& v, const Vec3& by) { return {v.x * by.x, v.y * by.y, v.z * by.z}; }
-
 }  // namespace
 
 bool ConvexShape::knows(dGeomID geom) {
@@ -21,15 +21,14 @@ bool ConvexShape::knows(dGeomID geom) {
   return kind == dBoxClass || kind == dSphereClass || kind == dCapsuleClass || kind == dCylinderClass;
 }
 
-ConvexShape::ConvexShape(dGeomID geom)
-    : core_(Core::kPoint), frame_(frame_of(dGeomGetPosition(geom), dGeomGetRotation(geom))) {
+ConvexShape::ConvexShape(dGeomID geom) : core_(Core::kPoint), frame_(geom_transform(geom)) {
   double length = 0;
   switch (dGeomGetClass(geom)) {
     case dBoxClass: {
       core_ = Core::kBox;
       dVector3 size;
       dGeomBoxGetLengths(geom, size);
-      half_ = {size[0] / 2, size[1] / 2, size[2] / 2};
+      half_ = to_vector(size) / 2;
       break;
     }
     case dCapsuleClass:
@@ -39,74 +38,75 @@ ConvexShape::ConvexShape(dGeomID geom)
       break;
     case dCylinderClass:
       core_ = Core::kCylinder;
-      dGeomCylinderGetParams(geom, &half_.x, &length);
-      half_.z = length / 2;
+      dGeomCylinderGetParams(geom, &half_.x(), &length);
+      half_.z() = length / 2;
       break;
     default:
       rounding_ = dGeomSphereGetRadius(geom);
   }
-  reach_ = bubblesim::length(half_) + rounding_;
+  reach_ = half_.norm() + rounding_;
 }
 
 ConvexShape::ConvexShape(const ConvexPart& part, const Transform& frame)
     : core_(Core::kPart), frame_(frame), half_(part.centre), part_(&part) {
-  frame_.origin = frame.place(part.centre);
+  frame_.position = frame * part.centre;
   reach_ = part.reach;
 }
 
-ConvexShape::ConvexShape(const std::array<Vec3, 3>& corners) : core_(Core::kTriangle), triangle_(corners) {
-  frame_.origin = (corners[0] + corners[1] + corners[2]) * (1.0 / 3);
-  for (Vec3& corner : triangle_) {
-    corner = corner - frame_.origin;
-    reach_ = std::max(reach_, length(corner));
+ConvexShape::ConvexShape(const std::array<Vector3, 3>& corners) : core_(Core::kTriangle), triangle_(corners) {
+  frame_.position = (corners[0] + corners[1] + corners[2]) / 3;
+  for (Vector3& corner : triangle_) {
+    corner -= frame_.position;
+    reach_ = std::max(reach_, corner.norm());
   }
 }
 
 void ConvexShape::shrink(double margin) {
-  if (core_ == Core::kBox) half_ = half_ - Vec3{margin, margin, margin};
-  if (core_ == Core::kCylinder) half_ = half_ - Vec3{margin, 0, margin};
+  if (core_ == Core::kBox) half_ -= Vector3::Constant(margin);
+  if (core_ == Core::kCylinder) half_ -= Vector3(margin, 0, margin);
   if (core_ == Core::kPoint || core_ == Core::kSegment) rounding_ -= margin;
   if (core_ != Core::kPart) return;
-  const Vec3 size = part_->high - part_->low;
-  scale_ = {1 - 2 * margin / size.x, 1 - 2 * margin / size.y, 1 - 2 * margin / size.z};
+  const Vector3 size = part_->high - part_->low;
+  scale_ = Vector3::Ones() - 2 * margin * size.cwiseInverse();
 }
 
-Vec3 ConvexShape::support(const Vec3& direction) const {
-  return frame_.place(local_support(frame_.turn_back(direction)));
+Vector3 ConvexShape::support(const Vector3& direction) const {
+  return frame_ * local_support(frame_.rotation.transpose() * direction);
 }
 
-Vec3 ConvexShape::local_support(const Vec3& direction) const {
+Vector3 ConvexShape::local_support(const Vector3& direction) const {
   switch (core_) {
     case Core::kPoint:
       return {};
     case Core::kSegment:
-      return {0, 0, signed_half(half_.z, direction.z)};
+      return {0, 0, signed_half(half_.z(), direction.z())};
     case Core::kBox:
-      return {signed_half(half_.x, direction.x), signed_half(half_.y, direction.y), signed_half(half_.z, direction.z)};
+      return {signed_half(half_.x(), direction.x()), signed_half(half_.y(), direction.y()),
+              signed_half(half_.z(), direction.z())};
     case Core::kCylinder: {
-      const double across = std::hypot(direction.x, direction.y);
-      const double scale = across > 0 ? half_.x / across : 0;
-      return {direction.x * scale, direction.y * scale, signed_half(half_.z, direction.z)};
+      const double across = std::hypot(direction.x(), direction.y());
+      const double scale = across > 0 ? half_.x() / across : 0;
+      return {direction.x() * scale, direction.y() * scale, signed_half(half_.z(), direction.z())};
     }
     case Core::kPart:
-      near_ = part_->farthest(scaled(direction, scale_), near_);
-      return scaled(part_->corners[near_] - half_, scale_);
+      near_ = part_->farthest(direction.cwiseProduct(scale_), near_);
+      return (part_->corners[near_] - half_).cwiseProduct(scale_);
     case Core::kTriangle:
       break;
   }
-  const auto nearer = [&](const Vec3& a, const Vec3& b) { return dot(a, direction) < dot(b, direction); };
+  const auto nearer = [&](const Vector3& a, const Vector3& b) { return a.dot(direction) < b.dot(direction); };
   return *std::max_element(triangle_.begin(), triangle_.end(), nearer);
 }
 
-void ConvexShape::feature(const Vec3& direction, Feature& result) const {
+void ConvexShape::feature(const Vector3& direction, Feature& result) const {
   result.corners.clear();
-  const Vec3 local = frame_.turn_back(direction);
+  const Vector3 local = frame_.rotation.transpose() * direction;
   switch (core_) {
     case Core::kPoint:
       result.corners.push_back({});
       break;
     case Core::kSegment:
-      result.corners.insert(result.corners.end(), {{0, 0, -half_.z}, {0, 0, half_.z}});
+      result.corners.insert(result.corners.end(), {{0, 0, -half_.z()}, {0, 0, half_.z()}});
       break;
     case Core::kBox:
       box_face(local, result);
@@ -118,74 +118,74 @@ void ConvexShape::feature(const Vec3& direction, Feature& result) const {
       part_face(local, result);
       break;
     case Core::kTriangle: {
-      result.normal = unit(cross(triangle_[1] - triangle_[0], triangle_[2] - triangle_[0]));
+      result.normal = (triangle_[1] - triangle_[0]).cross(triangle_[2] - triangle_[0]).normalized();
       result.corners.assign(triangle_.begin(), triangle_.end());
-      if (dot(result.normal, local) >= 0) break;
+      if (result.normal.dot(local) >= 0) break;
       result.normal = -result.normal;
       std::swap(result.corners[1], result.corners[2]);
       break;
     }
   }
-  for (Vec3& corner : result.corners) corner = frame_.place(corner) + direction * rounding_;
-  result.normal = frame_.turn(result.normal);
+  for (Vector3& corner : result.corners) corner = frame_ * corner + direction * rounding_;
+  result.normal = frame_.rotation * result.normal;
 }
 
-void ConvexShape::box_face(const Vec3& direction, Feature& result) const {
-  const double x = std::abs(direction.x);
-  const double y = std::abs(direction.y);
-  const double z = std::abs(direction.z);
-  Vec3 u{half_.x, 0, 0};
-  Vec3 v{0, half_.y, 0};
-  Vec3 out{0, 0, 1};
-  double height = half_.z;
+void ConvexShape::box_face(const Vector3& direction, Feature& result) const {
+  const double x = std::abs(direction.x());
+  const double y = std::abs(direction.y());
+  const double z = std::abs(direction.z());
+  Vector3 u{half_.x(), 0, 0};
+  Vector3 v{0, half_.y(), 0};
+  Vector3 out{0, 0, 1};
+  double height = half_.z();
   if (x >= y && x >= z) {
-    u = {0, half_.y, 0};
-    v = {0, 0, half_.z};
+    u = {0, half_.y(), 0};
+    v = {0, 0, half_.z()};
     out = {1, 0, 0};
-    height = half_.x;
+    height = half_.x();
   } else if (y >= z) {
-    u = {0, 0, half_.z};
-    v = {half_.x, 0, 0};
+    u = {0, 0, half_.z()};
+    v = {half_.x(), 0, 0};
     out = {0, 1, 0};
-    height = half_.y;
+    height = half_.y();
   }
-  if (dot(out, direction) < 0) {
+  if (out.dot(direction) < 0) {
     out = -out;
     std::swap(u, v);
   }
-  const Vec3 middle = out * height;
+  const Vector3 middle = out * height;
   result.normal = out;
   result.corners.insert(result.corners.end(), {middle - u - v, middle + u - v, middle + u + v, middle - u + v});
 }
 
-void ConvexShape::cylinder_face(const Vec3& direction, Feature& result) const {
-  const double side = direction.z < 0 ? -1 : 1;
-  if (std::abs(direction.z) > kFacesEnd) {
+void ConvexShape::cylinder_face(const Vector3& direction, Feature& result) const {
+  const double side = direction.z() < 0 ? -1 : 1;
+  if (std::abs(direction.z()) > kFacesEnd) {
     result.normal = {0, 0, side};
     // From the point that is lowest, so that a tilted cylinder has it.
-    const double first = std::atan2(direction.y, direction.x);
+    const double first = std::atan2(direction.y(), direction.x());
     for (int i = 0; i < kRimPoints; ++i) {
       const double angle = first + side * 2 * M_PI * i / kRimPoints;
-      result.corners.push_back({half_.x * std::cos(angle), half_.x * std::sin(angle), side * half_.z});
+      result.corners.push_back({half_.x() * std::cos(angle), half_.x() * std::sin(angle), side * half_.z()});
     }
     return;
   }
-  const double scale = half_.x / std::hypot(direction.x, direction.y);
-  const Vec3 on_side{direction.x * scale, direction.y * scale, 0};
-  result.corners.insert(result.corners.end(), {on_side - Vec3{0, 0, half_.z}, on_side + Vec3{0, 0, half_.z}});
+  const double scale = half_.x() / std::hypot(direction.x(), direction.y());
+  const Vector3 on_side{direction.x() * scale, direction.y() * scale, 0};
+  result.corners.insert(result.corners.end(), {on_side - Vector3(0, 0, half_.z()), on_side + Vector3(0, 0, half_.z())});
 }
 
-void ConvexShape::part_face(const Vec3& direction, Feature& result) const {
-  near_ = part_->farthest(scaled(direction, scale_), near_);
+void ConvexShape::part_face(const Vector3& direction, Feature& result) const {
+  near_ = part_->farthest(direction.cwiseProduct(scale_), near_);
   const auto first = part_->faces_at.begin();
   const auto facing = [&](std::uint32_t a, std::uint32_t b) {
-    return dot(part_->faces[a].normal, direction) < dot(part_->faces[b].normal, direction);
+    return part_->faces[a].normal.dot(direction) < part_->faces[b].normal.dot(direction);
   };
   const auto best = std::max_element(first + part_->face_start[near_], first + part_->face_start[near_ + 1], facing);
   const ConvexPart::Face& face = part_->faces[*best];
   result.normal = face.normal;
   for (std::uint32_t i = 0; i < face.count; ++i) {
-    result.corners.push_back(scaled(part_->corners[part_->loops[face.first + i]] - half_, scale_));
+    result.corners.push_back((part_->corners[part_->loops[face.first + i]] - half_).cwiseProduct(scale_));
   }
 }
 

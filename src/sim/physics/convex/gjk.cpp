@@ -17,7 +17,7 @@ struct Simplex {
   std::array<double, 4> weights{};
   int count = 0;
 
-  const Vec3& at(int i) const { return points[static_cast<std::size_t>(i)].at; }
+  const Vector3& at(int i) const { return points[static_cast<std::size_t>(i)].at; }
   void keep(std::initializer_list<std::pair<int, double>> kept) {
     const std::array<DifferencePoint, 4> before = points;
     count = 0;
@@ -27,28 +27,29 @@ struct Simplex {
     }
   }
   template <class Pick>
-  Vec3 mean(const Pick& pick) const {
-    Vec3 sum;
-    for (int i = 0; i < count; ++i)
-      sum = sum + pick(points[static_cast<std::size_t>(i)]) * weights[static_cast<std::size_t>(i)];
+  Vector3 mean(const Pick& pick) const {
+    Vector3 sum;
+    for (int i = 0; i < count; ++i) {
+      sum += pick(points[static_cast<std::size_t>(i)]) * weights[static_cast<std::size_t>(i)];
+    }
     return sum;
   }
 };
 
 /// Weights of the point of a triangle nearest to the origin. Ericson, Real-Time Collision Detection, 5.1.5.
-std::array<double, 3> nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a;
-  const Vec3 ac = c - a;
-  const double d1 = -dot(ab, a);
-  const double d2 = -dot(ac, a);
+std::array<double, 3> nearest_on_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const double d1 = -ab.dot(a);
+  const double d2 = -ac.dot(a);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = -dot(ab, b);
-  const double d4 = -dot(ac, b);
+  const double d3 = -ab.dot(b);
+  const double d4 = -ac.dot(b);
   if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = -dot(ab, c);
-  const double d6 = -dot(ac, c);
+  const double d5 = -ab.dot(c);
+  const double d6 = -ac.dot(c);
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
@@ -63,9 +64,9 @@ std::array<double, 3> nearest_on_triangle(const Vec3& a, const Vec3& b, const Ve
 }
 
 void reduce_segment(Simplex& s) {
-  const Vec3 ab = s.at(1) - s.at(0);
-  const double whole = dot(ab, ab);
-  const double t = whole > 0 ? -dot(s.at(0), ab) / whole : 0;
+  const Vector3 ab = s.at(1) - s.at(0);
+  const double whole = ab.squaredNorm();
+  const double t = whole > 0 ? -s.at(0).dot(ab) / whole : 0;
   if (t <= 0) return s.keep({{0, 1}});
   if (t >= 1) return s.keep({{1, 1}});
   s.keep({{0, 1 - t}, {1, t}});
@@ -88,14 +89,14 @@ void reduce_tetrahedron(Simplex& s) {
   std::array<int, 3> corners{};
   std::array<double, 3> weights{};
   for (const auto& [i, j, k, opposite] : kFaces) {
-    const Vec3 normal = cross(s.at(j) - s.at(i), s.at(k) - s.at(i));
-    const double inner = dot(s.at(opposite) - s.at(i), normal);
-    const double origin = -dot(s.at(i), normal);
+    const Vector3 normal = (s.at(j) - s.at(i)).cross(s.at(k) - s.at(i));
+    const double inner = (s.at(opposite) - s.at(i)).dot(normal);
+    const double origin = -s.at(i).dot(normal);
     if (inner * origin > 0) continue;  // on the inner side of this face; a flat tetrahedron has no inner side
     const std::array<double, 3> w = nearest_on_triangle(s.at(i), s.at(j), s.at(k));
-    const Vec3 point = s.at(i) * w[0] + s.at(j) * w[1] + s.at(k) * w[2];
-    if (dot(point, point) >= best) continue;
-    best = dot(point, point);
+    const Vector3 point = s.at(i) * w[0] + s.at(j) * w[1] + s.at(k) * w[2];
+    if (point.squaredNorm() >= best) continue;
+    best = point.squaredNorm();
     corners = {i, j, k};
     weights = w;
   }
@@ -111,38 +112,36 @@ void reduce(Simplex& s) {
 
 }  // namespace
 
-DifferencePoint difference_point(const ConvexShape& a, const ConvexShape& b, const Vec3& direction) {
-  const Vec3 on_a = a.support(direction);
-  const Vec3 on_b = b.support(-direction);
+DifferencePoint difference_point(const ConvexShape& a, const ConvexShape& b, const Vector3& direction) {
+  const Vector3 on_a = a.support(direction);
+  const Vector3 on_b = b.support(-direction);
   return {on_a - on_b, on_a, on_b};
 }
 
 CoreDistance core_distance(const ConvexShape& a, const ConvexShape& b, double limit) {
   const double scale = a.reach() + b.reach();
   Simplex simplex;
-  Vec3 nearest = a.centre() - b.centre();
-  if (dot(nearest, nearest) == 0) nearest = {1, 0, 0};
+  Vector3 nearest = a.centre() - b.centre();
+  if (nearest.squaredNorm() == 0) nearest = Vector3::UnitX();
   double squared = std::numeric_limits<double>::infinity();
   CoreDistance result;
   for (int round = 0; round < kMaxRounds; ++round) {
     const DifferencePoint next = difference_point(a, b, -nearest);
-    const double progress = dot(nearest, next.at);
-    const double size = dot(nearest, nearest);
+    const double progress = nearest.dot(next.at);
+    const double size = nearest.squaredNorm();
     // All of A - B lies beyond this plane.
     if (progress > 0 && progress * progress > limit * limit * size) {
       result.distance = progress / std::sqrt(size);
       return result;
     }
     if (simplex.count > 0 && size - progress <= kRelative * size) break;
-    const auto same = [&](const DifferencePoint& p) {
-      return p.at.x == next.at.x && p.at.y == next.at.y && p.at.z == next.at.z;
-    };
+    const auto same = [&](const DifferencePoint& p) { return p.at == next.at; };
     if (std::any_of(simplex.points.begin(), simplex.points.begin() + simplex.count, same)) break;
     const Simplex before = simplex;
     simplex.points[static_cast<std::size_t>(simplex.count++)] = next;
     reduce(simplex);
-    const Vec3 found = simplex.mean([](const DifferencePoint& p) { return p.at; });
-    const double now = dot(found, found);
+    const Vector3 found = simplex.mean([](const DifferencePoint& p) -> const Vector3& { return p.at; });
+    const double now = found.squaredNorm();
     if (simplex.count == 4 || now <= kTouching * kTouching * scale * scale) {
       result.overlap = true;
       result.simplex = simplex.points;
@@ -156,8 +155,8 @@ CoreDistance core_distance(const ConvexShape& a, const ConvexShape& b, double li
     squared = now;
     nearest = found;
   }
-  result.on_a = simplex.mean([](const DifferencePoint& p) { return p.on_a; });
-  result.on_b = simplex.mean([](const DifferencePoint& p) { return p.on_b; });
+  result.on_a = simplex.mean([](const DifferencePoint& p) -> const Vector3& { return p.on_a; });
+  result.on_b = simplex.mean([](const DifferencePoint& p) -> const Vector3& { return p.on_b; });
   result.distance = std::sqrt(squared);
   return result;
 }

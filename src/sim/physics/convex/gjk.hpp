@@ -11,18 +11,18 @@ namespace bubblesim {
 
 /// A point of the Minkowski difference A - B of two cores.
 struct DifferencePoint {
-  Vec3 at;  // on_a - on_b
-  Vec3 on_a;
-  Vec3 on_b;
+  Vector3 at;  // on_a - on_b
+  Vector3 on_a;
+  Vector3 on_b;
 };
-DifferencePoint difference_point(const ConvexShape& a, const ConvexShape& b, const Vec3& direction);
+DifferencePoint difference_point(const ConvexShape& a, const ConvexShape& b, const Vector3& direction);
 
 /// Result for the cores of two shapes; their roundings are not included.
 struct CoreDistance {
   bool overlap = false;  // touch or overlap: the points are not set
   double distance = 0;   // m; a lower bound when it is above the limit of the search
-  Vec3 on_a;             // nearest points
-  Vec3 on_b;
+  Vector3 on_a;          // nearest points
+  Vector3 on_b;
   std::array<DifferencePoint, 4> simplex;  // around the origin, if they overlap
   int count = 0;
 };

@@ -13,14 +13,14 @@ constexpr double kDeepest = 0.5;     // of the depth: points that are all shallo
 constexpr double kSamePlace = 1e-6;  // of the shapes' reach, between two points
 
 /// Cuts off what lies outside the prism of a polygon along a direction (Sutherland and Hodgman, 1974).
-void clip(const Feature& polygon, const Vec3& along, std::vector<Vec3>& subject) {
-  thread_local std::vector<Vec3> before;
-  const double side = dot(polygon.normal, along) < 0 ? -1 : 1;
+void clip(const Feature& polygon, const Vector3& along, std::vector<Vector3>& subject) {
+  thread_local std::vector<Vector3> before;
+  const double side = polygon.normal.dot(along) < 0 ? -1 : 1;
   for (std::size_t i = 0; i < polygon.corners.size() && !subject.empty(); ++i) {
-    const Vec3& from = polygon.corners[i];
-    const Vec3& to = polygon.corners[(i + 1) % polygon.corners.size()];
-    const Vec3 inward = cross(along, to - from) * side;
-    const auto height = [&](const Vec3& point) { return dot(point - from, inward); };
+    const Vector3& from = polygon.corners[i];
+    const Vector3& to = polygon.corners[(i + 1) % polygon.corners.size()];
+    const Vector3 inward = along.cross(to - from) * side;
+    const auto height = [&](const Vector3& point) { return (point - from).dot(inward); };
     before.swap(subject);
     subject.clear();
     if (before.size() == 1) {
@@ -29,8 +29,8 @@ void clip(const Feature& polygon, const Vec3& along, std::vector<Vec3>& subject)
     }
     const std::size_t edges = before.size() == 2 ? 1 : before.size();
     for (std::size_t j = 0; j < edges; ++j) {
-      const Vec3& start = before[j];
-      const Vec3& end = before[(j + 1) % before.size()];
+      const Vector3& start = before[j];
+      const Vector3& end = before[(j + 1) % before.size()];
       const double h = height(start);
       const double k = height(end);
       if (h >= 0) subject.push_back(start);
@@ -46,29 +46,29 @@ void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration&
                   std::vector<ManifoldPoint>& points) {
   thread_local Feature of_a;
   thread_local Feature of_b;
-  const Vec3& normal = overlap.normal;
+  const Vector3& normal = overlap.normal;
   a.feature(-normal, of_a);
   b.feature(normal, of_b);
   const auto facing = [&](const Feature& feature) {
-    return feature.corners.size() < 3 ? 0 : std::abs(dot(feature.normal, normal));
+    return feature.corners.size() < 3 ? 0 : std::abs(feature.normal.dot(normal));
   };
   // The polygon that faces the normal better is the prism; heights are measured from its plane.
   const bool a_clips = facing(of_a) > facing(of_b);
   const Feature& prism = a_clips ? of_a : of_b;
-  std::vector<Vec3>& subject = a_clips ? of_b.corners : of_a.corners;
+  std::vector<Vector3>& subject = a_clips ? of_b.corners : of_a.corners;
   const std::size_t first = points.size();
   double deepest = 0;
   if (facing(prism) > kGrazing) {
     clip(prism, normal, subject);
-    const double slope = 1 / dot(normal, prism.normal);
+    const double slope = 1 / normal.dot(prism.normal);
     const double same = kSamePlace * (a.reach() + b.reach());
-    for (const Vec3& point : subject) {
-      const double to_plane = dot(prism.corners[0] - point, prism.normal) * slope;
+    for (const Vector3& point : subject) {
+      const double to_plane = (prism.corners[0] - point).dot(prism.normal) * slope;
       const double depth = std::min(a_clips ? -to_plane : to_plane, overlap.depth);
       if (depth <= 0) continue;
-      const Vec3 at = point + normal * (to_plane / 2);
+      const Vector3 at = point + normal * (to_plane / 2);
       const bool repeated = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
-                                        [&](const ManifoldPoint& p) { return length(p.at - at) < same; });
+                                        [&](const ManifoldPoint& p) { return (p.at - at).norm() < same; });
       if (!repeated) points.push_back({at, normal, depth});
       deepest = std::max(deepest, depth);
     }

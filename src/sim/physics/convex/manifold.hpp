@@ -9,8 +9,8 @@
 namespace bubblesim {
 
 struct ManifoldPoint {
-  Vec3 at;           // midway between the surfaces, m, in the world
-  Vec3 normal;       // into the first shape
+  Vector3 at;        // midway between the surfaces, m, in the world
+  Vector3 normal;    // into the first shape
   double depth = 0;  // of the overlap along the normal there, m
 };
 

@@ -37,7 +37,7 @@ class ExpandingPolytope {
       if (nearest == faces_.end() || !std::isfinite(nearest->distance)) return {};
       const Face face = *nearest;
       const DifferencePoint next = difference_point(a_, b_, face.normal);
-      if (dot(next.at, face.normal) - face.distance <= kConverged * scale_) return result(face);
+      if (next.at.dot(face.normal) - face.distance <= kConverged * scale_) return result(face);
       if (!grow(next)) return result(face);
     }
     return {};
@@ -46,18 +46,19 @@ class ExpandingPolytope {
  private:
   struct Face {
     std::array<std::size_t, 3> corners{};
-    Vec3 normal;
+    Vector3 normal;
     double distance = 0;
   };
 
   /// Adds points until the polytope has a volume.
   bool complete() {
-    const std::array<Vec3, 6> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
-    for (std::size_t i = 0; points_.size() < 4 && i < 2 * axes.size(); ++i) try_point(axes[i % axes.size()]);
+    for (int i = 0; points_.size() < 4 && i < 12; ++i) {  // twice along each axis, forth and back
+      try_point(Vector3::Unit(i % 3) * (i % 6 < 3 ? 1 : -1));
+    }
     if (points_.size() < 4) {
       // Flat along the axes: search across what there is.
       if (points_.size() == 3) {
-        const Vec3 normal = unit(cross(points_[1].at - points_[0].at, points_[2].at - points_[0].at));
+        const Vector3 normal = (points_[1].at - points_[0].at).cross(points_[2].at - points_[0].at).normalized();
         try_point(normal);
         if (points_.size() < 4) try_point(-normal);
       }
@@ -72,34 +73,34 @@ class ExpandingPolytope {
     return true;
   }
 
-  static double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return dot(cross(b - a, c - a), d - a);
+  static double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+    return (b - a).cross(c - a).dot(d - a);
   }
 
-  void try_point(const Vec3& direction) {
+  void try_point(const Vector3& direction) {
     const DifferencePoint next = difference_point(a_, b_, direction);
     const double least = kFlatSimplex * scale_;
     if (points_.empty()) {
       points_.push_back(next);
       return;
     }
-    const Vec3 offset = next.at - points_[0].at;
-    double extent = length(offset);
-    if (points_.size() == 2) extent = length(cross(unit(points_[1].at - points_[0].at), offset));
+    const Vector3 offset = next.at - points_[0].at;
+    double extent = offset.norm();
+    if (points_.size() == 2) extent = (points_[1].at - points_[0].at).normalized().cross(offset).norm();
     if (points_.size() == 3) {
-      extent = std::abs(dot(unit(cross(points_[1].at - points_[0].at, points_[2].at - points_[0].at)), offset));
+      extent = std::abs((points_[1].at - points_[0].at).cross(points_[2].at - points_[0].at).normalized().dot(offset));
     }
     if (extent > least) points_.push_back(next);
   }
 
   void add_face(const std::array<std::size_t, 3>& corners) {
-    const Vec3& first = points_[corners[0]].at;
-    const Vec3 normal = cross(points_[corners[1]].at - first, points_[corners[2]].at - first);
-    const double size = length(normal);
+    const Vector3& first = points_[corners[0]].at;
+    const Vector3 normal = (points_[corners[1]].at - first).cross(points_[corners[2]].at - first);
+    const double size = normal.norm();
     Face face{corners, {}, std::numeric_limits<double>::infinity()};
     if (size > kFlatSimplex * kFlatSimplex * scale_ * scale_) {
-      face.normal = normal * (1 / size);
-      face.distance = std::max(dot(first, face.normal), 0.0);
+      face.normal = normal / size;
+      face.distance = std::max(first.dot(face.normal), 0.0);
     }
     faces_.push_back(face);
   }
@@ -107,7 +108,7 @@ class ExpandingPolytope {
   /// Replaces the faces that the point sees. False when it sees none.
   bool grow(const DifferencePoint& next) {
     const auto sees = [&](const Face& face) {
-      return dot(face.normal, next.at - points_[face.corners[0]].at) > 1e-14 * scale_;
+      return face.normal.dot(next.at - points_[face.corners[0]].at) > 1e-14 * scale_;
     };
     edges_.clear();
     std::vector<Face> kept;
@@ -139,11 +140,13 @@ class ExpandingPolytope {
     const DifferencePoint& p = points_[face.corners[0]];
     const DifferencePoint& q = points_[face.corners[1]];
     const DifferencePoint& r = points_[face.corners[2]];
-    const Vec3 foot = face.normal * face.distance;
-    const double whole = dot(face.normal, cross(q.at - p.at, r.at - p.at));
-    const double v = dot(face.normal, cross(foot - p.at, r.at - p.at)) / whole;
-    const double w = dot(face.normal, cross(q.at - p.at, foot - p.at)) / whole;
-    const auto between = [&](const Vec3& x, const Vec3& y, const Vec3& z) { return x * (1 - v - w) + y * v + z * w; };
+    const Vector3 foot = face.normal * face.distance;
+    const double whole = face.normal.dot((q.at - p.at).cross(r.at - p.at));
+    const double v = face.normal.dot((foot - p.at).cross(r.at - p.at)) / whole;
+    const double w = face.normal.dot((q.at - p.at).cross(foot - p.at)) / whole;
+    const auto between = [&](const Vector3& x, const Vector3& y, const Vector3& z) -> Vector3 {
+      return x * (1 - v - w) + y * v + z * w;
+    };
     return {-face.normal, face.distance, (between(p.on_a, q.on_a, r.on_a) + between(p.on_b, q.on_b, r.on_b)) * 0.5};
   }
 
@@ -163,7 +166,7 @@ void prefer_face(const ConvexShape& a, const ConvexShape& b, Penetration& found)
     const double side = of_b ? 1 : -1;
     (of_b ? b : a).feature(found.normal * side, feature);
     if (feature.corners.size() < 3) continue;
-    const Vec3 normal = feature.normal * side;
+    const Vector3 normal = feature.normal * side;
     const double depth = depth_along(a, b, normal);
     if (depth > most) continue;
     found.normal = normal;
@@ -175,18 +178,19 @@ void prefer_face(const ConvexShape& a, const ConvexShape& b, Penetration& found)
 /// Where no polytope was found, the best of some directions is taken.
 Penetration try_directions(const ConvexShape& a, const ConvexShape& b) {
   thread_local Feature feature;
-  std::vector<Vec3> directions = {unit(a.centre() - b.centre())};
+  std::vector<Vector3> directions = {(a.centre() - b.centre()).normalized()};
   for (const ConvexShape* shape : {&a, &b}) {
-    const Transform& frame = shape->frame();
-    directions.insert(directions.end(), {frame.x, frame.y, frame.z, -frame.x, -frame.y, -frame.z});
+    for (const double sign : {1, -1}) {
+      for (int axis = 0; axis < 3; ++axis) directions.push_back(shape->frame().rotation.col(axis) * sign);
+    }
   }
   Penetration best;
   best.depth = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Vec3& normal) {
-    const double depth = dot(normal, normal) > 0.5 ? depth_along(a, b, normal) : best.depth;
+  const auto consider = [&](const Vector3& normal) {
+    const double depth = normal.squaredNorm() > 0.5 ? depth_along(a, b, normal) : best.depth;
     if (depth < best.depth) best = {normal, depth, {}};
   };
-  for (const Vec3& direction : directions) {
+  for (const Vector3& direction : directions) {
     consider(direction);
     b.feature(direction, feature);
     if (feature.corners.size() > 2) consider(feature.normal);
@@ -199,8 +203,8 @@ Penetration try_directions(const ConvexShape& a, const ConvexShape& b) {
 
 }  // namespace
 
-double depth_along(const ConvexShape& a, const ConvexShape& b, const Vec3& normal) {
-  return dot(b.support(normal) - a.support(-normal), normal) + a.rounding() + b.rounding();
+double depth_along(const ConvexShape& a, const ConvexShape& b, const Vector3& normal) {
+  return (b.support(normal) - a.support(-normal)).dot(normal) + a.rounding() + b.rounding();
 }
 
 std::optional<Penetration> penetration(const ConvexShape& a, const ConvexShape& b) {
@@ -208,15 +212,15 @@ std::optional<Penetration> penetration(const ConvexShape& a, const ConvexShape& 
   const CoreDistance cores = core_distance(a, b, rounding);
   if (!cores.overlap && cores.distance > kCoresApart * (a.reach() + b.reach())) {
     if (cores.distance >= rounding) return {};
-    const Vec3 normal = unit(cores.on_a - cores.on_b);
-    const Vec3 on_a = cores.on_a - normal * a.rounding();
-    const Vec3 on_b = cores.on_b + normal * b.rounding();
+    const Vector3 normal = (cores.on_a - cores.on_b).normalized();
+    const Vector3 on_a = cores.on_a - normal * a.rounding();
+    const Vector3 on_b = cores.on_b + normal * b.rounding();
     return Penetration{normal, rounding - cores.distance, (on_a + on_b) * 0.5};
   }
   std::optional<Penetration> found = ExpandingPolytope(a, b, cores).expand();
   if (found) {
-    const Vec3 offset = found->normal * ((b.rounding() - a.rounding()) / 2);
-    found->point = found->point + offset;
+    const Vector3 offset = found->normal * ((b.rounding() - a.rounding()) / 2);
+    found->point += offset;
     found->depth = depth_along(a, b, found->normal);
   } else {
     found = try_directions(a, b);

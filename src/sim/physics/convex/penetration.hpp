@@ -9,9 +9,9 @@
 namespace bubblesim {
 
 struct Penetration {
-  Vec3 normal;       // of length 1, from b to a
+  Vector3 normal;    // of length 1, from b to a
   double depth = 0;  // m, along it
-  Vec3 point;        // between the surfaces where they overlap most
+  Vector3 point;     // between the surfaces where they overlap most
 };
 
 /// Empty when the shapes are apart. The depth is exact for its normal; the normal is that of the shortest translation
@@ -19,6 +19,6 @@ struct Penetration {
 std::optional<Penetration> penetration(const ConvexShape& a, const ConvexShape& b);
 
 /// The translation of `a` along `normal` that separates the shapes, m; negative when they are apart along it.
-double depth_along(const ConvexShape& a, const ConvexShape& b, const Vec3& normal);
+double depth_along(const ConvexShape& a, const ConvexShape& b, const Vector3& normal);
 
 }  // namespace bubblesim

@@ -19,15 +19,14 @@ class RigidMotion {
   Transform back_to(double fraction) const;
   Transform at(double fraction) const { return back_to(fraction) * end_; }
 
-  const Vec3& travel() const { return travel_; }
-  double angle() const { return angle_; }  // rad
-  const Vec3& centre() const { return end_.origin; }
+  const Vector3& travel() const { return travel_; }
+  double angle() const { return turn_.angle(); }  // rad
+  const Vector3& centre() const { return end_.position; }
 
  private:
   Transform end_;
-  Vec3 travel_;  // m
-  Vec3 axis_{1, 0, 0};
-  double angle_ = 0;
+  Vector3 travel_;  // m
+  Eigen::AngleAxisd turn_ = Eigen::AngleAxisd::Identity();
 };
 
 /// A shape at the end of the motion of its body.

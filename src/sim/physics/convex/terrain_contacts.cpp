@@ -16,12 +16,12 @@ constexpr double kMostLifted = 0.25;      // of the shape's reach, by which the 
 
 struct NearTriangle {
   std::uint32_t number = 0;
-  std::array<Vec3, 3> corners;  // in the world
-  Vec3 normal;                  // to the side of the shape
-  double side = 1;              // -1: against the order of the corners
+  std::array<Vector3, 3> corners;  // in the world
+  Vector3 normal;                  // to the side of the shape
+  double side = 1;                 // -1: against the order of the corners
 };
 
-Vec3 plain_normal(const std::array<Vec3, 3>& at) { return unit(cross(at[1] - at[0], at[2] - at[0])); }
+Vector3 plain_normal(const std::array<Vector3, 3>& at) { return (at[1] - at[0]).cross(at[2] - at[0]).normalized(); }
 
 enum class Verdict { kKeep, kUseFace, kLeaveToNeighbour };
 
@@ -29,19 +29,19 @@ class Terrain {
  public:
   Terrain(const TriangleTree& tree, const Transform& mesh) : tree_(tree), mesh_(mesh) {}
 
-  std::array<Vec3, 3> placed(std::uint32_t triangle) const {
-    std::array<Vec3, 3> at = tree_.corners(triangle);
-    for (Vec3& corner : at) corner = mesh_.place(corner);
+  std::array<Vector3, 3> placed(std::uint32_t triangle) const {
+    std::array<Vector3, 3> at = tree_.corners(triangle);
+    for (Vector3& corner : at) corner = mesh_ * corner;
     return at;
   }
 
   /// Whether a normal is possible at the corners of the triangle that are farthest along it.
-  Verdict judge(const NearTriangle& triangle, const Vec3& normal) const {
+  Verdict judge(const NearTriangle& triangle, const Vector3& normal) const {
     std::array<double, 3> reach{};
-    for (std::size_t i = 0; i < 3; ++i) reach[i] = dot(triangle.corners[i], normal);
+    for (std::size_t i = 0; i < 3; ++i) reach[i] = triangle.corners[i].dot(normal);
     const double most = std::max({reach[0], reach[1], reach[2]});
     const double size =
-        length(triangle.corners[1] - triangle.corners[0]) + length(triangle.corners[2] - triangle.corners[0]);
+        (triangle.corners[1] - triangle.corners[0]).norm() + (triangle.corners[2] - triangle.corners[0]).norm();
     std::array<bool, 3> touches{};
     for (std::size_t i = 0; i < 3; ++i) touches[i] = most - reach[i] < kOneCorner * size;
     if (touches[0] && touches[1] && touches[2]) return Verdict::kKeep;
@@ -59,15 +59,15 @@ class Terrain {
   }
 
  private:
-  Verdict judge_edge(const NearTriangle& triangle, std::size_t i, const Vec3& normal) const {
+  Verdict judge_edge(const NearTriangle& triangle, std::size_t i, const Vector3& normal) const {
     const std::uint32_t other = tree_.across_edge(triangle.number, i);
     if (other == TriangleTree::kNone) return Verdict::kKeep;
-    const Vec3 edge = unit(triangle.corners[(i + 1) % 3] - triangle.corners[i]);
-    const Vec3 out = cross(edge, triangle.normal) * triangle.side;
+    const Vector3 edge = (triangle.corners[(i + 1) % 3] - triangle.corners[i]).normalized();
+    const Vector3 out = edge.cross(triangle.normal) * triangle.side;
     // Angles about the edge, from the normal of the triangle towards its neighbour.
-    const Vec3 beyond = plain_normal(placed(other)) * triangle.side;
-    const auto angle = [&](const Vec3& direction) {
-      return std::atan2(dot(direction, out), dot(direction, triangle.normal));
+    const Vector3 beyond = plain_normal(placed(other)) * triangle.side;
+    const auto angle = [&](const Vector3& direction) {
+      return std::atan2(direction.dot(out), direction.dot(triangle.normal));
     };
     const double limit = angle(beyond);
     if (limit < kSharp)
@@ -78,8 +78,8 @@ class Terrain {
     return Verdict::kKeep;
   }
 
-  static bool on_face(const NearTriangle& triangle, const Vec3& normal) {
-    return dot(triangle.normal, normal) > std::cos(kAngleTolerance);
+  static bool on_face(const NearTriangle& triangle, const Vector3& normal) {
+    return triangle.normal.dot(normal) > std::cos(kAngleTolerance);
   }
 
   const TriangleTree& tree_;
@@ -91,7 +91,7 @@ std::optional<Penetration> allowed_overlap(const ConvexShape& shape, const Conve
                                            const NearTriangle& triangle) {
   std::optional<Penetration> found = penetration(shape, flat);
   if (!found) return found;
-  const Verdict verdict = dot(found->normal, triangle.normal) < -kAngleTolerance
+  const Verdict verdict = found->normal.dot(triangle.normal) < -kAngleTolerance
                               ? Verdict::kUseFace  // through the surface
                               : terrain.judge(triangle, found->normal);
   if (verdict == Verdict::kKeep) return found;
@@ -104,8 +104,16 @@ std::optional<Penetration> allowed_overlap(const ConvexShape& shape, const Conve
 }  // namespace
 
 Bounds bounds_in(const ConvexShape& shape, const Transform& frame) {
-  const auto reach = [&](const Vec3& axis) { return dot(shape.support(axis) - frame.origin, axis) + shape.rounding(); };
-  return {{-reach(-frame.x), -reach(-frame.y), -reach(-frame.z)}, {reach(frame.x), reach(frame.y), reach(frame.z)}};
+  const auto reach = [&](const Vector3& axis) {
+    return axis.dot(shape.support(axis) - frame.position) + shape.rounding();
+  };
+  Bounds bounds;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 axis = frame.rotation.col(i);
+    bounds.min()[i] = -reach(-axis);
+    bounds.max()[i] = reach(axis);
+  }
+  return bounds;
 }
 
 void add_terrain_contacts(const ConvexShape& shape, const TriangleTree& tree, const Transform& mesh,
@@ -117,14 +125,14 @@ void add_terrain_contacts(const ConvexShape& shape, const TriangleTree& tree, co
   for (const std::uint32_t number : near) {
     NearTriangle triangle{number, terrain.placed(number), {}, 1};
     triangle.normal = plain_normal(triangle.corners);
-    if (dot(triangle.normal, triangle.normal) < 0.5) continue;  // no area
-    if (dot(shape.centre() - triangle.corners[0], triangle.normal) < 0) {
+    if (triangle.normal.dot(triangle.normal) < 0.5) continue;  // no area
+    if ((shape.centre() - triangle.corners[0]).dot(triangle.normal) < 0) {
       triangle.normal = -triangle.normal;
       triangle.side = -1;
     }
     // Most triangles near a shape lie below it.
-    const Vec3 lowest = shape.support(-triangle.normal);
-    if (dot(lowest - triangle.corners[0], triangle.normal) >= shape.rounding()) continue;
+    const Vector3 lowest = shape.support(-triangle.normal);
+    if ((lowest - triangle.corners[0]).dot(triangle.normal) >= shape.rounding()) continue;
     const ConvexShape flat(triangle.corners);
     const std::optional<Penetration> overlap = allowed_overlap(shape, flat, terrain, triangle);
     if (overlap) add_manifold(shape, flat, *overlap, points);

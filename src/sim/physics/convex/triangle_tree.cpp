@@ -11,19 +11,7 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // triangles
 
-double along(const Vec3& v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
-
 }  // namespace
-
-void Bounds::include(const Vec3& point) {
-  low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
-  high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
-}
-
-bool Bounds::meets(const Bounds& other) const {
-  return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
-         low.z <= other.high.z && other.low.z <= high.z;
-}
 
 TriangleTree::TriangleTree(const std::vector<double>& coordinates, const std::vector<std::uint32_t>& indices)
     : indices_(indices), order_(indices.size() / 3) {
@@ -36,36 +24,30 @@ TriangleTree::TriangleTree(const std::vector<double>& coordinates, const std::ve
   connect();
 }
 
-std::array<Vec3, 3> TriangleTree::corners(std::uint32_t triangle) const {
+std::array<Vector3, 3> TriangleTree::corners(std::uint32_t triangle) const {
   return {corners_[indices_[3 * triangle]], corners_[indices_[3 * triangle + 1]], corners_[indices_[3 * triangle + 2]]};
 }
 
 Bounds TriangleTree::bounds_of(std::uint32_t triangle) const {
-  const std::array<Vec3, 3> at = corners(triangle);
-  Bounds bounds{at[0], at[0]};
-  bounds.include(at[1]);
-  bounds.include(at[2]);
+  Bounds bounds;
+  for (const Vector3& corner : corners(triangle)) bounds.extend(corner);
   return bounds;
 }
 
 void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  Bounds bounds = bounds_of(order_[first]);
-  for (std::uint32_t i = first; i < first + count; ++i) {
-    const Bounds own = bounds_of(order_[i]);
-    bounds.include(own.low);
-    bounds.include(own.high);
-  }
+  Bounds bounds;
+  for (std::uint32_t i = first; i < first + count; ++i) bounds.extend(bounds_of(order_[i]));
   nodes_[node].bounds = bounds;
   if (count <= kLeaf) {
     nodes_[node].first = first;
     nodes_[node].count = count;
     return;
   }
-  const Vec3 size = bounds.high - bounds.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  Eigen::Index axis = 0;
+  bounds.sizes().maxCoeff(&axis);
   const auto middle = [&](std::uint32_t triangle) {
-    const std::array<Vec3, 3> at = corners(triangle);
-    return along(at[0], axis) + along(at[1], axis) + along(at[2], axis);
+    const std::array<Vector3, 3> at = corners(triangle);
+    return at[0][axis] + at[1][axis] + at[2][axis];
   };
   const auto begin = order_.begin() + first;
   const std::uint32_t half = count / 2;
@@ -111,14 +93,14 @@ void TriangleTree::near(const Bounds& box, std::vector<std::uint32_t>& triangles
   std::size_t count = 1;
   while (count > 0) {
     const Node& node = nodes_[waiting[--count]];
-    if (!node.bounds.meets(box)) continue;
+    if (!node.bounds.intersects(box)) continue;
     if (node.count == 0) {
       waiting[count++] = node.first + 1;
       waiting[count++] = node.first;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (bounds_of(order_[i]).meets(box)) triangles.push_back(order_[i]);
+      if (bounds_of(order_[i]).intersects(box)) triangles.push_back(order_[i]);
     }
   }
 }

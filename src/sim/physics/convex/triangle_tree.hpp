@@ -6,18 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/convex/vec3.hpp"
+#include "bubblesim/math.hpp"
 
 namespace bubblesim {
 
-/// An axis-aligned box.
-struct Bounds {
-  Vec3 low;
-  Vec3 high;
-
-  void include(const Vec3& point);
-  bool meets(const Bounds& other) const;
-};
+using Bounds = Eigen::AlignedBox3d;  // starts empty
 
 /// A hierarchy of boxes over triangles. Immutable.
 class TriangleTree {
@@ -30,7 +23,7 @@ class TriangleTree {
   /// Adds the triangles whose boxes meet `box`, in a fixed order.
   void near(const Bounds& box, std::vector<std::uint32_t>& triangles) const;
 
-  std::array<Vec3, 3> corners(std::uint32_t triangle) const;
+  std::array<Vector3, 3> corners(std::uint32_t triangle) const;
   /// The triangle across the edge from corner i to the next, or kNone at a border and at an edge of more than two.
   std::uint32_t across_edge(std::uint32_t triangle, std::size_t i) const { return neighbours_[3 * triangle + i]; }
 
@@ -45,7 +38,7 @@ class TriangleTree {
   void connect();
   Bounds bounds_of(std::uint32_t triangle) const;
 
-  std::vector<Vec3> corners_;
+  std::vector<Vector3> corners_;
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> neighbours_;
