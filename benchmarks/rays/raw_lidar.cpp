@@ -99,10 +99,9 @@ const std::vector<float>& RawLidar::scan(const Pose& sensor, const std::vector<P
   }
   rtcCommitScene(moving_);
 
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  const Matrix3 turn = sensor.orientation.toRotationMatrix();
+  rays::EmbreeQuery query;
+  query.coherent = true;
+  const ignition::math::Matrix3d turn(sensor.Rot());
   float r[9];
   for (std::size_t i = 0; i < 9; ++i) r[i] = static_cast<float>(turn(i / 3, i % 3));
   const auto x = static_cast<float>(sensor.position.x());
@@ -127,8 +126,8 @@ const std::vector<float>& RawLidar::scan(const Pose& sensor, const std::vector<P
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid, still_, &context, &packet);
-    rtcIntersect16(valid, moving_, &context, &packet);
+    rays::intersect_packet(valid, still_, query, packet);
+    rays::intersect_packet(valid, moving_, query, packet);
     for (std::size_t i = 0; i < kPacket && first + i < count_; ++i) {
       const bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
       ranges_[first + i] = hit ? packet.ray.tfar[i] : std::numeric_limits<float>::infinity();

@@ -2,11 +2,10 @@
 // A lidar implemented directly with Embree: the upper limit for a simulator based on Embree.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "rays/embree.hpp"
 
 namespace bubblesim::benchmarks {
 

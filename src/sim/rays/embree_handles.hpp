@@ -2,10 +2,10 @@
 // Owning handles for Embree's objects.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <type_traits>
+
+#include "rays/embree.hpp"
 
 namespace bubblesim::rays {
 

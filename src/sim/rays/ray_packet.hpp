@@ -2,11 +2,10 @@
 // A packet of sixteen rays, the unit of Embree queries.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstddef>
 
 #include "bubblesim/math.hpp"
+#include "rays/embree.hpp"
 
 namespace bubblesim::rays {
 

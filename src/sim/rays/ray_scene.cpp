@@ -19,8 +19,7 @@ constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits 
 
 QueryContext make_context(bool coherent, ObjectId ignored) {
   QueryContext context;
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.embree.coherent = coherent;
   context.ignored_model = ignored;
   return context;
 }
@@ -141,7 +140,7 @@ void RayScene::refresh(const World& world) {
 bool RayScene::starts_in_housings(const RayPacket& packet, const QueryContext& context) const {
   const std::vector<const RayShape*>& housings = statics_->housing_shapes;
   if (housings.empty()) return true;
-  if ((context.embree.flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) == 0) return false;
+  if (!context.embree.coherent) return false;
   const RTCRay16& ray = packet.data.ray;
   const Vector3 start(ray.org_x[0], ray.org_y[0], ray.org_z[0]);
   return std::all_of(housings.begin(), housings.end(), [&](const RayShape* shape) {
@@ -154,11 +153,11 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
     if (planes_[p].shape->model == context.ignored_model) continue;
     meet_plane(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance, mask, packet.data);
   }
-  rtcIntersect16(mask.use, statics_->scene.get(), &context.embree, &packet.data);
+  intersect_packet(mask.use, statics_->scene.get(), context.embree, packet.data);
   if (!starts_in_housings(packet, context)) {
-    rtcIntersect16(mask.use, statics_->housings.get(), &context.embree, &packet.data);
+    intersect_packet(mask.use, statics_->housings.get(), context.embree, packet.data);
   }
-  if (!links_.empty()) rtcIntersect16(mask.use, movers_.get(), &context.embree, &packet.data);
+  if (!links_.empty()) intersect_packet(mask.use, movers_.get(), context.embree, packet.data);
 }
 
 /// Marks the rays that hit a face from inside.
@@ -196,11 +195,10 @@ void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
 }
 
 void RayScene::occlude(RTCRay16& rays, const RayMask& mask) const {
-  // Incoherent: with Embree's coherent flag an occlusion query may not return.
   QueryContext context = make_context(false, kNoObject);
-  rtcOccluded16(mask.use, statics_->scene.get(), &context.embree, &rays);
-  if (!statics_->housing_shapes.empty()) rtcOccluded16(mask.use, statics_->housings.get(), &context.embree, &rays);
-  if (!links_.empty()) rtcOccluded16(mask.use, movers_.get(), &context.embree, &rays);
+  occlude_packet(mask.use, statics_->scene.get(), context.embree, rays);
+  if (!statics_->housing_shapes.empty()) occlude_packet(mask.use, statics_->housings.get(), context.embree, rays);
+  if (!links_.empty()) occlude_packet(mask.use, movers_.get(), context.embree, rays);
 }
 
 const RayShape& RayScene::shape(const RayPacket& packet, std::size_t i) const {

@@ -66,10 +66,6 @@ std::optional<ShapeHit> meet(const RayShape& shape, const Vector3& origin, RTCRa
   return hit;
 }
 
-bool ignored(const RayShape& shape, const RTCIntersectContext* context) {
-  return shape.model == reinterpret_cast<const QueryContext*>(context)->ignored_model;
-}
-
 /// Marks the rays of a callback that can meet the shape's bounding sphere. Returns whether any can.
 bool near_shape(const RayShape& shape, const int* valid, unsigned count, const RTCRayN* rays, RayMask& near) {
   if (count != kPacket) {
@@ -82,12 +78,13 @@ bool near_shape(const RayShape& shape, const int* valid, unsigned count, const R
 
 void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
-  if (ignored(shape, arguments->context)) return;
+  const auto& context = *reinterpret_cast<const QueryContext*>(arguments->context);
+  if (shape.model == context.ignored_model) return;
   const unsigned count = arguments->N;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
   RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
   std::optional<Vector3> common_origin;
-  if ((arguments->context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0) {
+  if (context.embree.coherent) {
     const auto first = std::find_if(arguments->valid, arguments->valid + count, [](int use) { return use != 0; });
     if (first == arguments->valid + count) return;
     common_origin = origin_in_shape(shape, rays, count, static_cast<unsigned>(first - arguments->valid));
@@ -107,7 +104,7 @@ void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
     RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit->normal.z());
     RTCHitN_geomID(hits, count, i) = arguments->geomID;
     RTCHitN_primID(hits, count, i) = 0;
-    RTCHitN_instID(hits, count, i, 0) = arguments->context->instID[0];
+    set_instance(hits, count, i, *arguments->context);
   }
 }
 

@@ -25,7 +25,7 @@ struct RayShape {
 
 /// Context of an Embree query, passed to every callback.
 struct QueryContext {
-  RTCIntersectContext embree;  // must be first: Embree passes a pointer to it
+  EmbreeQuery embree;  // must be first: Embree passes a pointer to it
   ObjectId ignored_model = kNoObject;
 };
 
