@@ -178,6 +178,9 @@ void restore(Simulation& simulation, const py::bytes& state) {
   simulation.restore(bytes);
 }
 
+/// Not py::set_error, which pybind11 2.10 lacks, nor the call of a py::exception, which 2.13 deprecates.
+void set_error(const py::handle& type, const std::exception& error) { PyErr_SetString(type.ptr(), error.what()); }
+
 void bind_errors(py::module_& module) {
   static py::exception<SceneError> scene_error(module, "SceneError", PyExc_ValueError);
   static py::exception<NoSuchObject> no_such_object(module, "NoSuchObject", PyExc_LookupError);
@@ -193,15 +196,15 @@ void bind_errors(py::module_& module) {
     try {
       if (raised) std::rethrow_exception(raised);
     } catch (const SceneError& error) {
-      scene_error(error.what());
+      set_error(scene_error, error);
     } catch (const NoSuchObject& error) {
-      no_such_object(error.what());
+      set_error(no_such_object, error);
     } catch (const WrongObject& error) {
-      wrong_object(error.what());
+      set_error(wrong_object, error);
     } catch (const Diverged& error) {
-      diverged(error.what());
+      set_error(diverged, error);
     } catch (const NotCarriedOut& error) {
-      not_carried_out(error.what());
+      set_error(not_carried_out, error);
     }
   });
 }

@@ -144,7 +144,7 @@ class CborReader {
   py::object list(std::optional<std::uint64_t> count, int depth) {
     py::list values;  // grows: what is announced need not come
     for (std::uint64_t i = 0; !ends(count, i); ++i) values.append(item(depth + 1));
-    return std::move(values);
+    return values;
   }
 
   py::object map(std::optional<std::uint64_t> count, int depth) {
@@ -154,7 +154,7 @@ class CborReader {
       if (PyList_Check(key.ptr()) || PyDict_Check(key.ptr())) refuse("a list or a table is the key of a table");
       values[key] = item(depth + 1);
     }
-    return std::move(values);
+    return values;
   }
 
   py::object simple(unsigned detail) {

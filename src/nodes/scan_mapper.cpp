@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 namespace bubblesim {
 
@@ -29,6 +30,16 @@ constexpr float kPassed = 0.78F;         // and of the cells that it passes: fre
 constexpr double kStartSize = 1.0;       // m; the grid grows with the scans
 
 mrpt::Clock::time_point time_of(const ros::Time& stamp) { return mrpt::Clock::fromDouble(stamp.toSec()); }
+
+/// What later versions of MRPT return as a reference is a pointer in MRPT 2.5.
+template <typename T>
+const auto& pointed_to(const T& object) {
+  if constexpr (std::is_pointer_v<T>) {
+    return *object;
+  } else {
+    return object;
+  }
+}
 
 void configure(mrpt::slam::CMetricMapBuilderICP& builder, const ScanMapperOptions& options) {
   builder.setVerbosityLevel(mrpt::system::LVL_ERROR);
@@ -145,7 +156,7 @@ PlanarPose ScanMapper::add(const sensor_msgs::LaserScan& scan, const LidarMount&
 }
 
 nav_msgs::OccupancyGrid ScanMapper::map() const {
-  const auto grid = builder_->icp.getCurrentlyBuiltMetricMap()->mapByClass<COccupancyGridMap2D>();
+  const auto grid = pointed_to(builder_->icp.getCurrentlyBuiltMetricMap()).mapByClass<COccupancyGridMap2D>();
   const auto unknown = COccupancyGridMap2D::p2l(0.5F);
   Span columns;
   Span rows;

@@ -116,6 +116,7 @@ TEST(Registry, AnswersManyThreadsAlike) {
   EXPECT_EQ(std::count(keys.begin(), keys.end(), keys[0]), 8);
 }
 
+/// Results are kept by address: g++ 14 takes a reference for one to the temporary arguments (-Wdangling-reference).
 MessageType small_type(const std::string& name, const std::string& md5) {
   Field field;
   field.name = "linear";
@@ -125,9 +126,9 @@ MessageType small_type(const std::string& name, const std::string& md5) {
 }
 
 TEST(AddedTypes, AreFoundAndHaveFieldKeys) {
-  const MessageType& added = add_message(small_type("added_msgs/Small", "1"));
-  EXPECT_EQ(find_message("added_msgs/msg/Small"), &added);
-  EXPECT_EQ(added.fields[0].key, field_key("linear"));
+  const MessageType* added = &add_message(small_type("added_msgs/Small", "1"));
+  EXPECT_EQ(find_message("added_msgs/msg/Small"), added);
+  EXPECT_EQ(added->fields[0].key, field_key("linear"));
 }
 
 TEST(AddedTypes, AreNotAmongTheListedNames) {
@@ -137,8 +138,8 @@ TEST(AddedTypes, AreNotAmongTheListedNames) {
 }
 
 TEST(AddedTypes, AreAddedOnce) {
-  const MessageType& first = add_message(small_type("added_msgs/Once", "1"));
-  EXPECT_EQ(&add_message(small_type("added_msgs/Once", "1")), &first);
+  const MessageType* first = &add_message(small_type("added_msgs/Once", "1"));
+  EXPECT_EQ(&add_message(small_type("added_msgs/Once", "1")), first);
 }
 
 TEST(AddedTypes, CannotReplaceADifferentType) {
@@ -148,14 +149,14 @@ TEST(AddedTypes, CannotReplaceADifferentType) {
 }
 
 TEST(AddedTypes, MayBeServices) {
-  const ServiceType& added = add_service("added_msgs/Serve", "3", small_type("added_msgs/ServeRequest", "1"),
-                                         small_type("added_msgs/ServeResponse", "2"));
-  EXPECT_EQ(find_service("added_msgs/srv/Serve"), &added);
-  EXPECT_EQ(find_message("added_msgs/ServeResponse"), added.response);
+  const ServiceType* added = &add_service("added_msgs/Serve", "3", small_type("added_msgs/ServeRequest", "1"),
+                                          small_type("added_msgs/ServeResponse", "2"));
+  EXPECT_EQ(find_service("added_msgs/srv/Serve"), added);
+  EXPECT_EQ(find_message("added_msgs/ServeResponse"), added->response);
 }
 
 TEST(AddedTypes, StayWhereTheyAreWhileThreadsAddMore) {
-  const MessageType& first = add_message(small_type("added_msgs/First", "1"));
+  const MessageType* first = &add_message(small_type("added_msgs/First", "1"));
   std::vector<std::thread> threads;
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([thread] {
@@ -166,8 +167,8 @@ TEST(AddedTypes, StayWhereTheyAreWhileThreadsAddMore) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(find_message("added_msgs/First"), &first);
-  EXPECT_EQ(first.fields[0].message, find_message("geometry_msgs/Vector3"));
+  EXPECT_EQ(find_message("added_msgs/First"), first);
+  EXPECT_EQ(first->fields[0].message, find_message("geometry_msgs/Vector3"));
 }
 
 TEST(DefaultSize, CountsLengthsAndFixedArrays) {
