@@ -46,7 +46,7 @@ class DelayedRows:
         :raises ValueError: if a drawn delay is negative or longer than 10,000 calls.
         """
         worlds = np.arange(len(self.delays)) if mask is None else np.flatnonzero(mask)
-        for world in worlds:
+        for world in map(int, worlds):
             drawn = round(self._delay.draw(int(seeds[world]), self._name)[0])
             if not 0 <= drawn <= _LONGEST:
                 raise ValueError(f"the delay of the {self._name} is {drawn} calls, it must be from 0 to {_LONGEST}")

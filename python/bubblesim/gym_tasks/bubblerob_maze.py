@@ -41,7 +41,7 @@ class BubbleRobMaze(Task):
     def __init__(self, worlds: int) -> None:
         """Make the rules."""
         super().__init__(worlds)
-        self._left = np.zeros(worlds)  # m to the exit
+        self._left: Array = np.zeros(worlds)  # m to the exit
 
     def place(self, world: int, simulation: bubblesim.Simulation, random: np.random.Generator) -> None:
         """Draw a start in the first passage."""

@@ -42,7 +42,7 @@ class LineFollow(Task):
     def __init__(self, worlds: int) -> None:
         """Make the rules."""
         super().__init__(worlds)
-        self._nearest = np.zeros(worlds, dtype=int)  # point of the line
+        self._nearest: Array = np.zeros(worlds, dtype=int)  # point of the line
 
     def place(self, world: int, simulation: bubblesim.Simulation, random: np.random.Generator) -> None:
         """Draw a place on the line, up to 5 cm and 0.3 rad off, in its direction."""

@@ -43,7 +43,7 @@ class PioneerGoal(Task):
         """Make the rules."""
         super().__init__(worlds)
         self.goals = np.zeros((worlds, 2))
-        self._distances = np.zeros(worlds)
+        self._distances: Array = np.zeros(worlds)
 
     def place(self, world: int, simulation: bubblesim.Simulation, random: np.random.Generator) -> None:
         """Draw start, goal (at least 4 m away) and obstacles."""

@@ -40,7 +40,7 @@ class TricycleAvoid(Task):
     def __init__(self, worlds: int) -> None:
         """Make the rules."""
         super().__init__(worlds)
-        self._standing = np.zeros(worlds, dtype=int)  # steps
+        self._standing: Array = np.zeros(worlds, dtype=int)  # steps
 
     def place(self, world: int, simulation: bubblesim.Simulation, random: np.random.Generator) -> None:
         """Draw one of some starts, and the heading."""

@@ -54,7 +54,7 @@ class TaskVectorEnv(VectorEnv[Any, Any, Array]):
         }
         self._most_steps = max_episode_steps
         self._elapsed = np.zeros(num_envs, dtype=int)
-        self._ended = np.zeros(num_envs, dtype=bool)
+        self._ended: Array = np.zeros(num_envs, dtype=bool)
         self._random: list[np.random.Generator] = []
 
     def reset(

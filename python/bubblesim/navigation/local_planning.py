@@ -141,7 +141,7 @@ def speed_on(arc: Arc, driver: Driver, remaining: float) -> float:
 
 def can_turn(distances: DistanceField, body: Body, angle: float) -> bool:
     """Return whether the body can turn on the spot by an angle, rad."""
-    headings = np.linspace(0.0, angle, max(int(abs(angle) / 0.1), 1) + 1)[1:]
+    headings = np.linspace(0.0, angle, max(int(abs(angle) / 0.1), 1) + 1, dtype=np.float64)[1:]
     zeros = np.zeros_like(headings)
     here = float(clearance(distances, body, np.zeros(1), np.zeros(1), np.zeros(1))[0])
     return bool((clearance(distances, body, zeros, zeros, headings) > min(MARGIN / 2, here - 0.005)).all())

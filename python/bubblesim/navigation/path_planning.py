@@ -4,6 +4,7 @@
 import heapq
 import math
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
@@ -67,7 +68,8 @@ def _free_start(may_pass: npt.NDArray[np.bool_], grid: GridMap, first: Cell, rad
 
 
 def _search(may_pass: npt.NDArray[np.bool_], cost: npt.NDArray[np.float64], first: Cell, last: Cell) -> list[Cell]:
-    passable_rows, costs = np.pad(may_pass, 1).tolist(), np.pad(cost, 1).tolist()  # lists: faster element access
+    passable_rows = cast("list[list[bool]]", np.pad(may_pass, 1).tolist())  # lists: faster element access
+    costs = cast("list[list[float]]", np.pad(cost, 1).tolist())
     start, goal = (first[0] + 1, first[1] + 1), (last[0] + 1, last[1] + 1)  # in the padded map
     best = {start: 0.0}
     came_from: dict[Cell, Cell] = {}

@@ -23,9 +23,21 @@ from matplotlib.patches import Polygon
 
 Points = npt.NDArray[np.float64]
 
-_OBSTACLE = {"facecolor": "#c9ccd1", "edgecolor": "#6b7078", "linewidth": 0.8, "zorder": 1}
-_ROBOT_AT_START = {"facecolor": "none", "edgecolor": "#333333", "linewidth": 0.9, "linestyle": (0, (3, 2)), "zorder": 4}
-_ROBOT_AT_END = {"facecolor": "#e4572e", "edgecolor": "#7a2410", "linewidth": 0.8, "alpha": 0.85, "zorder": 4}
+_OBSTACLE: dict[str, Any] = {"facecolor": "#c9ccd1", "edgecolor": "#6b7078", "linewidth": 0.8, "zorder": 1}
+_ROBOT_AT_START: dict[str, Any] = {
+    "facecolor": "none",
+    "edgecolor": "#333333",
+    "linewidth": 0.9,
+    "linestyle": (0, (3, 2)),
+    "zorder": 4,
+}
+_ROBOT_AT_END: dict[str, Any] = {
+    "facecolor": "#e4572e",
+    "edgecolor": "#7a2410",
+    "linewidth": 0.8,
+    "alpha": 0.85,
+    "zorder": 4,
+}
 
 
 def draw(scene: str, recording: Recording, file: Path) -> None:
@@ -103,7 +115,7 @@ def convex_hull(points: Points) -> Points:
             chain.append(point)
         return chain[:-1]
 
-    ordered = sorted({tuple(point) for point in points.tolist()})
+    ordered = sorted({tuple(map(float, point)) for point in points})
     return np.array(half(ordered) + half(reversed(ordered)))
 
 
@@ -121,7 +133,8 @@ def moved(points: Points, start: Pose, end: Pose) -> Points:
 def _draw_path(figure: Any, axes: Any, recording: Recording) -> None:
     points = np.array([[sample.pose.x, sample.pose.y] for sample in recording.samples])
     times = np.array([sample.sim_time for sample in recording.samples])
-    path = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap="viridis", linewidth=2.2, zorder=3)
+    pieces = list(np.stack([points[:-1], points[1:]], axis=1))
+    path = LineCollection(pieces, cmap="viridis", linewidth=2.2, zorder=3)
     path.set_array(times[:-1])
     axes.add_collection(path)
     figure.colorbar(path, ax=axes, label="simulated time [s]", shrink=0.85)

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+import numpy.typing as npt
 
 KINDS = ("points", "lines", "linestrip", "triangles", "triangle", "quad", "disc", "cube", "sphere")
 """Of the items. The size of points and lines is in pixels, that of others in metres."""
@@ -81,7 +82,7 @@ class Drawing:
         """Return the number of items added so far."""
         return self._dropped + len(self._revisions)
 
-    def items(self, start: int = 0) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
+    def items(self, start: int = 0) -> npt.NDArray[np.float32]:
         """Return the kept items from number ``start`` on, one in a row."""
         begin = max(start, self.first) - self._dropped
         rows = np.array(self._rows, dtype=np.float32).reshape(-1, self.style.values)

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bubblesim._core import NoMaster
 from bubblesim.geometry.poses import IDENTITY
@@ -29,7 +30,7 @@ _ADD, _DELETE = 0, 2
 _DISC_CORNERS = 16
 
 Message = dict[str, Any]
-Array = np.ndarray[Any, np.dtype[np.float64]]
+Array = npt.NDArray[np.float64]
 
 
 def _frame_of(bridge: Any) -> str:
@@ -93,7 +94,7 @@ def markers_of(drawing: Drawing, pose: Sequence[float], header: Message) -> list
 
     :param pose: of the frame of its items, in the frame of the header.
     """
-    rows = drawing.items().astype(float)
+    rows: Array = drawing.items().astype(float)
     if not len(rows):
         return []
     style = drawing.style
@@ -191,7 +192,7 @@ def _colours(drawing: Drawing, rows: Array) -> Array:
         plain = rows[:, begin : begin + style.colours].reshape(-1, 3)
     else:
         plain = np.tile(np.maximum(style.colour, style.emission), (len(rows), 1))
-    opacity = np.full(len(plain), style.opacity)
+    opacity: Array = np.full(len(plain), style.opacity)
     if style.has_transparencies:
         opacity = opacity * (1.0 - rows[:, -1])
     return np.column_stack([plain, opacity])

@@ -121,7 +121,7 @@ class VisionFunctions(CollectionFunctions):
         channels = 4 if options & _FOUR_CHANNELS else 3
         if len(image) != width * height * channels:
             raise ValueError(f"{width} x {height} pixels need {width * height * channels} bytes, found {len(image)}")
-        pixels = np.frombuffer(image, np.uint8).reshape(height, width, channels)
+        pixels: Array = np.frombuffer(image, np.uint8).reshape(height, width, channels)
         if options & _FLIP_X:
             pixels = pixels[:, ::-1]
         if options & _FLIP_Y:
