@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 import zmq
@@ -30,9 +31,8 @@ def listen(context: zmq.Context[zmq.Socket[bytes]], address: str, port: int) -> 
     except zmq.ZMQError as error:
         socket.close(0)
         context.term()
-        raise RuntimeError(
-            f"cannot listen on {address}:{port}: {error.strerror}; another port: --remote=PORT"
-        ) from None
+        reason = os.strerror(error.errno or 0)  # error.strerror also has the address in pyzmq 26
+        raise RuntimeError(f"cannot listen on {address}:{port}: {reason}; another port: --remote=PORT") from None
     where = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
     write_line(sys.stderr, f"info: remote clients can connect to {where}")
     if not is_loopback(address):
