@@ -36,7 +36,7 @@ def writer_of(file: Path) -> Callable[[Sequence[Row], Path], None]:
             import pyarrow.parquet  # noqa: F401
         except ImportError as error:
             raise SweepError(
-                f"{file}: Parquet needs pyarrow (for numpy 1); to install it: pip install 'pyarrow<22'; or choose .csv"
+                f"{file}: Parquet needs pyarrow; to install it: pip install 'pyarrow<22'; or choose .csv"
             ) from error
         return write_parquet
     raise SweepError(f"{file}: the results are .csv or .parquet")
