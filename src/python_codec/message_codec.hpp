@@ -10,9 +10,11 @@
 
 namespace bubblesim::bindings {
 
-/// Call it once, before everything else here. Throws pybind11::error_already_set if NumPy cannot be imported.
+/// Call it once, before everything else here. Throws pybind11::import_error if NumPy cannot be imported.
 inline void init_message_codec() {
-  if (!prepare_codec()) throw pybind11::error_already_set();
+  if (prepare_codec()) return;
+  const pybind11::error_already_set error;
+  throw pybind11::import_error(pybind11::str(error.value()));  // the module's import fails with the same words
 }
 
 /// Appends the bytes of a message to `out`. `message` is a dict of field name -> value; missing fields get their

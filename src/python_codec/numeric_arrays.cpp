@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -187,7 +188,21 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
 
 }  // namespace
 
-bool load_numpy() { return _import_array() >= 0; }
+bool load_numpy() {
+  // NumPy would refuse, too, but with a page of advice on stderr.
+  constexpr int kBuilt = NPY_ABI_VERSION >> 24;  // major version
+  const Ref numpy = Ref::steal(PyImport_ImportModule("numpy"));
+  if (!numpy) return false;
+  const Ref version = Ref::steal(PyObject_GetAttrString(numpy.get(), "__version__"));
+  const char* found = version ? PyUnicode_AsUTF8(version.get()) : nullptr;
+  if (found == nullptr) return false;
+  if (std::atoi(found) > kBuilt) {
+    PyErr_Format(PyExc_ImportError, "bubblesim was built for numpy %d.x, this Python has %s: pip install \"numpy<%d\"",
+                 kBuilt, found, kBuilt + 1);
+    return false;
+  }
+  return _import_array() >= 0;
+}
 
 bool begin_array(const Field& field, std::size_t count, WireBuffer& out, ConversionFailure& failure) {
   if (field.array == ArrayKind::kFixed) {

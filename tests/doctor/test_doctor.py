@@ -7,6 +7,7 @@ import socket
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from cli_support import bubblesim
@@ -137,18 +138,24 @@ def test_message_types_that_differ_are_a_problem(terminal: dict[str, str], tmp_p
     assert finding(run, "different definitions of trajectory_msgs/JointTrajectory")[0] == "problem"
 
 
-def test_a_numpy_that_debians_modules_cannot_use_is_a_problem(terminal: dict[str, str], tmp_path: Path) -> None:
-    code = """\
+@pytest.mark.parametrize("about", ["build", "messages"])
+def test_a_numpy_that_bubblesim_is_not_built_for_is_a_problem(
+    terminal: dict[str, str], tmp_path: Path, about: str
+) -> None:
+    built = int(np.__version__.partition(".")[0])  # the tests use the system's
+    code = f"""\
 import sys
-sys.path.remove(FOLDER)
+sys.path.remove({str(tmp_path)!r})
 del sys.modules["numpy"]
 import numpy
-numpy.__version__ = "2.1.0"
+numpy.__version__ = "{built + 1}.4.6"
 """
-    changes = module(tmp_path, "numpy", code.replace("FOLDER", repr(str(tmp_path))))
-    run = bubblesim("doctor", "build", env=terminal, **changes)
+    run = bubblesim("doctor", about, env=terminal, **module(tmp_path, "numpy", code))
     assert run.returncode == 1
-    assert "'numpy<2'" in finding(run, "numpy 2.1.0 in")[1]
+    words = f"bubblesim was built for numpy {built}.x, this Python has {built + 1}.4.6 in"
+    level, cure = finding(run, words)
+    assert (level, cure.endswith(f'-m pip install "numpy<{built + 1}"')) == ("problem", True)
+    assert run.stderr == ""
 
 
 def test_a_port_that_a_scene_serves_and_another_has_is_a_warning(terminal: dict[str, str]) -> None:

@@ -22,19 +22,26 @@ _IN_LUA = "function sysCall_init() end"
 
 
 def check_python() -> Iterator[Finding]:
-    """Check that Python and numpy are those that ROS is built for."""
+    """Check that Python and numpy are those that ROS and bubblesim are built for."""
     version = ".".join(map(str, sys.version_info[:3]))
     if sys.base_prefix != "/usr":
         yield problem(f"Python {version} ({sys.executable}) is not Debian's", "PATH=/usr/bin:$PATH bubblesim doctor")
     else:
         yield ok(f"Python {version}, {sys.executable}")
-    if int(np.__version__.partition(".")[0]) >= 2:
-        yield problem(
-            f"numpy {np.__version__} in {Path(np.__file__).parent} is incompatible with Debian's cv_bridge (numpy 1)",
-            f"{sys.executable} -m pip install 'numpy<2'",
-        )
-    else:
-        yield ok(f"numpy {np.__version__}")
+    yield core_fault() or ok(f"numpy {np.__version__}")
+
+
+def core_fault() -> Finding | None:
+    """Return the problem if the compiled module cannot be loaded, as with a numpy that it was not built for."""
+    try:
+        import bubblesim._core  # noqa: F401
+    except ImportError as error:
+        fault, _, cure = str(error).partition(": pip install ")
+        if cure:
+            where = Path(np.__file__).parent
+            return problem(f"{fault} in {where}", f"{sys.executable} -m pip install {cure}")
+        return problem(f"the compiled part of bubblesim cannot be loaded: {fault}", _SOURCE)
+    return None
 
 
 def check_package() -> Iterator[Finding]:

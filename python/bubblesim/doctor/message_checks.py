@@ -9,12 +9,17 @@ from collections.abc import Iterator
 import genpy
 import roslib.message
 
-from bubblesim import _core
+from bubblesim.doctor.build_checks import core_fault
 from bubblesim.doctor.finding import Finding, ok, problem, warning
 
 
 def check_messages() -> Iterator[Finding]:
     """Check each listed type as a Python class."""
+    if fault := core_fault():
+        yield fault
+        return
+    from bubblesim import _core
+
     names: list[str] = _core.messages.message_names()
     missing: dict[str, list[str]] = defaultdict(list)
     others = []
