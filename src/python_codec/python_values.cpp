@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "python_values.hpp"
 
-#include <cstring>
+#include <string_view>
 
 namespace bubblesim::bindings {
 namespace {
 
-/// The only NumPy number that will not be an index in the future.
-bool is_numpy_bool(PyObject* value) { return std::strcmp(Py_TYPE(value)->tp_name, "numpy.bool_") == 0; }
+/// The only NumPy number that will not be an index in the future; NumPy 1 and 2 name it differently.
+bool is_numpy_bool(PyObject* value) {
+  const std::string_view type = Py_TYPE(value)->tp_name;
+  return type == "numpy.bool_" || type == "numpy.bool";
+}
 
 /// Whether it is a float or a NumPy float, of which only float64 is a float.
 bool is_float(PyObject* value) {

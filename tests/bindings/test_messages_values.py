@@ -87,6 +87,7 @@ def test_bools_take_0_and_1(value: Any, result: bool) -> None:
 
 @pytest.mark.parametrize("value", [True, np.bool_(True)])
 @pytest.mark.parametrize("name", ["Int32", "UInt64", "Float32"])
+@pytest.mark.filterwarnings("error")  # numpy 2 warns of its bools as indices
 def test_numbers_take_bools(name: str, value: Any) -> None:
     assert back(f"std_msgs/{name}", value) == 1
 
