@@ -43,6 +43,12 @@ def test_includes_stay_within_the_layers(folder: str) -> None:
     assert not strays
 
 
+def test_one_file_knows_which_version_embree_has() -> None:
+    sources = [path for folder in ("src", "tests", "benchmarks") for path in (REPOSITORY / folder).rglob("*.?pp")]
+    versions = re.compile(r"include <embree\d|RTC_VERSION|RTCIntersectContext|RTCRayQueryContext")
+    assert [path.name for path in sources if versions.search(path.read_text())] == ["embree.hpp"]
+
+
 @pytest.mark.parametrize("folder", ["controllers", "navigation"])
 def test_logic_knows_no_ros(folder: str) -> None:
     sources = sorted((REPOSITORY / "python" / "bubblesim" / folder).glob("*.py"))
