@@ -25,7 +25,7 @@ class TriangleTree {
 
   std::array<Vector3, 3> corners(std::uint32_t triangle) const;
   /// The triangle across the edge from corner i to the next, or kNone at a border and at an edge of more than two.
-  std::uint32_t across_edge(std::uint32_t triangle, std::size_t i) const { return neighbours_[3 * triangle + i]; }
+  std::uint32_t across_edge(std::uint32_t triangle, std::size_t i) const { return neighbours_[3UL * triangle + i]; }
 
  private:
   struct Node {
