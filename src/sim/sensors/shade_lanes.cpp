@@ -183,8 +183,8 @@ BUBBLESIM_SIMD void to_bytes(const Colors& colors, std::size_t count, std::uint8
   for (std::size_t part = 0; part < 3; ++part) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       const float value = parts[part][i] > 0 ? parts[part][i] : 0;
-      const double limited = value < 1 ? value : 1;
-      levels[part][i] = static_cast<std::int32_t>(255 * limited + 0.5);
+      const float limited = value < 1 ? value : 1;  // not yet double: g++ 14 would not vectorize the last part
+      levels[part][i] = static_cast<std::int32_t>(255 * static_cast<double>(limited) + 0.5);
     }
   }
   alignas(64) std::int32_t pixels[kLanes];  // red in the lowest byte
