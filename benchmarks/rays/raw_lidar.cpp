@@ -101,7 +101,7 @@ const std::vector<float>& RawLidar::scan(const Pose& sensor, const std::vector<P
 
   rays::EmbreeQuery query;
   query.coherent = true;
-  const ignition::math::Matrix3d turn(sensor.Rot());
+  const Matrix3 turn = sensor.orientation.toRotationMatrix();
   float r[9];
   for (std::size_t i = 0; i < 9; ++i) r[i] = static_cast<float>(turn(i / 3, i % 3));
   const auto x = static_cast<float>(sensor.position.x());

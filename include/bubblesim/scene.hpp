@@ -272,6 +272,26 @@ struct JointDescription {
   Source source;
 };
 
+struct TransmissionJoint {
+  std::string name;
+  std::vector<std::string> hardware_interfaces;  ///< such as hardware_interface/EffortJointInterface
+};
+
+struct TransmissionActuator {
+  std::string name;
+  double mechanical_reduction = 1;  ///< motor angle = reduction * joint angle
+  std::vector<std::string> hardware_interfaces;
+};
+
+/// A <transmission> of URDF: which interfaces ros_control gives to a joint. It has no effect on the physics.
+struct TransmissionDescription {
+  std::string name;
+  std::string type;  ///< such as transmission_interface/SimpleTransmission
+  std::vector<TransmissionJoint> joints;
+  std::vector<TransmissionActuator> actuators;
+  Source source;
+};
+
 /// A nested model. Its links and joints are in the lists of the outermost model, named `inner::link`.
 struct NestedModelDescription {
   std::string name;  ///< relative to the outermost model: `inner`, `inner::deeper`; outer models come before inner ones
@@ -302,6 +322,7 @@ struct ModelDescription {
   std::vector<NestedModelDescription> nested;
   std::filesystem::path child_script;  ///< empty: none
   std::vector<PluginDescription> plugins;
+  std::vector<TransmissionDescription> transmissions;
   Source source;
 };
 

@@ -21,6 +21,7 @@ void bind_object_frames(pybind11::module_& core);
 void bind_runner(pybind11::module_& core);
 void bind_frame_memory(pybind11::module_& core);
 void bind_editing(pybind11::module_& core);
+void bind_scene_elements(pybind11::module_& core);
 void bind_scene_view(pybind11::module_& core);
 void bind_devices(pybind11::module_& core);
 void bind_forces(pybind11::module_& core);

@@ -20,6 +20,7 @@ PYBIND11_MODULE(_core, core) {
   bind_randomization(core);
   bind_batch(core);
   bind_runner(core);
+  bind_scene_elements(core);
   bind_scene_view(core);
   bind_editing(core);
   bind_cbor(core);

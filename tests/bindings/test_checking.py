@@ -47,7 +47,7 @@ def test_a_problem_ends_with_two_after_all_files_were_looked_at(
     file = written(tmp_path, BAD)
     assert main([file, "bal", "ball"]) == 2
     lines = capsys.readouterr().out.splitlines()
-    assert any(line.startswith(f"{file}:7:") for line in lines)
+    assert any(line.startswith(f"{file}:4:") for line in lines)
     assert any("did you mean ball" in line for line in lines)
     assert lines[-1] == "ball: fine"
 

@@ -227,7 +227,7 @@ def test_extensions_of_urdf_are_repaired(load: Load) -> None:
     )
     assert warnings == [
         "warning: 2: /r/base: <mu1> is below 0: using infinite friction",
-        "warning: 3: /r/s: <update_rate> is 'often', which cannot be read: using the default 0",
+        "warning: 3: /r/base/s: <update_rate> is 'often', which cannot be read: using the default 0",
     ]
 
 

@@ -103,9 +103,9 @@ def test_the_script_of_a_model_comes_and_goes_with_it(simulator: Simulator) -> N
 
 BAD_REQUESTS: list[tuple[dict[str, Any], str]] = [
     ({"sdf": ""}, "is empty"),
-    ({"sdf": "no XML"}, "is not well-formed XML"),
+    ({"sdf": "no XML"}, "contains no XML element"),
     ({"sdf": BALL.replace("</link>", "")}, "<data-string>:3: is not well-formed XML"),
-    ({"sdf": "<robot name='r'/>"}, "No link elements found in urdf file"),
+    ({"sdf": "<robot name='r'/>"}, "contains no <link> except the world"),
     ({"sdf": BALL.replace("<mass>1", "<mass>0")}, "/Ball/link: the mass is 0 kg"),
     ({"sdf": BALL.replace("<mass>1", "<mass>1e300")}, "/Ball/link: the mass is 1e+300 kg"),
     ({"sdf": BALL.replace("<ixx>0.1", "<ixx>1e300")}, "inertia"),

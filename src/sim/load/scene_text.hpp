@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts files that SDFormat does not accept.
+// The text of a scene file.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "bubblesim/scene_loader.hpp"
@@ -15,9 +14,7 @@ struct SceneText {
   std::string name;  ///< its name in errors
 };
 
-/// The text to read in place of a file: a .xacro file expanded by xacro; a file that is not in UTF-8; a file with a
-/// comment before its XML declaration. Empty for all others.
-/// Throws SceneError.
-std::optional<SceneText> scene_text(const std::filesystem::path& file, const XacroArguments& arguments);
+/// The content of a file; that of a .xacro file is expanded by xacro. Throws SceneError.
+SceneText scene_text(const std::filesystem::path& file, const XacroArguments& arguments);
 
 }  // namespace bubblesim

@@ -7,8 +7,7 @@
 
 #include "check/checks.hpp"
 #include "check/needed_substep.hpp"
-#include "load/sdf/sdf_source.hpp"
-#include "load/sdf_extensions.hpp"
+#include "load/sdf/own_elements.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {
@@ -19,37 +18,37 @@ constexpr double kMaxSubsteps = 1000;
 
 }  // namespace
 
-std::optional<double> read_substeps(const sdf::Physics& physics, LoadContext& reading) {
-  if (own_text(physics.Element(), kSubsteps) == "auto") return std::nullopt;
-  const double number = own_number(physics.Element(), kSubsteps, reading.problems()).value_or(1);
+std::optional<double> read_substeps(const SdfElement& physics, LoadContext& context) {
+  if (own_text(physics, kSubsteps) == "auto") return std::nullopt;
+  const double number = own_number(physics, kSubsteps, "", context).value_or(1);
   if (number >= 1 && number <= kMaxSubsteps && number == std::floor(number)) return number;
-  reading.report(source_of(physics.Element(), kSubsteps), "",
+  context.report(physics.source(kSubsteps), "",
                  "<" + std::string(kSubsteps) + "> must be auto or a whole number from 1 to 1000");
   return 1;
 }
 
-void divide_substep(SceneDescription& scene, const std::optional<double>& substeps, LoadContext& reading) {
+void divide_substep(SceneDescription& scene, const std::optional<double>& substeps, LoadContext& context) {
   const double whole = scene.substep;
   const double most = std::min(kMaxSubsteps, std::floor(whole / kMinPhysicsStep + 1e-6));
   if (substeps) {
     scene.substep /= *substeps;
     if (*substeps > most) {
-      reading.report(scene.source, "",
+      context.report(scene.source, "",
                      "<" + std::string(kSubsteps) + "> makes the physics substep " + text(scene.substep) +
                          " s, it must be from 1e-5 to 1 s");
     }
   }
   for (const ModelDescription& model : scene.models) {
-    const std::optional<NeededSubstep> needed = needed_substep(model, scene.gravity.Length());
+    const std::optional<NeededSubstep> needed = needed_substep(model, scene.gravity.norm());
     if (!needed || needed->step >= scene.substep) continue;
     if (!substeps) {
       scene.substep = whole / std::min(std::ceil(whole / needed->step), most);
       continue;
     }
-    reading.warn(model.source, "/" + model.name + "/" + needed->link,
+    context.warn(model.source, "/" + model.name + "/" + needed->link,
                  "carries " + text(needed->load) +
-                     " kg between its joints: its chain may break with physics substeps " + "above " +
-                     text(needed->step) + " s; set <" + kSubsteps + "> to auto in <physics>");
+                     " kg between its joints: its chain may break with physics substeps above " + text(needed->step) +
+                     " s; set <" + kSubsteps + "> to auto in <physics>");
   }
 }
 

@@ -4,7 +4,6 @@
 #include "bubblesim/world.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 

@@ -41,7 +41,7 @@ struct RayScene::MovingLink {
   const RayModel::Link* link;
   ObjectId model;
   Pose pose;
-  LinkFrame frame;  // of the same pose
+  Transform frame;  // of the same pose
   bool placed = false;
   GeometryHandle instance;
 };
@@ -117,9 +117,10 @@ void RayScene::refresh(const World& world) {
     const Pose pose = world.pose(link->link->id);
     if (link->placed && pose == link->pose) continue;
     link->pose = pose;
-    link->frame = {pose.orientation.toRotationMatrix(), pose.position};
+    link->frame = Transform(pose);
     link->placed = true;
-    const std::array<float, 12> matrix = to_matrix(link->frame);
+    Eigen::Matrix<float, 3, 4> matrix;
+    matrix << link->frame.rotation.cast<float>(), link->frame.position.cast<float>();
     rtcSetGeometryTransform(link->instance.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
     rtcCommitGeometry(link->instance.get());
     movers_changed_ = true;
@@ -169,7 +170,7 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
   if (moving == 0) return any != 0;
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (packet.mask.use[i] == 0 || hit.instID[0][i] >= kPlaneInstance) continue;
-    const Vector3 normal = links_[hit.instID[0][i]]->frame.turn * Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]);
+    const Vector3 normal = links_[hit.instID[0][i]]->frame.rotation * Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]);
     if (normal.dot(Vector3(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i])) <= 0) continue;
     inside.use[i] = any = kUsed;
   }
@@ -214,10 +215,10 @@ Vector3 RayScene::normal(const RayPacket& packet, std::size_t i) const {
   if (hit.instID[0][i] == kPlaneInstance) return planes_[hit.geomID[i]].equation.normal;
   const Vector3 normal = Vector3(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).normalized();
   if (hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID) return normal;
-  return links_[hit.instID[0][i]]->frame.turn * normal;
+  return links_[hit.instID[0][i]]->frame.rotation * normal;
 }
 
-const LinkFrame* RayScene::link_frame(const RayPacket& packet, std::size_t i) const {
+const Transform* RayScene::link_frame(const RayPacket& packet, std::size_t i) const {
   const unsigned instance = packet.data.hit.instID[0][i];
   return instance < kPlaneInstance ? &links_[instance]->frame : nullptr;
 }

@@ -11,10 +11,10 @@
 #include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
-#include "rays/link_frame.hpp"
 #include "rays/prepared_rays.hpp"
 #include "rays/ray_packet.hpp"
 #include "rays/ray_shape.hpp"
+#include "scene/transform.hpp"
 
 namespace bubblesim {
 
@@ -56,7 +56,7 @@ class RayScene {
   /// The surface normal at the hit; unit length, world axes.
   Vector3 normal(const rays::RayPacket& packet, std::size_t i) const;
   /// The frame of the moving link that ray `i` hit; null if the hit is on a static shape.
-  const rays::LinkFrame* link_frame(const rays::RayPacket& packet, std::size_t i) const;
+  const Transform* link_frame(const rays::RayPacket& packet, std::size_t i) const;
   /// The normal of the infinite plane that ray `i` hit; null if the hit is on another shape.
   const Vector3* plane_normal(const rays::RayPacket& packet, std::size_t i) const;
 

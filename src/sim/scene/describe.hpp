@@ -2,17 +2,20 @@
 // Formats numbers for error messages.
 #pragma once
 
-#include <sstream>
+#include <array>
+#include <charconv>
 #include <string>
 
 #include "bubblesim/math.hpp"
 
 namespace bubblesim {
 
+/// Six digits, as a stream writes it.
 inline std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
+  std::array<char, 32> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6).ptr;
+  return {buffer.data(), end};
 }
 
 inline std::string text(const Vector3& v) { return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")"; }

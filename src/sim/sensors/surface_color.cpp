@@ -57,8 +57,8 @@ struct Painter {
       lanes::set_normals(*normal, group.members, surfaces.normals);
       return;
     }
-    const rays::LinkFrame* link = scene.link_frame(packet, group.ray);
-    if (link != nullptr) lanes::turn_normals(rows_of(link->turn), group.members, surfaces.normals);
+    const Transform* link = scene.link_frame(packet, group.ray);
+    if (link != nullptr) lanes::turn_normals(rows_of(link->rotation), group.members, surfaces.normals);
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     if (mesh == nullptr || mesh->triangles->normals.empty()) return;
     lanes::CornerNormals corners{};
@@ -74,7 +74,7 @@ struct Painter {
       corners.second[i] = packet.data.hit.u[i];
       corners.third[i] = packet.data.hit.v[i];
     }
-    const Matrix3 turn = link != nullptr ? link->turn * shape.turn : shape.turn;
+    const Matrix3 turn = link != nullptr ? link->rotation * shape.turn : shape.turn;
     lanes::smooth_normals(corners, rows_of(turn), group.members, surfaces.normals);
   }
 
@@ -92,8 +92,8 @@ struct Painter {
 
   lanes::Places in_shape() const {
     lanes::Places places = surfaces.places;
-    if (const rays::LinkFrame* link = scene.link_frame(packet, group.ray)) {
-      lanes::into_frame(rows_of(link->turn), link->position, places);
+    if (const Transform* link = scene.link_frame(packet, group.ray)) {
+      lanes::into_frame(rows_of(link->rotation), link->position, places);
     }
     lanes::into_frame(rows_of(shape.turn), shape.pose.position, places);
     return places;

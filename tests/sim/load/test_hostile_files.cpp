@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
-#include <sdf/sdf.hh>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
@@ -90,11 +89,10 @@ TEST_F(HostileFiles, ADeviceAsAHeightmapIsAnError) {
   EXPECT_TRUE(holds(reported, "/m/l/c: /dev/zero is not a regular file")) << reported;
 }
 
-TEST_F(HostileFiles, AModelConfigWithoutANameIsAnError) {
+TEST_F(HostileFiles, AModelConfigMayBeAlmostEmpty) {
   write_model("nameless", "<link name='l'/>");
   write("nameless/model.config", "<model><description/></model>");
-  const std::string reported = complaint(in_world(included("nameless")));
-  EXPECT_TRUE(holds(reported, "nameless/model.config:1: has no <name>")) << reported;
+  EXPECT_EQ(complaint(in_world(included("nameless"))), "it loads") << "its model.sdf is used";
 }
 
 TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
@@ -106,29 +104,6 @@ TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
   EXPECT_LT(named.size() + posed.size(), 1000U);
 }
 
-/// Old files refer to links of nested models from the outer model as inner::link: this joint of `a` has a link of `b`.
-const char* const kAsserted =
-    "<sdf version='1.6'><world name='w'><model name='m'><link name='a::l'/><link name='b::l'/>"
-    "<joint name='a::j' type='revolute'><parent>b::l</parent><child>a::l</child><axis><xyz>0 0 1</xyz></axis></joint>"
-    "</model></world></sdf>";
-
-TEST_F(HostileFiles, WhatSdformatAssertsIsAnErrorOfTheFile) {
-  const std::string reported = complaint(kAsserted);
-  EXPECT_TRUE(holds(reported, "scene.sdf: SDFormat cannot read it: Joint's <parent> value does not start with"))
-      << reported;
-  const std::string added = complaint_of([&] { load_model(kAsserted, folder_); });
-  EXPECT_TRUE(holds(added, "SDFormat cannot read it: Joint's <parent> value does not start with")) << added;
-}
-
-TEST_F(HostileFiles, WhatSdformatAssertsOfAnIncludedFileNamesThatFile) {
-  write_model("fine", "<link name='l'/>");
-  write_model("odd", "");
-  write("odd/model.sdf", kAsserted);
-  const std::string reported = complaint(in_world(included("fine") + included("odd")));
-  EXPECT_TRUE(holds(reported, "odd/model.sdf: SDFormat cannot read it: Joint's")) << reported;
-}
-
-// SDFormat takes a megabyte for each of these models.
 TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
   if (std::getenv("UBSAN_OPTIONS") != nullptr) GTEST_SKIP() << "sanitizers take memory of their own";
   std::string models;
@@ -143,21 +118,18 @@ TEST_F(HostileFiles, ThousandsOfModelsTakeMemoryForWhatTheyHold) {
   EXPECT_LT(used.ru_maxrss, 500'000) << "kB";
 }
 
-TEST_F(HostileFiles, MoreLinksThanCanBePlacedAreAnError) {
+TEST_F(HostileFiles, TenThousandsOfLinksAreRead) {
   std::string links;
   for (int i = 0; i < 20'000; ++i) links += "<link name='l" + std::to_string(i) + "'/>";
-  const std::string reported = complaint(in_world("<model name='m'>" + links + "</model>"));
-  EXPECT_TRUE(holds(reported, "scene.sdf:1: has 20000 links, joints and frames, too many")) << reported;
+  EXPECT_EQ(read_scene(write("many.sdf", in_world("<model name='m'>" + links + "</model>"))).models.at(0).links.size(),
+            20'000U);
 }
 
-TEST_F(HostileFiles, AChainOfThousandsOfFramesIsAnError) {
-  std::string links = "<link name='l0'/>";
-  for (int i = 1; i < 3000; ++i) {
-    links += "<link name='l" + std::to_string(i) + "'><pose relative_to='l" + std::to_string(i - 1) +
-             "'>0 0 1 0 0 0</pose></link>";
-  }
-  const std::string reported = complaint(in_world("<model name='m'>" + links + "</model>"));
-  EXPECT_TRUE(holds(reported, "has 3000 links, joints and frames, too many")) << reported;
+TEST_F(HostileFiles, ElementsNestedWithoutEndAreAnError) {
+  std::string models;
+  for (int i = 0; i < 100'000; ++i) models += "<model name='m'>";
+  const std::string reported = complaint("<sdf version='1.9'>" + models);
+  EXPECT_TRUE(holds(reported, "scene.sdf:1: ")) << reported.substr(0, 200);
 }
 
 TEST_F(HostileFiles, XacroThatDoesNotEndIsEnded) {
@@ -165,16 +137,6 @@ TEST_F(HostileFiles, XacroThatDoesNotEndIsEnded) {
   const std::string reported = complaint("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
   ::unsetenv("BUBBLESIM_XACRO_SECONDS");
   EXPECT_TRUE(holds(reported, "endless.xacro: xacro did not end within 1.00 s and was killed")) << reported;
-}
-
-TEST(SharedDescriptions, AreThoseOfTheElementThatIsCloned) {
-  const sdf::SDFPtr root(new sdf::SDF);
-  sdf::init(root);
-  const sdf::ElementPtr world = root->Root()->GetElementDescription("world");
-  const sdf::ElementPtr clone = world->Clone();
-  EXPECT_NE(clone, world);
-  EXPECT_EQ(clone->GetElementDescription("model"), world->GetElementDescription("model"));
-  EXPECT_NE(clone->GetAttribute("name"), world->GetAttribute("name"));
 }
 
 }  // namespace

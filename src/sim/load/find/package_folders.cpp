@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/find/package_folders.hpp"
 
-#include <tinyxml2.h>
-
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <utility>
 
+#include "load/file_text.hpp"
 #include "load/find/scene_folders.hpp"
+#include "load/xml/xml_parser.hpp"
 
 namespace bubblesim {
 namespace {
@@ -18,14 +19,24 @@ namespace fs = std::filesystem;
 constexpr int kMaxDepth = 6;  // of packages below a folder of ROS_PACKAGE_PATH
 constexpr const char* kManifest = "package.xml";
 
-bool is_package(const fs::path& folder, const std::string& name) {
-  tinyxml2::XMLDocument manifest;
+/// The <package> of a manifest; empty when there is none that can be read.
+std::optional<XmlElement> read_manifest(const fs::path& folder) {
+  const fs::path file = folder / kManifest;
   std::error_code unreadable;
-  if (!fs::is_regular_file(folder / kManifest, unreadable)) return false;  // reading a FIFO would block
-  if (manifest.LoadFile((folder / kManifest).c_str()) != tinyxml2::XML_SUCCESS) return false;
-  const auto* package = manifest.FirstChildElement("package");
-  const auto* element = package != nullptr ? package->FirstChildElement("name") : nullptr;
-  return element != nullptr && element->GetText() != nullptr && element->GetText() == name;
+  if (!fs::is_regular_file(file, unreadable)) return std::nullopt;  // reading a FIFO would block
+  std::vector<Problem> unused;
+  try {
+    XmlElement root = parse_xml(read_text(file), file.string(), unused);
+    if (root.name == "package") return root;
+  } catch (const SceneError&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool is_package(const fs::path& folder, const std::string& name) {
+  const std::optional<XmlElement> package = read_manifest(folder);
+  return package && package->child_text("name") == name;
 }
 
 /// Packages do not contain packages, and CATKIN_IGNORE excludes a folder.
@@ -52,15 +63,14 @@ void add_folders(const fs::path& package, std::string path, std::vector<fs::path
   }
 }
 
-void add_exports(const fs::path& package, std::vector<fs::path>& folders) {
-  tinyxml2::XMLDocument manifest;
-  if (manifest.LoadFile((package / kManifest).c_str()) != tinyxml2::XML_SUCCESS) return;
-  const auto* root = manifest.FirstChildElement("package");
-  const auto* exports = root != nullptr ? root->FirstChildElement("export") : nullptr;
-  const auto* element = exports != nullptr ? exports->FirstChildElement("gazebo_ros") : nullptr;
-  for (; element != nullptr; element = element->NextSiblingElement("gazebo_ros")) {
+void add_exports(const fs::path& folder, std::vector<fs::path>& folders) {
+  const std::optional<XmlElement> package = read_manifest(folder);
+  const XmlElement* exports = package ? package->child("export") : nullptr;
+  if (exports == nullptr) return;
+  for (const XmlElement& element : exports->children) {
+    if (element.name != "gazebo_ros") continue;
     for (const char* name : {"gazebo_model_path", "gazebo_media_path"}) {
-      if (const char* path = element->Attribute(name)) add_folders(package, path, folders);
+      if (const std::string* path = element.attribute(name)) add_folders(folder, *path, folders);
     }
   }
 }

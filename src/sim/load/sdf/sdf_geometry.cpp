@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/sdf_geometry.hpp"
 
-#include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
-#include <sdf/Cylinder.hh>
-#include <sdf/Element.hh>
-#include <sdf/Ellipsoid.hh>
-#include <sdf/Heightmap.hh>
-#include <sdf/Mesh.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Sphere.hh>
+#include <cmath>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "load/find/model_folders.hpp"
+#include "meshes/finish_mesh.hpp"
 #include "meshes/made_meshes.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_file.hpp"
@@ -24,86 +19,107 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class GeometryReader {
- public:
-  GeometryReader(sdf::ElementPtr element, LoadContext& reading) : element_(std::move(element)), reading_(reading) {}
-
-  Geometry mesh(const sdf::Mesh& mesh) const {
-    return from_file(mesh.Uri(), [&](const fs::path& file) {
-      return load_mesh({file, mesh.Scale(), mesh.Submesh(), mesh.CenterSubmesh()}, reading_.meshes());
-    });
+/// The shape that `load` makes of the file that a shape refers to.
+template <class Load>
+Mesh from_file(const SdfElement& shape, const LoadContext& context, const Load& load) {
+  const std::string uri = shape.text("uri");
+  const fs::path file = find_resource(uri, shape.source().file, context.folder());
+  if (file.empty()) {
+    throw MissingFile("file not found: '" + uri + "'; model:// refers to a folder in BUBBLESIM_MODEL_PATH or " +
+                      "GAZEBO_MODEL_PATH, package:// to a ROS package, other paths are relative to the file that " +
+                      "contains them");
   }
-
-  Geometry heightmap(const sdf::Heightmap& map) const {
-    return from_file(
-        map.Uri(), [&](const fs::path& file) { return raise_ground(read_heights(file), map.Size(), map.Position()); });
+  try {
+    if (!fs::is_regular_file(file)) throw MeshError("is not a regular file");
+    return Mesh{load(file)};
+  } catch (const MeshError& error) {
+    throw MeshError(file.string() + " " + error.what());
   }
+}
 
-  Geometry polylines() const {
-    std::vector<Extrusion> parts;
-    for (auto line = element_->GetElement("polyline"); line != nullptr; line = line->GetNextElement("polyline")) {
-      Extrusion& part = parts.emplace_back();
-      part.height = line->Get<double>("height", 1).first;
-      if (!line->HasElement("point")) continue;
-      for (auto point = line->GetElement("point"); point != nullptr; point = point->GetNextElement("point")) {
-        part.outline.push_back(point->Get<ignition::math::Vector2d>());
-      }
-    }
-    try {
-      return Mesh{extrude(std::move(parts))};
-    } catch (const MeshError& error) {
-      throw MeshError("the polyline " + std::string(error.what()));
-    }
+Mesh read_mesh(const SdfElement& mesh, LoadContext& context) {
+  const SdfElement part = mesh.child("submesh");
+  return from_file(mesh, context, [&](const fs::path& file) {
+    return load_mesh({file, mesh.vector("scale"), part.text("name"), part.flag("center")}, context.meshes());
+  });
+}
+
+Mesh read_heightmap(const SdfElement& map, const LoadContext& context) {
+  return from_file(map, context, [&](const fs::path& file) {
+    return raise_ground(read_heights(file), map.vector("size"), map.vector("pos"));
+  });
+}
+
+Mesh read_walls(const SdfElement& image, const LoadContext& context) {
+  return from_file(image, context, [&](const fs::path& file) {
+    return raise_walls(read_heights(file), image.number("scale"), image.number("threshold"), image.number("height"));
+  });
+}
+
+/// Several polylines are one shape: an outline inside another is a hole.
+Mesh read_polylines(const SdfElement& geometry) {
+  std::vector<Extrusion> parts;
+  for (const SdfElement& line : geometry.children("polyline")) {
+    Extrusion& part = parts.emplace_back();
+    part.height = line.number("height");
+    for (const SdfElement& point : line.children("point")) part.outline.push_back(point.as_vector2());
   }
-
-  Geometry walls() const {
-    const sdf::ElementPtr image = element_->GetElement("image");
-    return from_file(image->Get<std::string>("uri", "").first, [&](const fs::path& file) {
-      return raise_walls(read_heights(file), image->Get<double>("scale", 1).first,
-                         image->Get<double>("threshold", 200).first, image->Get<double>("height", 1).first);
-    });
+  try {
+    return Mesh{extrude(std::move(parts))};
+  } catch (const MeshError& error) {
+    throw MeshError("the polyline " + std::string(error.what()));
   }
+}
 
- private:
-  template <class Load>
-  Geometry from_file(const std::string& uri, const Load& load) const {
-    const fs::path file = find_resource(uri, element_->FilePath(), reading_.folder());
-    if (file.empty()) {
-      throw MissingFile(
-          "file not found: '" + uri + "'; model:// refers to a folder in BUBBLESIM_MODEL_PATH or " +
-          "GAZEBO_MODEL_PATH, package:// to a ROS package, other paths are relative to the file that contains them");
-    }
-    try {
-      if (!fs::is_regular_file(file)) throw MeshError("is not a regular file");
-      return Mesh{load(file)};
-    } catch (const MeshError& error) {
-      throw MeshError(file.string() + " " + error.what());
-    }
+/// About the z axis, from the base at -length / 2 to the apex at length / 2.
+Mesh read_cone(const SdfElement& cone) {
+  constexpr std::uint32_t kSides = 24;
+  const double radius = cone.number("radius");
+  const double length = cone.number("length");
+  if (!(radius > 0 && length > 0)) throw MeshError("the cone must have a radius and a length above 0");
+  const auto half = static_cast<float>(length / 2);
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const double angle = 2 * M_PI * i / kSides;
+    mesh.vertices.push_back(
+        {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)), -half});
   }
-
-  sdf::ElementPtr element_;
-  LoadContext& reading_;
-};
+  mesh.vertices.push_back({0, 0, -half});
+  mesh.vertices.push_back({0, 0, half});
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const std::uint32_t next = (i + 1) % kSides;
+    mesh.triangles.push_back({kSides, next, i});
+    mesh.triangles.push_back({kSides + 1, i, next});
+  }
+  try {
+    return Mesh{finish_mesh(std::move(mesh))};
+  } catch (const MeshError& error) {
+    throw MeshError("the cone " + std::string(error.what()));
+  }
+}
 
 }  // namespace
 
-std::optional<Geometry> read_geometry(const sdf::Geometry& geometry, LoadContext& reading) {
-  if (const auto* box = geometry.BoxShape()) return Box{box->Size()};
-  if (const auto* sphere = geometry.SphereShape()) return Sphere{sphere->Radius()};
-  if (const auto* cylinder = geometry.CylinderShape()) return Cylinder{cylinder->Radius(), cylinder->Length()};
-  if (const auto* capsule = geometry.CapsuleShape()) return Capsule{capsule->Radius(), capsule->Length()};
-  if (const auto* ellipsoid = geometry.EllipsoidShape()) return Ellipsoid{ellipsoid->Radii()};
-  if (const auto* plane = geometry.PlaneShape()) return Plane{plane->Normal()};
-  const GeometryReader reader(geometry.Element(), reading);
-  if (const auto* mesh = geometry.MeshShape()) return reader.mesh(*mesh);
-  if (const auto* map = geometry.HeightmapShape()) return reader.heightmap(*map);
-  if (geometry.Element() != nullptr && geometry.Element()->HasElement("polyline")) return reader.polylines();
-  if (geometry.Element() != nullptr && geometry.Element()->HasElement("image")) return reader.walls();
-  if (geometry.Element() != nullptr && geometry.Element()->HasElement("empty")) return std::nullopt;
+std::optional<Geometry> read_geometry(const SdfElement& geometry, LoadContext& context) {
+  if (const SdfElement box = geometry.child("box")) return Box{box.vector("size")};
+  if (const SdfElement sphere = geometry.child("sphere")) return Sphere{sphere.number("radius")};
+  if (const SdfElement cylinder = geometry.child("cylinder")) {
+    return Cylinder{cylinder.number("radius"), cylinder.number("length")};
+  }
+  if (const SdfElement capsule = geometry.child("capsule")) {
+    return Capsule{capsule.number("radius"), capsule.number("length")};
+  }
+  if (const SdfElement ellipsoid = geometry.child("ellipsoid")) return Ellipsoid{ellipsoid.vector("radii")};
+  if (const SdfElement plane = geometry.child("plane")) return Plane{plane.vector("normal").normalized()};
+  if (const SdfElement mesh = geometry.child("mesh")) return read_mesh(mesh, context);
+  if (const SdfElement map = geometry.child("heightmap")) return read_heightmap(map, context);
+  if (geometry.has("polyline")) return read_polylines(geometry);
+  if (const SdfElement image = geometry.child("image")) return read_walls(image, context);
+  if (const SdfElement cone = geometry.child("cone")) return read_cone(cone);
+  if (geometry.has("empty")) return std::nullopt;
   throw MeshError(
-      "this geometry is not supported; supported geometries: box, sphere, cylinder, capsule, ellipsoid, plane, mesh, "
-      "polyline, "
-      "heightmap, image and empty");
+      "this geometry is not supported; supported geometries: box, sphere, cylinder, capsule, cone, ellipsoid, plane, "
+      "mesh, polyline, heightmap, image and empty");
 }
 
 }  // namespace bubblesim

@@ -2,29 +2,20 @@
 #include "load/sdf/sdf_links.hpp"
 
 #include <cmath>
-#include <map>
 #include <optional>
-#include <sdf/Collision.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Visual.hh>
-#include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "bubblesim/nearest_names.hpp"
 #include "check/checks.hpp"
 #include "check/scene_check.hpp"
 #include "load/sdf/nearest_inertia.hpp"
+#include "load/sdf/own_elements.hpp"
 #include "load/sdf/sdf_geometry.hpp"
-#include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
-#include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_sensors.hpp"
-#include "load/sdf/sdf_source.hpp"
 #include "load/sdf/sdf_surface.hpp"
 #include "load/sdf/sdf_visuals.hpp"
-#include "load/sdf_extensions.hpp"
 #include "meshes/mesh_error.hpp"
 #include "scene/describe.hpp"
 
@@ -34,72 +25,122 @@ namespace {
 constexpr double kBallRadius = 0.1;  // m
 constexpr double kThin = 1e-3;       // m, of a shape without thickness
 
-Quaternion turn_from_z(const Vector3& direction) {
-  Quaternion turn;
-  turn.From2Axes(Vector3::UnitZ, direction);
-  return turn;
-}
-
-/// SDFormat drops shapes with the name of another shape of their link; Gazebo keeps them. Numbers are appended to their
-/// names.
-template <class Shape>
-std::vector<Shape> namesakes(const sdf::ElementPtr& link, const char* kind, const std::string& link_path,
-                             LoadContext& reading) {
-  std::vector<Shape> found;
-  std::map<std::string, int> known;
-  if (!link->HasElement(kind)) return found;
-  for (auto element = link->GetElement(kind); element != nullptr; element = element->GetNextElement(kind)) {
-    const auto name = element->Get<std::string>("name");
-    const int number = ++known[name];
-    if (number == 1) continue;
-    Shape shape;
-    shape.Load(element);  // errors were reported when the file was read
-    shape.SetName(name + "_" + std::to_string(number));
-    reading.warn(source_of(element), link_path + "/" + shape.Name(),
-                 "renamed: the name '" + name + "' is used already");
-    found.push_back(std::move(shape));
-  }
-  return found;
-}
-
-MeshCollision read_mesh_collision(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading) {
+MeshCollision read_mesh_collision(const SdfElement& collision, const std::string& path, LoadContext& context) {
   const auto convex = own_text(collision, "bubblesim:convex");
   if (!convex) return MeshCollision::kAuto;
   if (*convex == "hull") return MeshCollision::kHull;
   if (*convex == "parts") return MeshCollision::kParts;
   if (*convex != "none") {
-    reading.report(source_of(collision, "bubblesim:convex"), path,
+    context.report(collision.source("bubblesim:convex"), path,
                    "<bubblesim:convex> is '" + *convex + "', it must be hull, parts or none" +
                        did_you_mean(*convex, {"hull", "parts", "none"}));
   }
   return MeshCollision::kTriangles;
 }
 
-std::optional<CollisionDescription> read_collision(const sdf::Collision& collision, const Pose& pose,
-                                                   const std::string& link_path, LoadContext& reading) {
+std::optional<CollisionDescription> read_collision(const SdfElement& collision, const Pose& pose,
+                                                   const std::string& path, LoadContext& context) {
   CollisionDescription description;
-  description.name = collision.Name();
-  description.source = source_of(collision.Element());
-  const std::string path = link_path + "/" + collision.Name();
+  description.name = collision.name();
+  description.source = collision.source();
   description.pose = pose;
   try {
-    const auto geometry = read_geometry(*collision.Geom(), reading);
+    const auto geometry = read_geometry(collision.child("geometry"), context);
     if (!geometry) return std::nullopt;
     description.geometry = *geometry;
   } catch (const MissingFile& error) {
-    reading.warn(source_of(collision.Element(), "geometry"), path,
-                 std::string(error.what()) + "; this collision is ignored");
+    context.warn(collision.source("geometry"), path, std::string(error.what()) + "; this collision is ignored");
     return std::nullopt;
   } catch (const MeshError& error) {
-    reading.report(source_of(collision.Element(), "geometry"), path, error.what());
+    context.report(collision.source("geometry"), path, error.what());
     return std::nullopt;
   }
-  description.surface = read_surface(collision.Element(), path, reading);
-  description.mesh_collision = read_mesh_collision(collision.Element(), path, reading);
+  description.surface = read_surface(collision, path, context);
+  description.mesh_collision = read_mesh_collision(collision, path, context);
   return description;
 }
 
-/// Visuals may be flat.
+/// A visual whose geometry cannot be read is replaced by the link's collision shapes, in its colour.
+void read_visual(const SdfElement& visual, const Pose& pose, const std::string& path, bool is_static,
+                 LinkDescription& link, LoadContext& context) {
+  VisualDescription description;
+  description.name = visual.name();
+  description.source = visual.source();
+  if (visual.number("transparency") >= 1) return;
+  const std::optional<Material> material = read_material(visual, path, context);
+  description.material = material.value_or(Material{});
+  description.keeps_mesh_materials = !material;
+  description.cast_shadows = visual.flag("cast_shadows");
+  description.laser_retro = visual.number("laser_retro");
+  try {
+    const auto geometry = read_geometry(visual.child("geometry"), context);
+    if (!geometry) return;
+    description.pose = pose;
+    description.geometry = *geometry;
+    thicken(description.geometry);
+    if (const SdfElement plane = visual.child("geometry").child("plane"); plane && !is_static) {
+      const Eigen::Vector2d size = plane.child("size").as_vector2();
+      description.geometry = Box{{size.x(), size.y(), kThin}};
+      description.pose.orientation = description.pose.orientation * turn_from_z(plane.vector("normal"));
+    }
+    link.visuals.push_back(std::move(description));
+    return;
+  } catch (const MeshError& error) {
+    context.warn(visual.source("geometry"), path,
+                 std::string(error.what()) + "; using the link's collision shapes instead");
+  }
+  for (const CollisionDescription& collision : link.collisions) {
+    description.pose = collision.pose;
+    description.geometry = collision.geometry;
+    link.visuals.push_back(description);
+  }
+}
+
+/// Gazebo multiplies the velocity by 1 minus this value in each of its steps, which last 1 ms by default: the rate in
+/// 1/s that does the same.
+double read_decay(const SdfElement& link, const char* which, const std::string& path, LoadContext& context) {
+  constexpr double kGazeboStep = 1e-3;  // s
+  const SdfElement decay = link.child("velocity_decay");
+  const double part = decay.number(which);
+  if (part >= 0 && part <= 1) return -std::log1p(-part) / kGazeboStep;
+  context.report(decay.source(), path,
+                 "<velocity_decay> <" + std::string(which) + "> is " + text(part) + ", it must be from 0 to 1");
+  return 0;
+}
+
+/// The inertia about the centre of mass, turned from the axes of <inertial> to those of the link.
+void read_inertial(const SdfElement& inertial, LinkDescription& link) {
+  const Pose pose = inertial.child("pose").as_pose();
+  const SdfElement values = inertial.child("inertia");
+  const double xy = values.number("ixy");
+  const double xz = values.number("ixz");
+  const double yz = values.number("iyz");
+  Matrix3 inertia;
+  inertia << values.number("ixx"), xy, xz, xy, values.number("iyy"), yz, xz, yz, values.number("izz");
+  const Matrix3 turn = pose.orientation.toRotationMatrix();
+  const Matrix3 turned = turn.isIdentity(0) ? inertia : Matrix3(turn * inertia * turn.transpose());
+  link.mass = inertial.number("mass");
+  link.centre_of_mass = pose.position;
+  link.inertia_diagonal = turned.diagonal();
+  link.inertia_products = {turned(0, 1), turned(0, 2), turned(1, 2)};
+}
+
+void read_sensors(const SdfElement& link, const Frames& frames, const std::string& path, LinkDescription& description,
+                  LoadContext& context) {
+  for (const SdfElement& sensor : link.children("sensor")) {
+    const Pose pose = frames.pose_of(sensor, link.name(), path + "/" + sensor.name(), context);
+    if (is_multicamera(sensor)) {
+      for (SensorDescription& read : read_multicamera(sensor, sensor.name(), path, pose, context)) {
+        description.sensors.push_back(std::move(read));
+      }
+    } else if (auto read = read_sensor(sensor, sensor.name(), path, pose, context)) {
+      description.sensors.push_back(std::move(*read));
+    }
+  }
+}
+
+}  // namespace
+
 void thicken(Geometry& geometry) {
   const auto thick = [](double& length) {
     if (length == 0) length = kThin;
@@ -114,49 +155,12 @@ void thicken(Geometry& geometry) {
   }
 }
 
-/// A visual whose geometry cannot be read is replaced by the link's collision shapes, in its colour.
-void read_visual(const sdf::Visual& visual, const Pose& pose, const std::string& link_path, bool is_static,
-                 LinkDescription& link, LoadContext& reading) {
-  VisualDescription description;
-  description.name = visual.Name();
-  description.source = source_of(visual.Element());
-  if (visual.Transparency() >= 1) return;
-  const std::optional<Material> material = read_material(visual, reading);
-  description.material = material.value_or(Material{});
-  description.keeps_mesh_materials = !material;
-  description.cast_shadows = visual.CastShadows();
-  description.laser_retro = visual.LaserRetro();
-  const std::string path = link_path + "/" + visual.Name();
-  try {
-    const auto geometry = read_geometry(*visual.Geom(), reading);
-    if (!geometry) return;
-    description.pose = pose;
-    description.geometry = *geometry;
-    thicken(description.geometry);
-    if (const auto* plane = visual.Geom()->PlaneShape(); plane != nullptr && !is_static) {
-      description.geometry = Box{{plane->Size().X(), plane->Size().Y(), kThin}};
-      description.pose.Rot() = description.pose.Rot() * turn_from_z(plane->Normal());
-    }
-    link.visuals.push_back(std::move(description));
-    return;
-  } catch (const MeshError& error) {
-    reading.warn(source_of(visual.Element(), "geometry"), path,
-                 std::string(error.what()) + "; using the link's collision shapes instead");
-  }
-  for (const CollisionDescription& collision : link.collisions) {
-    description.pose = collision.pose;
-    description.geometry = collision.geometry;
-    link.visuals.push_back(description);
-  }
-}
-
-/// Many robots have a zero inertia, with which a body cannot be rotated, or an impossible one.
-void repair_inertia(LinkDescription& link, const std::string& path, LoadContext& reading) {
+// Many robots have a zero inertia, with which a body cannot be rotated, or an impossible one.
+void repair_inertia(LinkDescription& link, const std::string& path, LoadContext& context) {
   const Inertia given{link.inertia_diagonal, link.inertia_products};
   if (!within(given.diagonal, 1e9) || !within(given.products, 1e9)) return;  // the check reports it
   if (is_positive_definite(given.diagonal, given.products)) return;
-  // Not by ==, which has a tolerance.
-  const bool is_zero = given.diagonal.Length() == 0 && given.products.Length() == 0;
+  const bool is_zero = given.diagonal.isZero(0) && given.products.isZero(0);
   const std::optional<Inertia> nearest = nearest_positive_definite(given);
   const std::string is = is_zero ? "the inertia is 0"
                                  : "the inertia is ixx iyy izz " + text(given.diagonal) + ", ixy ixz iyz " +
@@ -164,81 +168,44 @@ void repair_inertia(LinkDescription& link, const std::string& path, LoadContext&
   if (nearest) {
     link.inertia_diagonal = nearest->diagonal;
     link.inertia_products = nearest->products;
-    reading.warn(link.source, path,
+    context.warn(link.source, path,
                  is + ": using the nearest that is, ixx iyy izz " + text(nearest->diagonal) + ", ixy ixz iyz " +
                      text(nearest->products));
     return;
   }
-  link.inertia_diagonal = Vector3::One * (0.4 * link.mass * kBallRadius * kBallRadius);
-  link.inertia_products = Vector3::Zero;
-  reading.warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
+  link.inertia_diagonal = Vector3::Ones() * (0.4 * link.mass * kBallRadius * kBallRadius);
+  link.inertia_products = Vector3::Zero();
+  context.warn(link.source, path, is + ": using that of a ball with a radius of 0.1 m");
 }
 
-/// Gazebo multiplies the velocity by 1 minus this value in each of its steps, which last 1 ms by default: the rate in
-/// 1/s that does the same.
-double read_decay(const sdf::ElementPtr& link, const char* which, const std::string& path, LoadContext& reading) {
-  constexpr double kGazeboStep = 1e-3;  // s
-  if (!link->HasElement("velocity_decay")) return 0;
-  const sdf::ElementPtr decay = link->GetElement("velocity_decay");
-  const double part = decay->Get<double>(which, 0.0).first;
-  if (part >= 0 && part <= 1) return -std::log1p(-part) / kGazeboStep;
-  reading.report(source_of(decay), path,
-                 "<velocity_decay> <" + std::string(which) + "> is " + text(part) + ", it must be from 0 to 1");
-  return 0;
-}
-
-}  // namespace
-
-LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading) {
-  const std::string path = model_path + "/" + link.Name();
+LinkDescription read_link(const SdfElement& link, const Frames& frames, const std::string& model_path, bool is_static,
+                          LoadContext& context) {
+  const std::string path = model_path + "/" + link.name();
   LinkDescription description;
-  description.name = link.Name();
-  description.alias = read_alias(link.Element(), path, reading);
-  description.pose = reading.resolved(link, path);
-  description.source = source_of(link.Element());
-  report_left_out(link.Element(), path, reading);
-  description.gravity_enabled = link.Element()->Get<bool>("gravity", true).first;
-  description.wind_enabled = link.EnableWind();
-  description.linear_decay = read_decay(link.Element(), "linear", path, reading);
-  description.angular_decay = read_decay(link.Element(), "angular", path, reading);
-  const auto& inertial = link.Inertial();
-  const ignition::math::Matrix3d inertia = inertial.Moi();
-  description.mass = inertial.MassMatrix().Mass();
-  description.centre_of_mass = inertial.Pose().Pos();
-  description.inertia_diagonal = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
-  description.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
-  if (!is_static && description.mass > 0) repair_inertia(description, path, reading);
-  for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
-    const sdf::Collision& collision = *link.CollisionByIndex(i);
-    const Pose pose = reading.resolved(collision, path + "/" + collision.Name());
-    if (auto read = read_collision(collision, pose, path, reading)) description.collisions.push_back(std::move(*read));
-  }
-  for (const auto& collision : namesakes<sdf::Collision>(link.Element(), "collision", path, reading)) {
-    auto read = read_collision(collision, collision.RawPose(), path, reading);
+  description.name = link.name();
+  description.alias = read_alias(link, path, context);
+  description.pose = frames.pose(link.name());
+  description.source = link.source();
+  description.gravity_enabled = link.flag("gravity");
+  description.wind_enabled = link.flag("enable_wind");
+  description.linear_decay = read_decay(link, "linear", path, context);
+  description.angular_decay = read_decay(link, "angular", path, context);
+  read_inertial(link.child("inertial"), description);
+  if (!is_static && description.mass > 0) repair_inertia(description, path, context);
+  const auto placed = [&](const SdfElement& part) {
+    return frames.pose_of(part, link.name(), path + "/" + part.name(), context);
+  };
+  for (const SdfElement& collision : link.children("collision")) {
+    auto read = read_collision(collision, placed(collision), path + "/" + collision.name(), context);
     if (read) description.collisions.push_back(std::move(*read));
   }
-  for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
-    const sdf::Visual& visual = *link.VisualByIndex(i);
-    read_visual(visual, reading.resolved(visual, path + "/" + visual.Name()), path, is_static, description, reading);
+  for (const SdfElement& visual : link.children("visual")) {
+    read_visual(visual, placed(visual), path + "/" + visual.name(), is_static, description, context);
   }
-  for (const auto& visual : namesakes<sdf::Visual>(link.Element(), "visual", path, reading)) {
-    read_visual(visual, visual.RawPose(), path, is_static, description, reading);
+  for (const SdfElement& light : link.children("light")) {
+    description.lights.push_back(read_light(light, placed(light), path + "/" + light.name(), context));
   }
-  for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
-    const sdf::Light& light = *link.LightByIndex(i);
-    description.lights.push_back(read_light(light, reading.resolved(light, path + "/" + light.Name())));
-  }
-  for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
-    const sdf::Sensor& sensor = *link.SensorByIndex(i);
-    const Pose pose = reading.resolved(sensor, path + "/" + sensor.Name());
-    if (sensor.Type() == sdf::SensorType::MULTICAMERA) {
-      for (SensorDescription& read : read_multicamera(sensor, path, pose, reading)) {
-        description.sensors.push_back(std::move(read));
-      }
-    } else if (auto read = read_sensor(sensor, path, pose, reading)) {
-      description.sensors.push_back(std::move(*read));
-    }
-  }
+  read_sensors(link, frames, path, description, context);
   return description;
 }
 

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDFormat's <link>, with the shapes and sensors in it.
+// SDFormat's <link>.
 #pragma once
 
-#include <sdf/Link.hh>
 #include <string>
 
 #include "bubblesim/scene.hpp"
 #include "load/load_context.hpp"
+#include "load/sdf/frames.hpp"
+#include "load/sdf/sdf_element.hpp"
 
 namespace bubblesim {
 
-/// `model_path` is the path of the model's object; `is_static` is that of the model.
-LinkDescription read_link(const sdf::Link& link, const std::string& model_path, bool is_static, LoadContext& reading);
+/// `model_path` is the path of the model's object, `frames` are those of the model.
+LinkDescription read_link(const SdfElement& link, const Frames& frames, const std::string& model_path, bool is_static,
+                          LoadContext& context);
+
+/// Replaces an inertia that a body cannot have, with a warning.
+void repair_inertia(LinkDescription& link, const std::string& path, LoadContext& context);
+
+/// Gives flat shapes of a visual a thickness.
+void thicken(Geometry& geometry);
 
 }  // namespace bubblesim

@@ -1,91 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/sdf_models.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
 
+#include "load/sdf/own_elements.hpp"
 #include "load/sdf/sdf_joints.hpp"
-#include "load/sdf/sdf_left_out.hpp"
 #include "load/sdf/sdf_links.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
-#include "load/sdf/sdf_source.hpp"
-#include "load/sdf_extensions.hpp"
 
 namespace bubblesim {
 namespace {
 
 constexpr const char* kChildScript = "bubblesim:child_script";
 
-/// The child script of a model, relative to the model's file; an <include> may replace it.
-std::filesystem::path read_child_script(const sdf::ElementPtr& model, const std::string& path, LoadContext& reading) {
-  const sdf::ElementPtr include = model->GetIncludeElement();
-  if (include != nullptr) check_own_elements(include, reading.problems());
-  const bool given_by_include = include != nullptr && own_text(include, kChildScript);
-  const sdf::ElementPtr& giver = given_by_include ? include : model;
-  const auto name = own_text(giver, kChildScript);
+/// The child script of a model, beside the file that names it.
+std::filesystem::path read_child_script(const SdfElement& model, const std::string& path, LoadContext& context) {
+  const auto name = own_text(model, kChildScript);
   if (!name) return {};
-  const bool of_included_file = include != nullptr && !given_by_include;
-  std::filesystem::path file =
-      (of_included_file ? std::filesystem::path(model->FilePath()).parent_path() : reading.folder()) / *name;
-  const Source source = given_by_include ? reading.xml().place_of(kChildScript, *name) : source_of(model, kChildScript);
+  const Source source = model.source(kChildScript);
+  std::filesystem::path file = context.folder_of(source) / *name;
   if (name->empty()) {
-    reading.report(source, path, "<" + std::string(kChildScript) + "> is empty: expected a file name");
+    context.report(source, path, "<" + std::string(kChildScript) + "> is empty: expected a file name");
   } else if (!std::filesystem::is_regular_file(file)) {
-    reading.report(source, path, "the child script " + file.string() + " does not exist");
+    context.report(source, path, "the child script " + file.string() + " does not exist");
   }
   return file;
+}
+
+bool is_robot(const SdfElement& model) { return model.xml().name == "include"; }
+
+const ModelDescription& robot_of(const SdfElement& include, LoadContext& context) {
+  return context.included_robots().at(include.text("uri"));
 }
 
 /// Reads the contents of one model. `inner` is the name of a nested model, from the outermost model on and followed by
 /// "::", and its pose relative to that one.
 class ModelReader {
  public:
-  ModelReader(ModelDescription& description, LoadContext& reading) : description_(description), reading_(reading) {}
+  ModelReader(ModelDescription& description, LoadContext& context) : description_(description), context_(context) {}
 
-  void read(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& path) {
-    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      const sdf::Link& read = *model.LinkByIndex(i);
-      LinkDescription link = read_link(read, path, description_.is_static, reading_);
-      if (!read.Element()->HasElement("enable_wind")) link.wind_enabled = model.EnableWind();
-      link.name = inner + link.name;
-      link.pose = pose * link.pose;
-      if (model.Static() && !description_.is_static) hold(link);
-      description_.links.push_back(std::move(link));
+  void read(const SdfElement& model, const Frames& frames, const std::string& inner, const Pose& pose,
+            const std::string& path) {
+    const bool is_static = model.flag("static");
+    for (const SdfElement& element : model.children("link")) {
+      LinkDescription link = read_link(element, frames, path, description_.is_static, context_);
+      if (!element.has("enable_wind")) link.wind_enabled = model.flag("enable_wind");
+      add_link(std::move(link), inner, pose, is_static);
     }
-    for (std::uint64_t i = 0; i < model.JointCount(); ++i) read_joint_in(*model.JointByIndex(i), inner, pose, path);
-    for (std::uint64_t i = 0; i < model.ModelCount(); ++i) read_inner(*model.ModelByIndex(i), inner, pose, path);
+    for (const SdfElement& element : model.children("joint")) {
+      if (auto joint = read_joint(element, frames, path, context_)) add_joint(std::move(*joint), inner, pose);
+    }
+    for (const XmlElement& child : model.xml().children) {
+      if (child.name != "model" && child.name != "include") continue;
+      read_inner({&child, *model.kind().child(child.name)}, frames, inner, pose, path);
+    }
+  }
+
+  /// The links and joints of a model that was read before.
+  void add(const ModelDescription& model, const std::string& inner, const Pose& pose, bool is_static) {
+    for (const LinkDescription& link : model.links) add_link(link, inner, pose, is_static);
+    for (const JointDescription& joint : model.joints) add_joint(joint, inner, pose);
   }
 
  private:
-  void read_inner(const sdf::Model& model, const std::string& inner, const Pose& pose, const std::string& outer_path) {
-    const std::string path = outer_path + "/" + model.Name();
-    report_left_out(model.Element(), path, reading_);
-    NestedModelDescription nested;
-    nested.name = inner + model.Name();
-    nested.alias = read_alias(model.Element(), path, reading_);
-    nested.pose = pose * reading_.resolved(model, path);
-    nested.source = source_of(model.Element());
-    nested.child_script = read_child_script(model.Element(), path, reading_);
-    nested.plugins = read_plugins(model.Element());
-    const std::string prefix = nested.name + "::";
-    const Pose placed = nested.pose;
-    const std::size_t first = description_.links.size();
-    const std::size_t index = description_.nested.size();
-    description_.nested.push_back(std::move(nested));
-    read(model, prefix, placed, path);
-    if (description_.links.size() == first) {
-      reading_.report(source_of(model.Element()), path, "has no link; add a <link>");
-      return;
-    }
-    const std::string& named = model.CanonicalLinkName();
-    description_.nested[index].canonical_link = named.empty() ? description_.links[first].name : prefix + named;
+  void add_link(LinkDescription link, const std::string& inner, const Pose& pose, bool is_static) {
+    link.name = inner + link.name;
+    link.pose = pose * link.pose;
+    if (is_static && !description_.is_static) hold(link);
+    description_.links.push_back(std::move(link));
   }
 
-  void read_joint_in(const sdf::Joint& read, const std::string& inner, const Pose& pose, const std::string& path) {
-    JointDescription joint = read_joint(read, path, reading_);
-    if (joint.parent.empty() || joint.child.empty()) return;  // reported already
+  void add_joint(JointDescription joint, const std::string& inner, const Pose& pose) {
     const auto prefix = [&inner](std::string& name) {
       if (!name.empty() && name != "world") name = inner + name;
     };
@@ -98,6 +87,40 @@ class ModelReader {
       if (axis.mimic) prefix(axis.mimic->joint);
     }
     description_.joints.push_back(std::move(joint));
+  }
+
+  void read_inner(const SdfElement& model, const Frames& frames, const std::string& inner, const Pose& pose,
+                  const std::string& outer_path) {
+    const std::string path = outer_path + "/" + model.name();
+    NestedModelDescription nested;
+    nested.name = inner + model.name();
+    nested.alias = read_alias(model, path, context_);
+    nested.pose = pose * frames.pose(model.name());
+    nested.source = model.source();
+    nested.child_script = read_child_script(model, path, context_);
+    nested.plugins = read_plugins(model);
+    const std::string prefix = nested.name + "::";
+    const Pose placed = nested.pose;
+    const std::size_t first = description_.links.size();
+    const std::size_t index = description_.nested.size();
+    description_.nested.push_back(std::move(nested));
+    std::string canonical_link;
+    if (is_robot(model)) {
+      const ModelDescription& robot = robot_of(model, context_);
+      add(robot, prefix, placed, model.flag("static"));
+      canonical_link = robot.canonical_link;
+      std::vector<PluginDescription>& plugins = description_.nested[index].plugins;
+      plugins.insert(plugins.begin(), robot.plugins.begin(), robot.plugins.end());
+    } else {
+      read(model, frames.inner(model.name()), prefix, placed, path);
+      canonical_link = model.attribute("canonical_link");
+    }
+    if (description_.links.size() == first) {
+      context_.report(model.source(), path, "has no link; add a <link>");
+      return;
+    }
+    description_.nested[index].canonical_link =
+        canonical_link.empty() ? description_.links[first].name : prefix + canonical_link;
   }
 
   /// A static model nested in a moving one is fixed to the world.
@@ -113,36 +136,62 @@ class ModelReader {
   }
 
   ModelDescription& description_;
-  LoadContext& reading_;
+  LoadContext& context_;
 };
 
+/// Files before SDFormat 1.8 have nested models as links named inner::link, with a frame inner::__model__ at most.
+void add_flattened_models(const Frames& frames, ModelDescription& model) {
+  const std::string separator = "::";
+  for (const LinkDescription& link : model.links) {
+    for (std::size_t at = link.name.find(separator); at != std::string::npos; at = link.name.find(separator, at + 2)) {
+      const std::string name = link.name.substr(0, at);
+      const bool is_known = std::any_of(model.nested.begin(), model.nested.end(),
+                                        [&name](const NestedModelDescription& nested) { return nested.name == name; });
+      if (is_known) continue;
+      NestedModelDescription nested;
+      nested.name = name;
+      const std::string frame = name + separator + "__model__";
+      if (frames.has(frame)) nested.pose = frames.pose(frame);
+      nested.canonical_link = link.name;
+      nested.source = link.source;
+      model.nested.push_back(std::move(nested));
+    }
+  }
+}
+
 /// Replaces '/' in names, because it is the separator of paths.
-std::string name_in_paths(const sdf::Model& model, LoadContext& reading) {
-  std::string name = model.Name();
+std::string name_in_paths(const SdfElement& model, LoadContext& context) {
+  std::string name = model.name();
   if (name.find('/') == std::string::npos) return name;
   std::replace(name.begin(), name.end(), '/', '_');
-  reading.warn(source_of(model.Element()), "/" + name, "renamed: '/' is the separator of paths");
+  context.warn(model.source(), "/" + name, "renamed: '/' is the separator of paths");
   return name;
 }
 
 }  // namespace
 
-ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading) {
-  const std::string name = name_in_paths(model, reading);
-  const std::string path = "/" + name;
-  report_left_out(model.Element(), path, reading);
+ModelDescription read_model(const SdfElement& model, const Frames& frames, const Pose& pose, LoadContext& context) {
   ModelDescription description;
-  description.name = name;
-  description.alias = read_alias(model.Element(), path, reading);
-  description.axes = read_axis_convention(model.Element(), path, reading);
+  if (is_robot(model)) {
+    description = robot_of(model, context);
+    if (model.has("static")) description.is_static = model.flag("static");
+  } else {
+    description.is_static = model.flag("static");
+    description.self_collide = model.flag("self_collide");
+    description.canonical_link = model.attribute("canonical_link");
+    description.source = model.source();
+  }
+  description.name = name_in_paths(model, context);
+  const std::string path = "/" + description.name;
+  description.alias = read_alias(model, path, context);
+  description.axes = read_axis_convention(model, path, context);
   description.pose = pose;
-  description.is_static = model.Static();
-  description.self_collide = model.SelfCollide();
-  description.canonical_link = model.CanonicalLinkName();
-  description.source = source_of(model.Element());
-  description.child_script = read_child_script(model.Element(), path, reading);
-  description.plugins = read_plugins(model.Element());
-  ModelReader(description, reading).read(model, "", Pose::Zero, path);
+  description.child_script = read_child_script(model, path, context);
+  for (PluginDescription& plugin : read_plugins(model)) description.plugins.push_back(std::move(plugin));
+  if (!is_robot(model)) {
+    ModelReader(description, context).read(model, frames, "", Pose(), path);
+    add_flattened_models(frames, description);
+  }
   return description;
 }
 

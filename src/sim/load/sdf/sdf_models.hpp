@@ -2,14 +2,14 @@
 // SDFormat's <model>.
 #pragma once
 
-#include <sdf/Model.hh>
-
 #include "bubblesim/scene.hpp"
 #include "load/load_context.hpp"
+#include "load/sdf/frames.hpp"
+#include "load/sdf/sdf_element.hpp"
 
 namespace bubblesim {
 
-/// `pose` is the pose of the model in the world.
-ModelDescription read_model(const sdf::Model& model, const Pose& pose, LoadContext& reading);
+/// Reads a <model>, or an <include> of URDF (documents.hpp), with the frames in it and its pose in the world.
+ModelDescription read_model(const SdfElement& model, const Frames& frames, const Pose& pose, LoadContext& context);
 
 }  // namespace bubblesim

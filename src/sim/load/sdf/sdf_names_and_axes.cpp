@@ -6,28 +6,13 @@
 #include <optional>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_source.hpp"
-#include "load/sdf_extensions.hpp"
+#include "load/sdf/own_elements.hpp"
 
 namespace bubblesim {
 namespace {
 
 constexpr const char* kAlias = "bubblesim:alias";
 constexpr const char* kAxisConvention = "bubblesim:axis_convention";
-
-/// A text in the <include> of an element or in the element itself, and its place.
-struct GivenText {
-  std::string text;
-  Source source;
-};
-
-std::optional<GivenText> text_in_include_or(const sdf::ElementPtr& element, const char* name, LoadContext& reading) {
-  if (const sdf::ElementPtr include = element->GetIncludeElement()) {
-    if (const auto text = own_text(include, name)) return GivenText{*text, reading.xml().place_of(name, *text)};
-  }
-  if (const auto text = own_text(element, name)) return GivenText{*text, source_of(element, name)};
-  return std::nullopt;
-}
 
 bool is_alias(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char sign) {
@@ -37,23 +22,22 @@ bool is_alias(const std::string& text) {
 
 }  // namespace
 
-std::string read_alias(const sdf::ElementPtr& element, const std::string& path, LoadContext& reading) {
-  const auto given = text_in_include_or(element, kAlias, reading);
-  if (!given || is_alias(given->text)) return given ? given->text : "";
-  reading.report(given->source, path,
-                 "<" + std::string(kAlias) + "> is '" + given->text + "', it must consist of letters, digits, _ and -");
+std::string read_alias(const SdfElement& element, const std::string& path, LoadContext& context) {
+  const std::optional<std::string> given = own_text(element, kAlias);
+  if (!given || is_alias(*given)) return given.value_or("");
+  context.report(element.source(kAlias), path,
+                 "<" + std::string(kAlias) + "> is '" + *given + "', it must consist of letters, digits, _ and -");
   return "";
 }
 
-AxisConvention read_axis_convention(const sdf::ElementPtr& element, const std::string& path, LoadContext& reading) {
-  const auto given = text_in_include_or(element, kAxisConvention, reading);
-  if (!given) return reading.axes();
-  if (given->text == "coppeliasim") return AxisConvention::kCoppeliaSim;
-  if (given->text != "sdformat") {
-    reading.report(given->source, path,
-                   "<" + std::string(kAxisConvention) + "> is '" + given->text +
-                       "', it must be coppeliasim or sdformat" +
-                       did_you_mean(given->text, {"coppeliasim", "sdformat"}));
+AxisConvention read_axis_convention(const SdfElement& element, const std::string& path, LoadContext& context) {
+  const std::optional<std::string> given = own_text(element, kAxisConvention);
+  if (!given) return context.axes();
+  if (*given == "coppeliasim") return AxisConvention::kCoppeliaSim;
+  if (*given != "sdformat") {
+    context.report(element.source(kAxisConvention), path,
+                   "<" + std::string(kAxisConvention) + "> is '" + *given + "', it must be coppeliasim or sdformat" +
+                       did_you_mean(*given, {"coppeliasim", "sdformat"}));
   }
   return AxisConvention::kSdformat;
 }

@@ -3,23 +3,18 @@
 
 #include <utility>
 
-#include "load/sdf/sdf_source.hpp"
-
 namespace bubblesim {
 namespace {
 
-std::vector<PluginParameter> read_parameters(const sdf::ElementPtr& element) {
+/// The elements of a plugin may have any names. The attributes of each are parameters in it, before its elements.
+std::vector<PluginParameter> read_parameters(const XmlElement& element) {
   std::vector<PluginParameter> parameters;
-  for (sdf::ElementPtr child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
-    PluginParameter parameter;
-    parameter.name = child->GetName();
-    if (child->GetValue() != nullptr) parameter.text = child->GetValue()->GetAsString();
-    for (const auto& attribute : child->GetAttributes()) {
-      parameter.children.push_back({attribute->GetKey(), attribute->GetAsString(), {}, source_of(child)});
+  for (const XmlElement& child : element.children) {
+    PluginParameter parameter{child.name, child.text, {}, child.source()};
+    for (const XmlAttribute& attribute : child.attributes) {
+      parameter.children.push_back({attribute.name, trimmed(attribute.value), {}, child.source()});
     }
-    const std::vector<PluginParameter> elements = read_parameters(child);
-    parameter.children.insert(parameter.children.end(), elements.begin(), elements.end());
-    parameter.source = source_of(child);
+    for (PluginParameter& inner : read_parameters(child)) parameter.children.push_back(std::move(inner));
     parameters.push_back(std::move(parameter));
   }
   return parameters;
@@ -27,13 +22,11 @@ std::vector<PluginParameter> read_parameters(const sdf::ElementPtr& element) {
 
 }  // namespace
 
-std::vector<PluginDescription> read_plugins(const sdf::ElementPtr& owner) {
+std::vector<PluginDescription> read_plugins(const SdfElement& owner) {
   std::vector<PluginDescription> plugins;
-  if (!owner->HasElement("plugin")) return plugins;
-  for (sdf::ElementPtr element = owner->GetElement("plugin"); element != nullptr;
-       element = element->GetNextElement("plugin")) {
-    plugins.push_back({element->Get<std::string>("name"), element->Get<std::string>("filename"),
-                       read_parameters(element), source_of(element)});
+  for (const SdfElement& plugin : owner.children("plugin")) {
+    plugins.push_back(
+        {plugin.attribute("name"), plugin.attribute("filename"), read_parameters(plugin.xml()), plugin.source()});
   }
   return plugins;
 }

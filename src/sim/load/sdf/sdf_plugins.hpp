@@ -2,14 +2,14 @@
 // SDFormat's <plugin>.
 #pragma once
 
-#include <sdf/Element.hh>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
+#include "load/sdf/sdf_element.hpp"
 
 namespace bubblesim {
 
 /// The plugins of a world, model or sensor.
-std::vector<PluginDescription> read_plugins(const sdf::ElementPtr& owner);
+std::vector<PluginDescription> read_plugins(const SdfElement& owner);
 
 }  // namespace bubblesim

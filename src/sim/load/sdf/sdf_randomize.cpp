@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_source.hpp"
-#include "load/sdf_extensions.hpp"
+#include "load/sdf/own_elements.hpp"
 
 namespace bubblesim {
 namespace {
@@ -19,10 +18,10 @@ using DrawOperation = Distribution::Operation;
 /// Reads the attributes of one element.
 class RandomizeReader {
  public:
-  RandomizeReader(sdf::ElementPtr element, LoadContext& reading) : element_(std::move(element)), reading_(reading) {}
+  RandomizeReader(const XmlElement& element, LoadContext& context) : element_(element), context_(context) {}
 
   RandomQuantity read() {
-    const Source source = source_of(element_);
+    const Source source = element_.source();
     RandomQuantity made{word("quantity"), {}, source.file, source.line};
     if (made.name.empty()) report("has no attribute quantity, such as quantity=\"/Robot.mass\"");
     const std::vector<std::pair<std::string, DrawKind>> kinds = {
@@ -45,27 +44,26 @@ class RandomizeReader {
         made.distribution.first = numbers("values", known);
         break;
     }
-    for (std::size_t i = 0; i < element_->GetAttributeCount(); ++i) {
-      const std::string name = element_->GetAttribute(static_cast<unsigned>(i))->GetKey();
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      report("has an unknown attribute " + name + did_you_mean(name, known));
+    for (const XmlAttribute& attribute : element_.attributes) {
+      if (std::find(known.begin(), known.end(), attribute.name) != known.end()) continue;
+      report("has an unknown attribute " + attribute.name + did_you_mean(attribute.name, known));
     }
     return made;
   }
 
  private:
   void report(const std::string& message) {
-    reading_.report(source_of(element_), "", "<" + element_->GetName() + "> " + message);
+    context_.report(element_.source(), "", "<" + element_.name + "> " + message);
   }
 
-  std::string word(const std::string& name) const {
-    return element_->HasAttribute(name) ? trimmed(element_->GetAttribute(name)->GetAsString()) : "";
-  }
+  bool has(const std::string& name) const { return element_.attribute(name) != nullptr; }
+
+  std::string word(const std::string& name) const { return has(name) ? trimmed(*element_.attribute(name)) : ""; }
 
   template <class Value>
   Value one_of(const std::string& name, const std::string& by_default,
                const std::vector<std::pair<std::string, Value>>& values) {
-    const std::string found = element_->HasAttribute(name) ? word(name) : by_default;
+    const std::string found = has(name) ? word(name) : by_default;
     std::vector<std::string> names;
     for (const auto& [known, value] : values) {
       if (known == found) return value;
@@ -80,21 +78,20 @@ class RandomizeReader {
     known.push_back(name);
     const std::optional<std::vector<double>> found = to_numbers(word(name));
     if (found && !found->empty()) return *found;
-    report(element_->HasAttribute(name) ? "has the " + name + " '" + word(name) + "', it must be numbers"
-                                        : "needs the attribute " + name);
+    report(has(name) ? "has the " + name + " '" + word(name) + "', it must be numbers" : "needs the attribute " + name);
     return {};
   }
 
-  sdf::ElementPtr element_;
-  LoadContext& reading_;
+  const XmlElement& element_;
+  LoadContext& context_;
 };
 
 }  // namespace
 
-std::vector<RandomQuantity> read_randomized(const sdf::ElementPtr& world, LoadContext& reading) {
+std::vector<RandomQuantity> read_randomized(const SdfElement& world, LoadContext& context) {
   std::vector<RandomQuantity> made;
-  for (auto child = world->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
-    if (child->GetName() == kRandomize) made.push_back(RandomizeReader(child, reading).read());
+  for (const SdfElement& element : world.children("bubblesim:randomize")) {
+    made.push_back(RandomizeReader(element.xml(), context).read());
   }
   return made;
 }

@@ -2,16 +2,16 @@
 // <bubblesim:randomize>: what differs at random between simulations of a scene.
 #pragma once
 
-#include <sdf/Element.hh>
 #include <vector>
 
 #include "bubblesim/random_quantity.hpp"
 #include "load/load_context.hpp"
+#include "load/sdf/sdf_element.hpp"
 
 namespace bubblesim {
 
 /// Reads the elements of a <world>. Reports unknown attributes and texts that cannot be used; quantities are looked up
 /// when a simulation is made.
-std::vector<RandomQuantity> read_randomized(const sdf::ElementPtr& world, LoadContext& reading);
+std::vector<RandomQuantity> read_randomized(const SdfElement& world, LoadContext& context);
 
 }  // namespace bubblesim

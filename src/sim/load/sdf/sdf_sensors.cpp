@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/sdf_sensors.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
-#include <sdf/Altimeter.hh>
-#include <sdf/Camera.hh>
-#include <sdf/ForceTorque.hh>
-#include <sdf/Imu.hh>
-#include <sdf/Lidar.hh>
-#include <sdf/Magnetometer.hh>
-#include <sdf/NavSat.hh>
-#include <sdf/Noise.hh>
-#include <string>
+#include <set>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "load/sdf/own_elements.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
-#include "load/sdf/sdf_source.hpp"
-#include "load/sdf_extensions.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {
@@ -32,270 +26,314 @@ const std::vector<std::string> kSimulated = {"sonar",        "ray",          "li
                                              "altimeter",    "magnetometer", "contact",
                                              "force_torque"};
 
-std::string list_of_simulated() {
+bool is_left_out(const std::string& type) {
+  static const std::set<std::string> types = {"air_pressure",
+                                              "air_speed",
+                                              "boundingbox_camera",
+                                              "custom",
+                                              "dvl",
+                                              "logical_camera",
+                                              "multicamera",
+                                              "rfid",
+                                              "rfidtag",
+                                              "thermal_camera",
+                                              "wide_angle_camera",
+                                              "wireless_receiver",
+                                              "wireless_transmitter"};
+  return types.count(type) > 0;
+}
+
+/// The type by its newest name.
+std::string type_of(const SdfElement& sensor) {
+  static const std::map<std::string, std::string> newest = {
+      {"boundingbox", "boundingbox_camera"},
+      {"depth", "depth_camera"},
+      {"gps", "navsat"},
+      {"gpu_ray", "gpu_lidar"},
+      {"ray", "lidar"},
+      {"rgbd", "rgbd_camera"},
+      {"segmentation", "segmentation_camera"},
+      {"thermal", "thermal_camera"},
+      {"wideanglecamera", "wide_angle_camera"},
+  };
+  const std::string type = sensor.attribute("type");
+  const auto found = newest.find(type);
+  return found != newest.end() ? found->second : type;
+}
+
+std::string list_of(const std::vector<std::string>& names, const std::string& last_separator) {
   std::string list;
-  for (const std::string& type : kSimulated) list += (list.empty() ? "" : ", ") + type;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 < names.size() ? ", " : last_separator;
+    list += names[i];
+  }
   return list;
 }
 
-const std::map<std::string, ProximityVolume>& volumes() {
-  static const std::map<std::string, ProximityVolume> names = {
-      {"ray", ProximityVolume::kRay},           {"cone", ProximityVolume::kCone},
-      {"pyramid", ProximityVolume::kPyramid},   {"disc", ProximityVolume::kDisc},
-      {"cylinder", ProximityVolume::kCylinder},
-  };
-  return names;
+/// Numbers of any size.
+int to_int(double number) {
+  constexpr double kMost = 1e9;
+  return static_cast<int>(std::max(-kMost, std::min(number, kMost)));
 }
 
-NoiseDescription read_noise(const sdf::Noise& noise) {
+NoiseDescription read_noise(const SdfElement& noise) {
   NoiseDescription description;
-  if (noise.Type() == sdf::NoiseType::NONE) return description;
-  description.mean = noise.Mean();
-  description.stddev = noise.StdDev();
-  description.bias_mean = noise.BiasMean();
-  description.bias_stddev = noise.BiasStdDev();
-  if (noise.Type() == sdf::NoiseType::GAUSSIAN_QUANTIZED) description.precision = noise.Precision();
+  const std::string type = noise.has_attribute("type") ? noise.attribute("type") : noise.text("type");
+  if (!noise || (type != "gaussian" && type != "gaussian_quantized")) return description;
+  description.mean = noise.number("mean");
+  description.stddev = noise.number("stddev");
+  description.bias_mean = noise.number("bias_mean");
+  description.bias_stddev = noise.number("bias_stddev");
+  if (type == "gaussian_quantized") description.precision = noise.number("precision");
   return description;
+}
+
+std::array<NoiseDescription, 3> read_axes_noise(const SdfElement& axes) {
+  return {read_noise(axes.child("x").child("noise")), read_noise(axes.child("y").child("noise")),
+          read_noise(axes.child("z").child("noise"))};
 }
 
 /// SDFormat has a number of samples and a resolution that multiplies it.
-ScanAngles read_angles(unsigned int samples, double resolution, double min, double max) {
-  const double rays = std::round(samples * resolution);
-  return {static_cast<int>(std::min(rays, 1e9)), min, max};
+ScanAngles read_angles(const SdfElement& scan) {
+  const double rays = std::round(scan.number("samples") * scan.number("resolution"));
+  return {to_int(rays), scan.number("min_angle"), scan.number("max_angle")};
 }
 
-/// Like Gazebo: rings in any order; a single ring, or none, is horizontal.
-void straighten(ScanAngles& vertical, const Source& source, const std::string& path, LoadContext& reading) {
-  const std::string angles = text(vertical.min) + " to " + text(vertical.max) + " rad";
-  if (vertical.samples < 1 || (vertical.samples == 1 && vertical.min != vertical.max)) {
-    reading.warn(
-        source, path,
-        std::to_string(vertical.samples) + " vertical samples from " + angles + ": using a single ring at 0 rad");
+/// Some files have names with the scopes of the collision: model::link::collision.
+std::string without_scope(const std::string& name) {
+  const std::size_t scope = name.rfind("::");
+  return scope == std::string::npos ? name : name.substr(scope + 2);
+}
+
+/// Reads the kind and parameters of the sensor at a path.
+class KindReader {
+ public:
+  KindReader(const SdfElement& sensor, std::string type, std::string path, LoadContext& context)
+      : sensor_(sensor), type_(std::move(type)), path_(std::move(path)), context_(context) {}
+
+  /// Empty when the kind is unknown or not simulated; the reason is reported.
+  std::optional<SensorKind> read() {
+    using Read = std::optional<SensorKind> (KindReader::*)();
+    static const std::map<std::string, Read> kinds = {
+        {"sonar", &KindReader::read_sonar},
+        {"imu", &KindReader::read_imu},
+        {"navsat", &KindReader::read_navsat},
+        {"altimeter", &KindReader::read_altimeter},
+        {"magnetometer", &KindReader::read_magnetometer},
+        {"contact", &KindReader::read_contact},
+        {"force_torque", &KindReader::read_force_torque},
+        {"lidar", &KindReader::read_lidar},
+        {"gpu_lidar", &KindReader::read_lidar},
+        {"camera", &KindReader::read_only_camera},
+        {"depth_camera", &KindReader::read_only_camera},
+        {"rgbd_camera", &KindReader::read_only_camera},
+        {"segmentation_camera", &KindReader::read_only_camera},
+    };
+    if (const auto found = kinds.find(type_); found != kinds.end()) return (this->*found->second)();
+    if (is_left_out(type_)) {
+      context_.warn(sensor_.source(), path_,
+                    "sensors of type '" + type_ +
+                        "' are not simulated: this sensor is ignored; simulated types: " + list_of(kSimulated, ", "));
+    } else {
+      report(sensor_.source(), "SDFormat has no sensor type '" + type_ + "'" + did_you_mean(type_, kSimulated));
+    }
+    return std::nullopt;
+  }
+
+  CameraDescription read_camera(const SdfElement& camera) {
+    const bool is_depth_only = type_ == "depth_camera";
+    const SdfElement image = camera.child("image");
+    const SdfElement clip = camera.child("clip");
+    const SdfElement depth_clip = camera.child("depth_camera").child("clip");
+    const auto distance = [&](const char* plane) {
+      return (is_depth_only && depth_clip.has(plane) ? depth_clip : clip).number(plane);
+    };
+    CameraDescription description;
+    description.width = to_int(image.number("width"));
+    description.height = to_int(image.number("height"));
+    description.horizontal_fov = read_field_of_view(camera);
+    description.near = distance("near");
+    description.far = distance("far");
+    // Plugins of depth cameras publish colour images, too.
+    description.color = !is_depth_only || sensor_.has("plugin");
+    description.noise = read_noise(camera.child("noise"));
+    const std::string antialias = own_text(camera, "bubblesim:antialias").value_or("false");
+    description.antialias = antialias == "true" || antialias == "1";
+    if (!description.antialias && antialias != "false" && antialias != "0") {
+      report(camera.source("bubblesim:antialias"),
+             "<bubblesim:antialias> is '" + antialias + "', it must be true or false");
+    }
+    return description;
+  }
+
+ private:
+  std::optional<SensorKind> read_only_camera() { return read_camera(sensor_.child("camera")); }
+
+  /// Gazebo accepts half a turn, for which the image plane would be infinite.
+  double read_field_of_view(const SdfElement& camera) {
+    constexpr double kWide = 3.1;
+    constexpr double kWidest = 3.13;
+    const double angle = camera.number("horizontal_fov");
+    if (!(angle > kWide && angle <= M_PI + 1e-3)) return angle;
+    const std::string taken = angle > kWidest ? ", using " + text(kWidest) : "";
+    warn(camera.source("horizontal_fov"), "the horizontal field of view is " + text(angle) + " rad" + taken +
+                                              ": objects ahead are tiny in such an image");
+    return std::min(angle, kWidest);
+  }
+
+  std::optional<SensorKind> read_lidar() {
+    const SdfElement lidar = sensor_.child(sensor_.has("lidar") ? "lidar" : "ray");
+    const SdfElement scan = lidar.child("scan");
+    const SdfElement range = lidar.child("range");
+    LidarDescription description;
+    description.horizontal = read_angles(scan.child("horizontal"));
+    sort(description.horizontal, "horizontal", lidar.source());
+    description.vertical = read_angles(scan.child("vertical"));
+    straighten(description.vertical, lidar.source());
+    description.min_range = range.number("min");
+    description.max_range = range.number("max");
+    // Some models have a resolution that would leave no range.
+    const double resolution = range.number("resolution");
+    description.resolution = resolution < description.max_range ? resolution : 0;
+    description.noise = read_noise(lidar.child("noise"));
+    description.signal = own_text(lidar, "bubblesim:signal").value_or("");
+    return description;
+  }
+
+  /// Like Gazebo: rings in any order; a single ring, or none, is horizontal.
+  void straighten(ScanAngles& vertical, const Source& source) {
+    if (vertical.samples > 1 || (vertical.samples == 1 && vertical.min == vertical.max)) {
+      return sort(vertical, "vertical", source);
+    }
+    warn(source, std::to_string(vertical.samples) + " vertical samples from " + range_of(vertical) +
+                     ": using a single ring at 0 rad");
     vertical = {1, 0, 0};
-  } else if (vertical.min > vertical.max) {
-    reading.warn(source, path, "the vertical angles are " + angles + ": using them from low to high");
-    std::swap(vertical.min, vertical.max);
   }
-}
 
-LidarDescription read_lidar(const sdf::Lidar& lidar, const std::string& path, LoadContext& reading) {
-  LidarDescription description;
-  description.horizontal =
-      read_angles(lidar.HorizontalScanSamples(), lidar.HorizontalScanResolution(),
-                  lidar.HorizontalScanMinAngle().Radian(), lidar.HorizontalScanMaxAngle().Radian());
-  description.vertical = read_angles(lidar.VerticalScanSamples(), lidar.VerticalScanResolution(),
-                                     lidar.VerticalScanMinAngle().Radian(), lidar.VerticalScanMaxAngle().Radian());
-  straighten(description.vertical, source_of(lidar.Element()), path, reading);
-  description.min_range = lidar.RangeMin();
-  description.max_range = lidar.RangeMax();
-  // Some models have a resolution that would leave no range.
-  description.resolution = lidar.RangeResolution() < lidar.RangeMax() ? lidar.RangeResolution() : 0;
-  description.noise = read_noise(lidar.LidarNoise());
-  description.signal = own_text(lidar.Element(), "bubblesim:signal").value_or("");
-  return description;
-}
-
-ImuDescription read_imu(const sdf::Imu& imu, LoadContext& reading) {
-  ImuDescription description;
-  description.bandwidth = own_number(imu.Element(), "bubblesim:bandwidth", reading.problems()).value_or(0);
-  description.angular_velocity_noise = {read_noise(imu.AngularVelocityXNoise()),
-                                        read_noise(imu.AngularVelocityYNoise()),
-                                        read_noise(imu.AngularVelocityZNoise())};
-  description.linear_acceleration_noise = {read_noise(imu.LinearAccelerationXNoise()),
-                                           read_noise(imu.LinearAccelerationYNoise()),
-                                           read_noise(imu.LinearAccelerationZNoise())};
-  return description;
-}
-
-NavSatDescription read_navsat(const sdf::NavSat& navsat) {
-  NavSatDescription description;
-  description.horizontal_position_noise = read_noise(navsat.HorizontalPositionNoise());
-  description.vertical_position_noise = read_noise(navsat.VerticalPositionNoise());
-  description.horizontal_velocity_noise = read_noise(navsat.HorizontalVelocityNoise());
-  description.vertical_velocity_noise = read_noise(navsat.VerticalVelocityNoise());
-  return description;
-}
-
-AltimeterDescription read_altimeter(const sdf::Altimeter& altimeter) {
-  return {read_noise(altimeter.VerticalPositionNoise()), read_noise(altimeter.VerticalVelocityNoise())};
-}
-
-MagnetometerDescription read_magnetometer(const sdf::Magnetometer& magnetometer) {
-  return {{read_noise(magnetometer.XNoise()), read_noise(magnetometer.YNoise()), read_noise(magnetometer.ZNoise())}};
-}
-
-ForceTorqueDescription read_force_torque(const sdf::ForceTorque& sensor, LoadContext& reading) {
-  using Frame = ForceTorqueDescription::Frame;
-  ForceTorqueDescription description;
-  description.bandwidth = own_number(sensor.Element(), "bubblesim:bandwidth", reading.problems()).value_or(0);
-  if (sensor.Frame() == sdf::ForceTorqueFrame::PARENT) description.frame = Frame::kParent;
-  if (sensor.Frame() == sdf::ForceTorqueFrame::SENSOR) description.frame = Frame::kSensor;
-  description.of_child = sensor.MeasureDirection() != sdf::ForceTorqueMeasureDirection::PARENT_TO_CHILD;
-  description.force_noise = {read_noise(sensor.ForceXNoise()), read_noise(sensor.ForceYNoise()),
-                             read_noise(sensor.ForceZNoise())};
-  description.torque_noise = {read_noise(sensor.TorqueXNoise()), read_noise(sensor.TorqueYNoise()),
-                              read_noise(sensor.TorqueZNoise())};
-  return description;
-}
-
-/// SDFormat has no class for contact sensors.
-ContactDescription read_contact(const sdf::ElementPtr& sensor) {
-  ContactDescription description;
-  if (!sensor->HasElement("contact")) return description;
-  for (auto each = sensor->GetElement("contact")->FindElement("collision"); each;
-       each = each->GetNextElement("collision")) {
-    const auto name = each->Get<std::string>();
-    const std::size_t scope = name.rfind("::");  // some files have model::link::collision
-    description.collisions.push_back(scope == std::string::npos ? name : name.substr(scope + 2));
+  void sort(ScanAngles& angles, const std::string& which, const Source& source) {
+    if (!(angles.min > angles.max)) return;
+    warn(source, "the " + which + " angles are " + range_of(angles) + ": using them from low to high");
+    std::swap(angles.min, angles.max);
   }
-  return description;
-}
 
-/// Gazebo accepts half a turn, for which the image plane would be infinite.
-void widen_at_most(double& field_of_view, const Source& source, const std::string& path, LoadContext& reading) {
-  constexpr double kWide = 3.1;
-  constexpr double kWidest = 3.13;
-  if (!(field_of_view > kWide && field_of_view <= M_PI + 1e-3)) return;
-  const std::string taken = field_of_view > kWidest ? ", using " + text(kWidest) : "";
-  reading.warn(source, path,
-               "the horizontal field of view is " + text(field_of_view) + " rad" + taken +
-                   ": objects ahead are tiny in such an image");
-  field_of_view = std::min(field_of_view, kWidest);
-}
-
-CameraDescription read_camera(const sdf::Camera& camera, bool depth_only, const std::string& path, const Report& report,
-                              LoadContext& reading) {
-  CameraDescription description;
-  description.width = static_cast<int>(camera.ImageWidth());
-  description.height = static_cast<int>(camera.ImageHeight());
-  description.horizontal_fov = camera.HorizontalFov().Radian();
-  widen_at_most(description.horizontal_fov, source_of(camera.Element(), "horizontal_fov"), path, reading);
-  description.near = depth_only && camera.HasDepthNearClip() ? camera.DepthNearClip() : camera.NearClip();
-  description.far = depth_only && camera.HasDepthFarClip() ? camera.DepthFarClip() : camera.FarClip();
-  // Plugins of depth cameras publish colour images, too.
-  const sdf::ElementPtr sensor = camera.Element()->GetParent();
-  description.color = !depth_only || (sensor != nullptr && sensor->HasElement("plugin"));
-  description.noise = read_noise(camera.ImageNoise());
-  // SDFormat stores a plain true as 1.
-  const std::string antialias = own_text(camera.Element(), "bubblesim:antialias").value_or("false");
-  description.antialias = antialias == "true" || antialias == "1";
-  if (!description.antialias && antialias != "false" && antialias != "0") {
-    report(source_of(camera.Element(), "bubblesim:antialias"),
-           "<bubblesim:antialias> is '" + antialias + "', it must be true or false");
+  static std::string range_of(const ScanAngles& angles) {
+    return text(angles.min) + " to " + text(angles.max) + " rad";
   }
-  return description;
-}
 
-bool read_sonar(const sdf::Sensor& sensor, SensorDescription& description, const Report& report) {
-  if (!sensor.Element()->HasElement("sonar")) {
-    report(description.source, "a sonar needs a <sonar> element with <min>, <max> and <radius>");
-    return false;
-  }
-  const sdf::ElementPtr element = sensor.Element()->GetElement("sonar");
-  SonarDescription sonar;
-  sonar.min_range = element->Get<double>("min", sonar.min_range).first;
-  sonar.max_range = element->Get<double>("max", sonar.max_range).first;
-  sonar.half_angle = std::atan2(element->Get<double>("radius", 0.0).first, sonar.max_range);  // radius at max
-  if (const auto name = own_text(element, "bubblesim:volume")) {
-    const auto volume = volumes().find(*name);
-    if (volume == volumes().end()) {
-      std::vector<std::string> known;
-      for (const auto& [known_name, unused] : volumes()) known.push_back(known_name);
-      report(source_of(element, "bubblesim:volume"), "<bubblesim:volume> is '" + *name +
-                                                         "', it must be ray, cone, pyramid, disc or cylinder" +
-                                                         did_you_mean(*name, known));
-      return false;
+  std::optional<SensorKind> read_sonar() {
+    const SdfElement element = sensor_.child("sonar");
+    if (!element) {
+      report(sensor_.source(), "a sonar needs a <sonar> element with <min>, <max> and <radius>");
+      return std::nullopt;
     }
-    sonar.volume = volume->second;
+    SonarDescription sonar;
+    sonar.min_range = element.number("min");
+    sonar.max_range = element.number("max");
+    sonar.half_angle = std::atan2(element.number("radius"), sonar.max_range);  // radius at max
+    const auto volume = read_choice<ProximityVolume>(element, "bubblesim:volume",
+                                                     {{"ray", ProximityVolume::kRay},
+                                                      {"cone", ProximityVolume::kCone},
+                                                      {"pyramid", ProximityVolume::kPyramid},
+                                                      {"disc", ProximityVolume::kDisc},
+                                                      {"cylinder", ProximityVolume::kCylinder}});
+    if (!volume) return std::nullopt;
+    sonar.volume = *volume;
+    return sonar;
   }
-  description.kind = sonar;
-  return true;
-}
 
-void tell_left_out(const Source& source, const std::string& path, const std::string& type, LoadContext& reading) {
-  reading.warn(source, path,
-               "sensors of type '" + type +
-                   "' are not simulated: this sensor is ignored; simulated types: " + list_of_simulated());
-}
+  std::optional<SensorKind> read_imu() {
+    const SdfElement imu = sensor_.child("imu");
+    ImuDescription description;
+    description.bandwidth = own_number(imu, "bubblesim:bandwidth", path_, context_).value_or(0);
+    description.angular_velocity_noise = read_axes_noise(imu.child("angular_velocity"));
+    description.linear_acceleration_noise = read_axes_noise(imu.child("linear_acceleration"));
+    return description;
+  }
 
-/// Reads kind and parameters of a sensor into `description`, whose pose is known already. Returns false when the kind
-/// is unknown or not simulated; the reason is reported.
-bool read_kind(const sdf::Sensor& sensor, const std::string& path, SensorDescription& description, const Report& report,
-               LoadContext& reading) {
-  switch (sensor.Type()) {
-    case sdf::SensorType::SONAR:
-      return read_sonar(sensor, description, report);
-    case sdf::SensorType::IMU:
-      description.kind = sensor.ImuSensor() != nullptr ? read_imu(*sensor.ImuSensor(), reading) : ImuDescription{};
-      return true;
-    case sdf::SensorType::NAVSAT:
-    case sdf::SensorType::GPS:
-      description.kind = sensor.NavSatSensor() != nullptr ? read_navsat(*sensor.NavSatSensor()) : NavSatDescription{};
-      return true;
-    case sdf::SensorType::ALTIMETER:
-      description.kind =
-          sensor.AltimeterSensor() != nullptr ? read_altimeter(*sensor.AltimeterSensor()) : AltimeterDescription{};
-      return true;
-    case sdf::SensorType::MAGNETOMETER:
-      description.kind = sensor.MagnetometerSensor() != nullptr ? read_magnetometer(*sensor.MagnetometerSensor())
-                                                                : MagnetometerDescription{};
-      return true;
-    case sdf::SensorType::CONTACT:
-      description.kind = read_contact(sensor.Element());
-      return true;
-    case sdf::SensorType::FORCE_TORQUE:
-      description.kind = sensor.ForceTorqueSensor() != nullptr ? read_force_torque(*sensor.ForceTorqueSensor(), reading)
-                                                               : ForceTorqueDescription{};
-      return true;
-    case sdf::SensorType::LIDAR:
-    case sdf::SensorType::GPU_LIDAR:
-      if (const sdf::Lidar* lidar = sensor.LidarSensor()) {
-        description.kind = read_lidar(*lidar, path, reading);
-        return true;
-      }
-      report(description.source, "a lidar needs a <lidar> element with <scan> and <range>");
-      return false;
-    case sdf::SensorType::CAMERA:
-    case sdf::SensorType::DEPTH_CAMERA:
-    case sdf::SensorType::RGBD_CAMERA:
-    case sdf::SensorType::SEGMENTATION_CAMERA:
-      if (const sdf::Camera* camera = sensor.CameraSensor()) {
-        description.kind = read_camera(*camera, sensor.Type() == sdf::SensorType::DEPTH_CAMERA, path, report, reading);
-        description.pose = description.pose * camera->RawPose();
-        return true;
-      }
-      report(description.source, "a camera needs a <camera> element with <horizontal_fov>, <image> and <clip>");
-      return false;
-    case sdf::SensorType::NONE: {
-      const auto type = sensor.Element()->Get<std::string>("type");
-      if (type == "air_speed" || type == "custom" || type == "dvl") {  // of later SDFormat versions
-        tell_left_out(description.source, path, type, reading);
-        return false;
-      }
-      report(description.source, "SDFormat has no sensor type '" + type + "'" + did_you_mean(type, kSimulated));
-      return false;
+  std::optional<SensorKind> read_navsat() {
+    const SdfElement navsat = sensor_.child(sensor_.has("navsat") ? "navsat" : "gps");
+    const auto noise_of = [&](const char* quantity, const char* direction) {
+      return read_noise(navsat.child(quantity).child(direction).child("noise"));
+    };
+    NavSatDescription description;
+    description.horizontal_position_noise = noise_of("position_sensing", "horizontal");
+    description.vertical_position_noise = noise_of("position_sensing", "vertical");
+    description.horizontal_velocity_noise = noise_of("velocity_sensing", "horizontal");
+    description.vertical_velocity_noise = noise_of("velocity_sensing", "vertical");
+    return description;
+  }
+
+  std::optional<SensorKind> read_altimeter() {
+    const SdfElement altimeter = sensor_.child("altimeter");
+    return AltimeterDescription{read_noise(altimeter.child("vertical_position").child("noise")),
+                                read_noise(altimeter.child("vertical_velocity").child("noise"))};
+  }
+
+  std::optional<SensorKind> read_magnetometer() {
+    return MagnetometerDescription{read_axes_noise(sensor_.child("magnetometer"))};
+  }
+
+  std::optional<SensorKind> read_contact() {
+    ContactDescription description;
+    for (const SdfElement& collision : sensor_.child("contact").children("collision")) {
+      description.collisions.push_back(without_scope(collision.as_text()));
     }
-    default:
-      tell_left_out(description.source, path, sensor.TypeStr(), reading);
-      return false;
+    return description;
   }
-}
 
-/// The text of the first existing element, without surrounding spaces.
-std::string first_text(const sdf::ElementPtr& parent, std::initializer_list<const char*> names) {
+  std::optional<SensorKind> read_force_torque() {
+    using Frame = ForceTorqueDescription::Frame;
+    const SdfElement element = sensor_.child("force_torque");
+    ForceTorqueDescription description;
+    description.bandwidth = own_number(element, "bubblesim:bandwidth", path_, context_).value_or(0);
+    description.frame =
+        read_choice<Frame>(element, "frame",
+                           {{"child", Frame::kChild}, {"parent", Frame::kParent}, {"sensor", Frame::kSensor}})
+            .value_or(Frame::kChild);
+    description.of_child =
+        read_choice<bool>(element, "measure_direction", {{"child_to_parent", true}, {"parent_to_child", false}})
+            .value_or(true);
+    description.force_noise = read_axes_noise(element.child("force"));
+    description.torque_noise = read_axes_noise(element.child("torque"));
+    return description;
+  }
+
+  /// The value that a child element names; another name is reported.
+  template <class Value>
+  std::optional<Value> read_choice(const SdfElement& element, const char* child,
+                                   const std::vector<std::pair<std::string, Value>>& values) {
+    const std::string given = element.text(child);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values) {
+      if (name == given) return value;
+      names.push_back(name);
+    }
+    report(element.source(child), "<" + std::string(child) + "> is '" + given + "', it must be " +
+                                      list_of(names, " or ") + did_you_mean(given, names));
+    return std::nullopt;
+  }
+
+  void report(const Source& source, std::string message) { context_.report(source, path_, std::move(message)); }
+  void warn(const Source& source, std::string message) { context_.warn(source, path_, std::move(message)); }
+
+  SdfElement sensor_;
+  std::string type_;
+  std::string path_;
+  LoadContext& context_;
+};
+
+/// The text of the first of these elements that has one.
+std::string first_text(const SdfElement& parent, std::initializer_list<const char*> names) {
   for (const char* name : names) {
-    if (parent == nullptr) break;
-    if (const auto text = own_text(parent, name)) return *text;
+    if (parent.has(name) && !parent.text(name).empty()) return parent.text(name);
   }
   return "";
 }
 
-/// SDFormat has no functions for most of these elements; later versions of the format have more.
-GzTopic read_gz_topic(const sdf::ElementPtr& sensor) {
-  const sdf::ElementPtr contact = sensor->FindElement("contact");
-  const sdf::ElementPtr camera = sensor->FindElement("camera");
+GzTopic read_gz_topic(const SdfElement& sensor) {
+  const SdfElement camera = sensor.child("camera");
   GzTopic gz;
-  for (const sdf::ElementPtr& element : {contact, sensor}) {
+  for (const SdfElement& element : {sensor.child("contact"), sensor}) {
     gz.topic = first_text(element, {"topic"});
     if (gz.topic.rfind("__default", 0) == 0) gz.topic.clear();  // SDFormat's defaults
     if (!gz.topic.empty()) break;
@@ -306,52 +344,61 @@ GzTopic read_gz_topic(const sdf::ElementPtr& sensor) {
   return gz;
 }
 
-SensorDescription read_any(const sdf::Sensor& sensor, const Pose& pose, const std::string& path, LoadContext& reading) {
+/// All but the kind.
+SensorDescription read_common(const SdfElement& sensor, const std::string& name, const std::string& path,
+                              LoadContext& context) {
   SensorDescription description;
-  description.name = sensor.Name();
-  description.alias = read_alias(sensor.Element(), path, reading);
-  description.type = sensor.TypeStr();
-  description.gz = read_gz_topic(sensor.Element());
-  description.source = source_of(sensor.Element());
-  description.pose = pose;
-  description.update_rate = sensor.UpdateRate();
-  description.plugins = read_plugins(sensor.Element());
-  description.topic = own_text(sensor.Element(), "bubblesim:topic").value_or("");
-  description.frame = own_text(sensor.Element(), "bubblesim:frame").value_or("");
+  description.name = name;
+  description.alias = read_alias(sensor, path, context);
+  description.type = type_of(sensor);
+  description.gz = read_gz_topic(sensor);
+  description.source = sensor.source();
+  description.update_rate = sensor.number("update_rate");
+  description.plugins = read_plugins(sensor);
+  description.topic = own_text(sensor, "bubblesim:topic").value_or("");
+  description.frame = own_text(sensor, "bubblesim:frame").value_or("");
   return description;
 }
+
+/// The pose of a camera is relative to that of its sensor.
+Pose pose_of(const SdfElement& camera, const Pose& sensor_pose) { return sensor_pose * camera.child("pose").as_pose(); }
 
 }  // namespace
 
-std::optional<SensorDescription> read_sensor(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                             const Pose& pose, LoadContext& reading) {
-  const std::string path = carrier_path + "/" + sensor.Name();
-  SensorDescription description = read_any(sensor, pose, path, reading);
-  const Report report_here = [&](const Source& source, std::string message) {
-    reading.report(source, path, std::move(message));
-  };
-  if (!read_kind(sensor, path, description, report_here, reading)) return std::nullopt;
+std::optional<SensorDescription> read_sensor(const SdfElement& sensor, const std::string& name,
+                                             const std::string& carrier_path, const Pose& pose, LoadContext& context) {
+  const std::string path = carrier_path + "/" + name;
+  SensorDescription description = read_common(sensor, name, path, context);
+  const auto kind = KindReader(sensor, description.type, path, context).read();
+  if (!kind) return std::nullopt;
+  const bool is_camera = std::holds_alternative<CameraDescription>(*kind);
+  description.kind = *kind;
+  description.pose = is_camera ? pose_of(sensor.child("camera"), pose) : pose;
   return description;
 }
 
-std::vector<SensorDescription> read_multicamera(const sdf::Sensor& sensor, const std::string& carrier_path,
-                                                const Pose& pose, LoadContext& reading) {
-  const std::string path = carrier_path + "/" + sensor.Name();
-  const Report report_here = [&](const Source& source, std::string message) {
-    reading.report(source, path, std::move(message));
-  };
+bool is_multicamera(const SdfElement& sensor) { return type_of(sensor) == "multicamera"; }
+
+std::vector<SensorDescription> read_multicamera(const SdfElement& sensor, const std::string& name,
+                                                const std::string& carrier_path, const Pose& pose,
+                                                LoadContext& context) {
+  const std::string path = carrier_path + "/" + name;
+  const SensorDescription common = read_common(sensor, name, path, context);
+  KindReader reader(sensor, common.type, path, context);
   std::vector<SensorDescription> all;
-  for (auto element = sensor.Element()->FindElement("camera"); element; element = element->GetNextElement("camera")) {
-    sdf::Camera camera;
-    reading.take(camera.Load(element), path);
-    SensorDescription& description = all.emplace_back(read_any(sensor, pose * camera.RawPose(), path, reading));
-    description.name += "_" + camera.Name();
+  for (const SdfElement& camera : sensor.children("camera")) {
+    SensorDescription& description = all.emplace_back(common);
+    const std::string suffix = camera.name().empty() ? std::to_string(all.size()) : camera.name();
+    description.name += "_" + suffix;
     for (std::string* topic : {&description.topic, &description.gz.topic}) {
-      if (!topic->empty()) *topic += "/" + camera.Name();
+      if (!topic->empty()) *topic += "/" + suffix;
     }
-    description.kind = read_camera(camera, false, path, report_here, reading);
+    description.pose = pose_of(camera, pose);
+    description.kind = reader.read_camera(camera);
   }
-  if (all.empty()) report_here(source_of(sensor.Element()), "a multicamera needs a <camera> for each of its cameras");
+  if (all.empty()) {
+    context.report(sensor.source(), path, "a multicamera needs a <camera> for each of its cameras");
+  }
   return all;
 }
 

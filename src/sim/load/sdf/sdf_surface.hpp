@@ -2,15 +2,15 @@
 // SDFormat's <surface>.
 #pragma once
 
-#include <sdf/Element.hh>
 #include <string>
 
 #include "bubblesim/scene.hpp"
 #include "load/load_context.hpp"
+#include "load/sdf/sdf_element.hpp"
 
 namespace bubblesim {
 
 /// `path` is the path of the collision.
-Surface read_surface(const sdf::ElementPtr& collision, const std::string& path, LoadContext& reading);
+Surface read_surface(const SdfElement& collision, const std::string& path, LoadContext& context);
 
 }  // namespace bubblesim

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/urdf.hpp"
+#include "load/xml/xml_element.hpp"
+#include "load/xml/xml_parser.hpp"
 
 namespace bubblesim {
 namespace {
@@ -21,7 +23,7 @@ std::string number(double value) {
   return out.str();
 }
 
-std::string numbers(const Vector3& v) { return number(v.X()) + " " + number(v.Y()) + " " + number(v.Z()); }
+std::string numbers(const Vector3& v) { return number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
 
 /// Whether URDF has an element for the geometry.
 bool writable(const Geometry& geometry) {
@@ -29,9 +31,68 @@ bool writable(const Geometry& geometry) {
          std::holds_alternative<Cylinder>(geometry);
 }
 
+/// An element with attributes.
+XmlElement element(const std::string& name, std::vector<XmlAttribute> attributes) {
+  XmlElement made;
+  made.name = name;
+  made.attributes = std::move(attributes);
+  return made;
+}
+
+XmlElement origin(const Pose& pose) {
+  return element("origin", {{"xyz", numbers(pose.position)}, {"rpy", numbers(to_rpy(pose.orientation))}});
+}
+
+XmlElement geometry_element(const Geometry& geometry) {
+  XmlElement made = element("geometry", {});
+  if (const auto* box = std::get_if<Box>(&geometry)) {
+    made.children.push_back(element("box", {{"size", numbers(box->size)}}));
+  } else if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
+    made.children.push_back(element("sphere", {{"radius", number(sphere->radius)}}));
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    made.children.push_back(
+        element("cylinder", {{"radius", number(cylinder->radius)}, {"length", number(cylinder->length)}}));
+  }
+  return made;
+}
+
+XmlElement inertial_element(const LinkDescription& link) {
+  const Vector3& moments = link.inertia_diagonal;
+  const Vector3& products = link.inertia_products;
+  XmlElement made = element("inertial", {});
+  made.children = {origin(Pose(link.centre_of_mass, Quaternion())), element("mass", {{"value", number(link.mass)}}),
+                   element("inertia", {{"ixx", number(moments.x())},
+                                       {"iyy", number(moments.y())},
+                                       {"izz", number(moments.z())},
+                                       {"ixy", number(products.x())},
+                                       {"ixz", number(products.y())},
+                                       {"iyz", number(products.z())}})};
+  return made;
+}
+
+template <class Shape>
+XmlElement shape_element(const char* kind, const Shape& shape) {
+  XmlElement made = element(kind, {{"name", shape.name}});
+  made.children = {origin(shape.pose), geometry_element(shape.geometry)};
+  return made;
+}
+
+XmlElement material_element(const std::string& name, const Color& color) {
+  XmlElement made = element("material", {{"name", name}});
+  made.children = {element("color", {{"rgba", numbers(Vector3(color.r, color.g, color.b)) + " 1"}})};
+  return made;
+}
+
+XmlElement joint_element(const std::string& name, const std::string& type, const std::string& parent,
+                         const std::string& child, const Pose& pose) {
+  XmlElement made = element("joint", {{"name", name}, {"type", type}});
+  made.children = {origin(pose), element("parent", {{"link", parent}}), element("child", {{"link", child}})};
+  return made;
+}
+
 class UrdfWriter {
  public:
-  explicit UrdfWriter(const ModelDescription& model) : model_(model) {
+  explicit UrdfWriter(const ModelDescription& model) : model_(model), robot_(element("robot", {{"name", model.name}})) {
     for (const JointDescription& joint : model.joints) {
       if (joint.parent == "world") continue;
       if (!parent_joint_.emplace(joint.child, &joint).second) {
@@ -48,14 +109,11 @@ class UrdfWriter {
       throw InvalidInput("/" + model_.name + " has " + std::to_string(roots) +
                          " root links: URDF supports trees only, with one root link");
     }
-    xml_.OpenElement("robot");
-    xml_.PushAttribute("name", model_.name.c_str());
     for (const LinkDescription& link : model_.links) write_link(link);
     for (const JointDescription& joint : model_.joints) {
       if (joint.parent != "world") write_joint(joint);
     }
-    xml_.CloseElement();
-    return xml_.CStr();
+    return to_xml(robot_);
   }
 
  private:
@@ -66,77 +124,20 @@ class UrdfWriter {
                          [&](const LinkDescription& each) { return each.name == name; });
   }
 
-  void element(const char* name, const char* attribute, const std::string& value) {
-    xml_.OpenElement(name);
-    xml_.PushAttribute(attribute, value.c_str());
-    xml_.CloseElement();
-  }
-
-  void origin(const Pose& pose) {
-    xml_.OpenElement("origin");
-    xml_.PushAttribute("xyz", numbers(pose.Pos()).c_str());
-    xml_.PushAttribute("rpy", numbers(pose.Rot().Euler()).c_str());
-    xml_.CloseElement();
-  }
-
-  void write_geometry(const Geometry& geometry) {
-    xml_.OpenElement("geometry");
-    if (const auto* box = std::get_if<Box>(&geometry)) {
-      element("box", "size", numbers(box->size));
-    } else if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
-      element("sphere", "radius", number(sphere->radius));
-    } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
-      xml_.OpenElement("cylinder");
-      xml_.PushAttribute("radius", number(cylinder->radius).c_str());
-      xml_.PushAttribute("length", number(cylinder->length).c_str());
-      xml_.CloseElement();
-    }
-    xml_.CloseElement();
-  }
-
-  void write_inertial(const LinkDescription& link) {
-    xml_.OpenElement("inertial");
-    origin(Pose(link.centre_of_mass, Quaternion::Identity));
-    element("mass", "value", number(link.mass));
-    xml_.OpenElement("inertia");
-    xml_.PushAttribute("ixx", number(link.inertia_diagonal.X()).c_str());
-    xml_.PushAttribute("iyy", number(link.inertia_diagonal.Y()).c_str());
-    xml_.PushAttribute("izz", number(link.inertia_diagonal.Z()).c_str());
-    xml_.PushAttribute("ixy", number(link.inertia_products.X()).c_str());
-    xml_.PushAttribute("ixz", number(link.inertia_products.Y()).c_str());
-    xml_.PushAttribute("iyz", number(link.inertia_products.Z()).c_str());
-    xml_.CloseElement();
-    xml_.CloseElement();
-  }
-
-  template <class Shape>
-  void write_shape(const char* kind, const Shape& shape) {
-    xml_.OpenElement(kind);
-    xml_.PushAttribute("name", shape.name.c_str());
-    origin(shape.pose);
-    write_geometry(shape.geometry);
-  }
+  void write(XmlElement part) { robot_.children.push_back(std::move(part)); }
 
   void write_link(const LinkDescription& link) {
-    xml_.OpenElement("link");
-    xml_.PushAttribute("name", link.name.c_str());
-    if (!is_root(link)) write_inertial(link);
+    XmlElement made = element("link", {{"name", link.name}});
+    if (!is_root(link)) made.children.push_back(inertial_element(link));
     for (const VisualDescription& visual : link.visuals) {
       if (!writable(visual.geometry)) continue;
-      write_shape("visual", visual);
-      const Color& color = visual.material.diffuse;
-      xml_.OpenElement("material");
-      xml_.PushAttribute("name", (link.name + "_" + visual.name).c_str());
-      element("color", "rgba", numbers(Vector3(color.r, color.g, color.b)) + " 1");
-      xml_.CloseElement();
-      xml_.CloseElement();
+      made.children.push_back(shape_element("visual", visual));
+      made.children.back().children.push_back(material_element(link.name + "_" + visual.name, visual.material.diffuse));
     }
     for (const CollisionDescription& collision : link.collisions) {
-      if (!writable(collision.geometry)) continue;
-      write_shape("collision", collision);
-      xml_.CloseElement();
+      if (writable(collision.geometry)) made.children.push_back(shape_element("collision", collision));
     }
-    xml_.CloseElement();
+    write(std::move(made));
     for (const SensorDescription& sensor : link.sensors) {
       write_frame(sensor.name, link.name, sensor.pose);
       if (!std::holds_alternative<CameraDescription>(sensor.kind)) continue;
@@ -146,19 +147,8 @@ class UrdfWriter {
 
   /// A link without inertia, fixed to another link.
   void write_frame(const std::string& name, const std::string& parent, const Pose& pose) {
-    element("link", "name", name);
-    open_joint(name + "_mount", "fixed", parent, name, pose);
-    xml_.CloseElement();
-  }
-
-  void open_joint(const std::string& name, const char* type, const std::string& parent, const std::string& child,
-                  const Pose& pose) {
-    xml_.OpenElement("joint");
-    xml_.PushAttribute("name", name.c_str());
-    xml_.PushAttribute("type", type);
-    origin(pose);
-    element("parent", "link", parent);
-    element("child", "link", child);
+    write(element("link", {{"name", name}}));
+    write(joint_element(name + "_mount", "fixed", parent, name, pose));
   }
 
   /// In URDF the frame of a link is that of its joint. Other links are attached to an extra link in between.
@@ -170,39 +160,41 @@ class UrdfWriter {
     const Pose& parent = link(joint.parent).pose;
     const Pose& child = link(joint.child).pose;
     for (const SensorDescription& sensor : joint.sensors) {
-      write_frame(sensor.name, joint.child, child.Inverse() * joint.pose * sensor.pose);
+      write_frame(sensor.name, joint.child, child.inverse() * joint.pose * sensor.pose);
     }
     if (!moves) {
-      open_joint(joint.name, "fixed", joint.parent, joint.child, parent.Inverse() * child);
-      xml_.CloseElement();
+      write(joint_element(joint.name, "fixed", joint.parent, joint.child, parent.inverse() * child));
       return;
     }
-    const Pose rest = joint.pose.Inverse() * child;
-    const bool direct = rest.Pos().Length() < 1e-9 && std::abs(rest.Rot().W()) > 1 - 1e-12;
+    const Pose rest = joint.pose.inverse() * child;
+    const bool direct = rest.position.norm() < 1e-9 && std::abs(rest.orientation.w()) > 1 - 1e-12;
     const std::string carried = direct ? joint.child : joint.name + "_frame";
+    write_moving(joint, carried, parent.inverse() * joint.pose);
+    if (direct) return;
+    write(element("link", {{"name", carried}}));
+    write(joint_element(joint.name + "_mount", "fixed", carried, joint.child, rest));
+  }
+
+  /// `pose` is in the frame of the parent.
+  void write_moving(const JointDescription& joint, const std::string& carried, const Pose& pose) {
     const AxisDescription& axis = joint.axes.at(0);
     const bool endless = !std::isfinite(axis.lower) && !std::isfinite(axis.upper) && joint.type != "prismatic";
-    open_joint(joint.name, endless ? "continuous" : joint.type.c_str(), joint.parent, carried,
-               parent.Inverse() * joint.pose);
-    element("axis", "xyz", numbers(axis.direction));
-    xml_.OpenElement("limit");
+    XmlElement made = joint_element(joint.name, endless ? "continuous" : joint.type, joint.parent, carried, pose);
+    made.children.push_back(element("axis", {{"xyz", numbers(axis.direction)}}));
+    XmlElement limit = element("limit", {});
     if (!endless) {
-      xml_.PushAttribute("lower", number(std::max(axis.lower, -kNoLimit)).c_str());
-      xml_.PushAttribute("upper", number(std::min(axis.upper, kNoLimit)).c_str());
+      limit.set_attribute("lower", number(std::max(axis.lower, -kNoLimit)));
+      limit.set_attribute("upper", number(std::min(axis.upper, kNoLimit)));
     }
-    xml_.PushAttribute("effort", number(std::min(axis.max_force, kNoLimit)).c_str());
-    xml_.PushAttribute("velocity", number(std::min(axis.max_velocity, kNoLimit)).c_str());
-    xml_.CloseElement();
-    xml_.CloseElement();
-    if (direct) return;
-    element("link", "name", carried);
-    open_joint(joint.name + "_mount", "fixed", carried, joint.child, rest);
-    xml_.CloseElement();
+    limit.set_attribute("effort", number(std::min(axis.max_force, kNoLimit)));
+    limit.set_attribute("velocity", number(std::min(axis.max_velocity, kNoLimit)));
+    made.children.push_back(std::move(limit));
+    write(std::move(made));
   }
 
   const ModelDescription& model_;
+  XmlElement robot_;
   std::map<std::string, const JointDescription*> parent_joint_;  // by the child's name
-  tinyxml2::XMLPrinter xml_;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ const Parts& parts_of(dGeomID geom) { return **static_cast<const Parts**>(dGeomG
 
 void find_bounds(dGeomID geom, dReal bounds[6]) {
   const Transform frame = geom_transform(geom);
-  for (int i = 0; i < 3; ++i) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
     const Vector3 axis = frame.rotation.row(i).transpose();  // of the world, in the shape
     bounds[2 * i] = dInfinity;
     bounds[2 * i + 1] = -dInfinity;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace bubblesim {
+
+/// The table of elements; element_kinds.cpp reads it. One element a line, its children indented below it:
+///
+///   NAME TYPE [DEFAULT] [MIN..MAX] [required] [~ REASON | ! REASON]
+///
+/// The default is in quotes when it has spaces; a number without one has no effect unless it is given. `~`: without
+/// effect here. `!`: left out, with a warning. `@NAME TYPE [DEFAULT]` is an attribute of the element above. `&NAME`
+/// stands for the children of the element that is defined under that name by a line `=NAME` at the start. Names, types,
+/// defaults and ranges are those of the specification of SDFormat (sdformat.org/spec).
+extern const char* const kElementTable;
+
+}  // namespace bubblesim

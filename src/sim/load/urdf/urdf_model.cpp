@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/urdf/urdf_model.hpp"
+
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/error.hpp"
+#include "load/sdf/frames.hpp"
+#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/sdf_joints.hpp"
+#include "load/sdf/sdf_links.hpp"
+#include "load/sdf/sdf_models.hpp"
+#include "load/sdf/unique_names.hpp"
+#include "load/urdf/fixed_joint_lumping.hpp"
+#include "load/urdf/gazebo_extensions.hpp"
+#include "load/urdf/urdf_robot.hpp"
+#include "load/urdf/urdf_values.hpp"
+
+namespace bubblesim {
+namespace {
+
+XmlElement named_element(const std::string& kind, const std::string& name, const XmlElement& place) {
+  XmlElement element = in_place_of(place, kind);
+  element.set_attribute("name", name);
+  return element;
+}
+
+/// The shapes of one kind of a body: their names, and which <gazebo> applies to which.
+class BodyShapes {
+ public:
+  /// `kind` is collision or visual.
+  BodyShapes(std::string body, const std::string& kind) : body_(std::move(body)), suffix_("_" + kind) {}
+
+  /// Adds a shape of a link that is a part of the body. Returns its name, which is Gazebo's.
+  std::string add(const UrdfShape& shape, const std::string& link) {
+    const std::string& own = shape.name.empty() ? link : shape.name;
+    std::string name = own + suffix_;
+    const bool starts_as_body = name.rfind(body_, 0) == 0;
+    if (!starts_as_body) name.insert(0, body_ + "_fixed_joint_lump__");
+    if (count_ > 0) name += "_" + std::to_string(count_);
+    assign(own, starts_as_body);
+    ++count_;
+    return name;
+  }
+
+  /// The numbers of the shapes that the <gazebo> of a link applies to.
+  const std::vector<std::size_t>& of(const std::string& link) { return shapes_[link]; }
+
+ private:
+  /// In Gazebo, the name of a shape decides: those of a part are named after its link, or that and the kind; all that
+  /// start as the body are of the body.
+  void assign(const std::string& own, bool starts_as_body) {
+    if (starts_as_body) {
+      shapes_[body_].push_back(count_);
+      return;
+    }
+    shapes_[own].push_back(count_);
+    for (std::size_t at = own.find(suffix_); at != std::string::npos; at = own.find(suffix_, at + 1)) {
+      shapes_[own.substr(0, at)].push_back(count_);
+    }
+  }
+
+  std::string body_;
+  std::string suffix_;
+  std::size_t count_ = 0;
+  std::map<std::string, std::vector<std::size_t>> shapes_;  // by link
+};
+
+/// Makes SDFormat's <link> of a body: the shapes of its parts, and what <gazebo> adds to them. The pose and the inertia
+/// are not in it.
+class LinkElement {
+ public:
+  LinkElement(const LumpedLink& body, const GazeboExtensions& extensions, const std::string& path, LoadContext& context)
+      : body_(body), extensions_(extensions), path_(path), context_(context) {}
+
+  XmlElement make() {
+    XmlElement element = named_element("link", body_.link().name, body_.link().place);
+    add_shapes(element, "collision", &UrdfLink::collisions, &LinkExtension::collision);
+    add_shapes(element, "visual", &UrdfLink::visuals, &LinkExtension::visual);
+    std::optional<bool> gravity;
+    each_extension([&](const LumpedPart& part, const LinkExtension& extension) {
+      for (const XmlElement& child : extension.content.children) element.children.push_back(moved(child, part.pose));
+      if (extension.gravity) gravity = extension.gravity;
+    });
+    if (gravity) {
+      element.remove_children("gravity");
+      element.add_child("gravity", *gravity ? "true" : "false");
+    }
+    for (XmlElement& child : element.children) {
+      if (child.name == "sensor") rename_collisions(child);
+    }
+    return element;
+  }
+
+ private:
+  /// Calls `visit` with each part that has one.
+  template <class Visit>
+  void each_extension(const Visit& visit) const {
+    for (const LumpedPart& part : body_.parts) {
+      const auto extension = extensions_.links.find(part.link->name);
+      if (extension != extensions_.links.end()) visit(part, extension->second);
+    }
+  }
+
+  void add_shapes(XmlElement& element, const std::string& kind, std::vector<UrdfShape> UrdfLink::*shapes,
+                  XmlElement LinkExtension::*added) {
+    BodyShapes body(body_.link().name, kind);
+    const std::size_t first = element.children.size();
+    for (const LumpedPart& part : body_.parts) {
+      for (const UrdfShape& shape : part.link->*shapes) {
+        XmlElement made = shape.element;
+        made.set_attribute("name", body.add(shape, part.link->name));
+        made.children.push_back(pose_element(part.pose * shape.pose, made));
+        if (kind == "collision") remember(shape, part.link->name, made.given_name());
+        element.children.push_back(std::move(made));
+      }
+    }
+    each_extension([&](const LumpedPart& part, const LinkExtension& extension) {
+      for (const std::size_t i : body.of(part.link->name)) {
+        XmlElement& shape = element.children[first + i];
+        merge(extension.*added, shape, *link_kind().child(kind));
+        if (kind == "collision") add_contact(shape);
+      }
+      const bool is_used = !body.of(part.link->name).empty() || (part.link->*shapes).empty();
+      if (is_used || (extension.*added).children.empty()) return;
+      context_.warn((extension.*added).source(), path_,
+                    "values of <gazebo reference=\"" + part.link->name + "\"> for the " + kind +
+                        "s have no effect: as in Gazebo, they are for those without a name; remove the names");
+    });
+  }
+
+  /// Collisions with a <contact>, which each <gazebo> adds, have other masks than those without.
+  static void add_contact(XmlElement& collision) {
+    if (collision.child("surface") == nullptr) collision.add_child("surface");
+    XmlElement& surface = *collision.child("surface");
+    if (surface.child("contact") == nullptr) surface.add_child("contact");
+  }
+
+  /// Gazebo moves sensors with the part that they are on.
+  static XmlElement moved(const XmlElement& child, const Pose& part) {
+    if (child.name != "sensor" && child.name != "light") return child;
+    XmlElement moved = child;
+    const SdfElement element(&child, *link_kind().child(child.name));
+    if (!base_of(element).empty()) return moved;
+    moved.replace_child(pose_element(part * element.child("pose").as_pose(), child));
+    return moved;
+  }
+
+  /// The names by which a contact sensor may refer to a collision: that in its own link, which lumping changes.
+  void remember(const UrdfShape& shape, const std::string& link, const std::string& name) {
+    const int number = counts_[link]++;
+    collisions_.emplace(name, name);
+    const std::string own = (shape.name.empty() ? link : shape.name) + "_collision";
+    collisions_.emplace(number > 0 ? own + "_" + std::to_string(number) : own, name);
+    if (!shape.name.empty()) collisions_.emplace(shape.name, name);
+  }
+
+  void rename_collisions(XmlElement& sensor) const {
+    XmlElement* contact = sensor.child("contact");
+    if (contact == nullptr) return;
+    for (XmlElement& child : contact->children) {
+      const auto found = collisions_.find(child.text);
+      if (child.name == "collision" && found != collisions_.end()) child.text = found->second;
+    }
+  }
+
+  const LumpedLink& body_;
+  const GazeboExtensions& extensions_;
+  const std::string& path_;
+  LoadContext& context_;
+  std::map<std::string, int> counts_;              // of collisions, by link
+  std::map<std::string, std::string> collisions_;  // final names
+};
+
+class ModelMaker {
+ public:
+  ModelMaker(const UrdfRobot& robot, GazeboExtensions extensions, LoadContext& context)
+      : robot_(robot), extensions_(std::move(extensions)), context_(context) {
+    std::set<std::string> kept = extensions_.preserved_joints;
+    kept.insert(extensions_.unlumped_joints.begin(), extensions_.unlumped_joints.end());
+    bodies_ = lump_fixed_joints(robot, kept, context);
+    for (const LumpedLink& body : bodies_) {
+      for (const LumpedPart& part : body.parts) places_.emplace(part.link->name, Place{&body, &part});
+    }
+    for (const UrdfJoint& joint : robot.joints) joints_.emplace(joint.name, &joint);
+  }
+
+  ModelDescription make() {
+    name_joints();
+    move_plugins();
+    XmlElement& content = extensions_.model;
+    content.set_attribute("name", robot_.name);
+    make_names_unique(content, "/" + robot_.name, context_);
+    const XmlElement all = with_frames(content);
+    const Frames frames({&all, model_kind()}, "/" + robot_.name, context_);
+    const SdfElement element(&content, model_kind());
+    ModelDescription model = read_model(element, frames, element.child("pose").as_pose(), context_);
+    model.source = robot_.source;
+    path_ = "/" + model.name;
+    add_links(model, frames, element.flag("enable_wind"));
+    add_joints(model, frames);
+    warn_of_unused();
+    return model;
+  }
+
+ private:
+  /// Where a link of the file is in the model.
+  struct Place {
+    const LumpedLink* body = nullptr;
+    const LumpedPart* part = nullptr;
+  };
+
+  bool is_simulated(const LumpedLink& body) const {
+    return body.joint != nullptr && body.joint->type != "floating" && body.joint->type != "planar";
+  }
+
+  /// In a model, joints do not have the names of links.
+  void name_joints() {
+    for (const LumpedLink& body : bodies_) {
+      if (!is_simulated(body)) continue;
+      std::string name = body.joint->name;
+      if (const auto place = places_.find(name); place != places_.end() && place->second.part->joint == nullptr) {
+        name += "_joint";
+        context_.warn(body.joint->place.source(), "/" + robot_.name + "/" + name,
+                      "renamed: a link has the name '" + body.joint->name + "'");
+      }
+      joint_names_.emplace(body.joint->name, name);
+    }
+  }
+
+  /// Plugins that name a lumped link get the link that it is a part of, with the offset of the place.
+  void move_plugins() {
+    for (XmlElement& plugin : extensions_.model.children) {
+      if (plugin.name != "plugin") continue;
+      for (const char* name : {"bodyName", "frameName"}) {
+        const std::string link = plugin.child_text(name);
+        const auto place = places_.find(link);
+        if (place == places_.end() || place->second.part->joint == nullptr) continue;  // it is no lumped link
+        replace_text(plugin, name, place->second.body->link().name);
+        move_offset(plugin, place->second.part->pose);
+      }
+    }
+  }
+
+  static void move_offset(XmlElement& plugin, const Pose& part) {
+    const auto vector_of = [&plugin](const char* name) {
+      std::vector<double> numbers;
+      read_numbers(plugin.child_text(name), numbers);
+      numbers.resize(3);
+      return Vector3(numbers[0], numbers[1], numbers[2]);
+    };
+    const Vector3 rpy = vector_of("rpyOffset");
+    const Pose offset = part * Pose(vector_of("xyzOffset"), from_rpy(rpy.x(), rpy.y(), rpy.z()));
+    const Vector3 turn = to_rpy(offset.orientation);
+    replace_text(plugin, "xyzOffset", write_numbers({offset.position.x(), offset.position.y(), offset.position.z()}));
+    replace_text(plugin, "rpyOffset", write_numbers({turn.x(), turn.y(), turn.z()}));
+    replace_text(plugin, "ignition::corrected_offsets", "1");
+  }
+
+  /// Puts a parameter behind the others.
+  static void replace_text(XmlElement& plugin, const std::string& name, const std::string& text) {
+    plugin.remove_children(name);
+    plugin.add_child(name, text);
+  }
+
+  /// The <model> in <gazebo> with all that poses and joints in it can refer to: links, lumped links and joints.
+  XmlElement with_frames(const XmlElement& content) const {
+    XmlElement all = content;
+    const auto add = [&all](const std::string& kind, const std::string& name, const std::string& link,
+                            const Pose& pose) {
+      XmlElement frame = named_element(kind, name, all);
+      if (kind == "frame") frame.set_attribute("attached_to", link);
+      frame.children.push_back(pose_element(pose, all));
+      all.children.push_back(std::move(frame));
+    };
+    for (const LumpedLink& body : bodies_) {
+      const std::string& link = body.link().name;
+      for (const LumpedPart& part : body.parts) {
+        if (part.joint == nullptr) add("link", link, link, body.pose);
+        if (part.joint != nullptr) add("frame", part.link->name, link, part.pose);
+        const UrdfJoint* joint = part.joint != nullptr ? part.joint : body.joint;
+        if (joint != nullptr) add("frame", name_of(*joint), link, part.pose);
+      }
+    }
+    return all;
+  }
+
+  std::string name_of(const UrdfJoint& joint) const {
+    const auto found = joint_names_.find(joint.name);
+    return found != joint_names_.end() ? found->second : joint.name;
+  }
+
+  /// Those of the file come before those that <gazebo> adds.
+  void add_links(ModelDescription& model, const Frames& frames, bool has_wind) {
+    std::vector<LinkDescription> links;
+    for (const LumpedLink& body : bodies_) {
+      const std::string path = path_ + "/" + body.link().name;
+      XmlElement element = LinkElement(body, extensions_, path, context_).make();
+      make_names_unique(element, path, context_);
+      LinkDescription link = read_link({&element, link_kind()}, frames, path_, model.is_static, context_);
+      if (element.child("enable_wind") == nullptr) link.wind_enabled = has_wind;
+      set_inertial(body.inertial, link);
+      if (!model.is_static) repair_inertia(link, path, context_);
+      links.push_back(std::move(link));
+    }
+    std::move(model.links.begin(), model.links.end(), std::back_inserter(links));
+    model.links = std::move(links);
+  }
+
+  static void set_inertial(const UrdfInertial& inertial, LinkDescription& link) {
+    const Matrix3& inertia = inertial.inertia;
+    link.mass = inertial.mass;
+    link.centre_of_mass = inertial.centre_of_mass;
+    link.inertia_diagonal = inertia.diagonal();
+    link.inertia_products = {inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+  }
+
+  void add_joints(ModelDescription& model, const Frames& frames) {
+    std::vector<JointDescription> joints;
+    for (const LumpedLink& body : bodies_) {
+      if (body.is_held) joints.push_back(holding(body));
+      if (is_simulated(body)) joints.push_back(joint_of(body, frames));
+      if (body.joint != nullptr && body.joint->type == "planar") {
+        context_.warn(body.joint->place.source(), path_ + "/" + body.joint->name,
+                      "planar joints are not simulated: its child moves freely");
+      }
+    }
+    std::move(model.joints.begin(), model.joints.end(), std::back_inserter(joints));
+    model.joints = std::move(joints);
+  }
+
+  static JointDescription holding(const LumpedLink& body) {
+    JointDescription joint;
+    joint.name = std::string(kUrdfWorld) + "_holds_" + body.link().name;
+    joint.type = "fixed";
+    joint.parent = kUrdfWorld;
+    joint.child = body.link().name;
+    joint.source = body.link().place.source();
+    return joint;
+  }
+
+  JointDescription joint_of(const LumpedLink& body, const Frames& frames) {
+    const UrdfJoint& joint = *body.joint;
+    XmlElement element = named_element("joint", name_of(joint), joint.place);
+    element.add_child("parent", body.parent);
+    element.add_child("child", body.link().name);
+    add_axis(joint, element);
+    if (const auto extension = extensions_.joints.find(joint.name); extension != extensions_.joints.end()) {
+      for (const XmlElement& child : extension->second.children) {
+        if (child.name != "axis") element.children.push_back(child);
+      }
+    }
+    make_names_unique(element, path_ + "/" + name_of(joint), context_);
+    JointDescription description = *read_joint({&element, joint_kind()}, frames, path_, context_);
+    if (!description.axes.empty()) description.axes.front().mimic = mimic_of(joint);
+    return description;
+  }
+
+  void add_axis(const UrdfJoint& joint, XmlElement& element) const {
+    element.set_attribute("type", joint.type == "continuous" ? "revolute" : joint.type);
+    XmlElement axis = joint.axis;
+    if (joint.type == "fixed") {
+      const bool stays = extensions_.preserved_joints.count(joint.name) > 0 || joint.parent == kUrdfWorld;
+      if (stays || extensions_.unlumped_joints.count(joint.name) == 0) return;
+      element.set_attribute("type", "revolute");
+      axis = named_element("axis", "", joint.place);
+      XmlElement& limit = axis.add_child("limit");
+      for (const char* side : {"lower", "upper"}) limit.add_child(side, "0");
+    }
+    const auto extension = extensions_.joints.find(joint.name);
+    const XmlElement* added = extension != extensions_.joints.end() ? extension->second.child("axis") : nullptr;
+    if (added != nullptr) merge(*added, axis, *joint_kind().child("axis"));
+    element.children.push_back(std::move(axis));
+  }
+
+  /// Empty when the leader does not move.
+  std::optional<MimicDescription> mimic_of(const UrdfJoint& joint) {
+    if (!joint.mimic) return std::nullopt;
+    MimicDescription mimic = *joint.mimic;
+    const auto leader = joints_.find(mimic.joint);
+    if (leader == joints_.end()) return mimic;  // the check reports it
+    const auto known = joint_names_.find(mimic.joint);
+    if (known != joint_names_.end() && leader->second->type != "fixed") {
+      mimic.joint = known->second;
+      return mimic;
+    }
+    context_.warn(joint.place.source(), path_ + "/" + name_of(joint),
+                  "mimics '" + mimic.joint + "', which does not move: the mimic is ignored");
+    return std::nullopt;
+  }
+
+  /// Warns about what the file has and the model has not.
+  void warn_of_unused() {
+    for (const LumpedLink& body : bodies_) {
+      for (const LumpedPart& part : body.parts) {
+        if (part.joint == nullptr) continue;
+        const auto extension = extensions_.joints.find(part.joint->name);
+        if (extension == extensions_.joints.end() || extension->second.child("sensor") == nullptr) continue;
+        context_.warn(extension->second.source(), path_ + "/" + part.joint->name,
+                      "<gazebo> is ignored: the joint is fixed and its links become one; keep the joint by "
+                      "<preserveFixedJoint>true</preserveFixedJoint>");
+      }
+    }
+    for (const UrdfLink& link : robot_.links) {
+      if (link.name != kUrdfWorld || (link.collisions.empty() && link.visuals.empty())) continue;
+      context_.warn(link.place.source(), path_ + "/" + link.name,
+                    "the shapes of the world are ignored: put them into a link");
+    }
+  }
+
+  const UrdfRobot& robot_;
+  GazeboExtensions extensions_;
+  LoadContext& context_;
+  std::string path_;
+  std::vector<LumpedLink> bodies_;
+  std::map<std::string, Place> places_;             // of the links in the file
+  std::map<std::string, const UrdfJoint*> joints_;  // of the file
+  std::map<std::string, std::string> joint_names_;  // of the simulated joints, by those in the file
+};
+
+}  // namespace
+
+ModelDescription read_urdf(const XmlElement& robot, LoadContext& context) {
+  const std::size_t known = context.problems().size();
+  const UrdfRobot read = read_robot(robot, context);
+  GazeboExtensions extensions = read_extensions(robot, read, context);
+  // Without its parts, a robot would have other problems, which would only hide the cause.
+  if (context.problems().size() > known) {
+    throw SceneError(std::move(context.problems()), std::move(context.warnings()));
+  }
+  ModelDescription model = ModelMaker(read, std::move(extensions), context).make();
+  model.transmissions = read.transmissions;
+  return model;
+}
+
+}  // namespace bubblesim
