@@ -108,11 +108,8 @@ void MulticopterVelocityControl::update(World& world, double, double) {
   const Axes now = axes_of(pose.orientation);
 
   const Vector3 error = pose.orientation * command_->linear - twist.linear;
-  Vector3 acceleration;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double most = description_.max_acceleration[i];
-    acceleration[i] = std::clamp(error[i] * description_.velocity_gain[i] / mass_, -most, most);
-  }
+  const Vector3& most = description_.max_acceleration;
+  const Vector3 acceleration = (error.cwiseProduct(description_.velocity_gain) / mass_).cwiseMin(most).cwiseMax(-most);
   const Vector3 force = (acceleration - world.gravity()) * mass_;
   if (force.squaredNorm() == 0) return;  // weightless and at the velocity: any attitude will do
 
