@@ -142,7 +142,8 @@ GeometryHandle make_box(const Box& box, const Pose& pose) {
   for (int corner = 0; corner < 8; ++corner) {
     const auto side = [corner](int axis) { return (corner >> axis & 1) != 0 ? 0.5 : -0.5; };
     const Vector3 place = pose * box.size.cwiseProduct(Vector3(side(0), side(1), side(2)));
-    for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
+    Eigen::Vector3f::Map(vertex) = place.cast<float>();
+    vertex += 3;
   }
   constexpr std::array<unsigned, 24> kFaces = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
   auto* index = static_cast<unsigned*>(
@@ -159,7 +160,8 @@ GeometryHandle make_mesh(const TriangleMesh& mesh, const Pose& pose) {
   check_embree();
   for (const TriangleMesh::Point& point : mesh.vertices) {
     const Vector3 place = pose * Vector3(point[0], point[1], point[2]);
-    for (std::size_t axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(place[axis]);
+    Eigen::Vector3f::Map(vertex) = place.cast<float>();
+    vertex += 3;
   }
   auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
       geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));

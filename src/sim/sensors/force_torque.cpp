@@ -15,10 +15,8 @@ class ForceTorque final : public Sensor {
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     const Wrench wrench = moment.world.sensor_wrench(id_);
     ForceTorqueReading reading{wrench.force, wrench.torque};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      distort(reading.force[axis], description_.force_noise[axis], moment, id_, axis);
-      distort(reading.torque[axis], description_.torque_noise[axis], moment, id_, 3 + axis);
-    }
+    distort(reading.force, description_.force_noise, moment, id_, 0);
+    distort(reading.torque, description_.torque_noise, moment, id_, 3);
     measurement = reading;
   }
 

@@ -18,10 +18,8 @@ class Imu final : public Sensor {
     const Inertial motion = world.sensor_motion(id_);
     reading.angular_velocity = motion.angular_velocity;
     reading.linear_acceleration = motion.specific_force;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      distort(reading.angular_velocity[axis], description_.angular_velocity_noise[axis], moment, id_, axis);
-      distort(reading.linear_acceleration[axis], description_.linear_acceleration_noise[axis], moment, id_, 3 + axis);
-    }
+    distort(reading.angular_velocity, description_.angular_velocity_noise, moment, id_, 0);
+    distort(reading.linear_acceleration, description_.linear_acceleration_noise, moment, id_, 3);
     measurement = reading;
   }
 

@@ -14,9 +14,7 @@ class Magnetometer final : public Sensor {
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     MagnetometerReading reading{moment.world.pose(id_).orientation.conjugate() * field_};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      distort(reading.field[axis], description_.field_noise[axis], moment, id_, axis);
-    }
+    distort(reading.field, description_.field_noise, moment, id_, 0);
     measurement = reading;
   }
 

@@ -22,21 +22,16 @@ class NavSat final : public Sensor {
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
     Vector3 place = to_east_north_up_ * moment.world.pose(id_).position;
     Vector3 velocity = to_east_north_up_ * moment.world.velocity(id_).linear;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool vertical = axis == 2;
-      const auto& of_place = vertical ? description_.vertical_position_noise : description_.horizontal_position_noise;
-      const auto& of_velocity =
-          vertical ? description_.vertical_velocity_noise : description_.horizontal_velocity_noise;
-      distort(place[axis], of_place, moment, id_, axis);
-      distort(velocity[axis], of_velocity, moment, id_, 3 + axis);
-    }
+    const NavSatDescription& d = description_;
+    distort(place, {d.horizontal_position_noise, d.horizontal_position_noise, d.vertical_position_noise}, moment, id_,
+            0);
+    distort(velocity, {d.horizontal_velocity_noise, d.horizontal_velocity_noise, d.vertical_velocity_noise}, moment,
+            id_, 3);
     NavSatReading reading;
     std::vector<double> turn(9);  // row-major, from east, north, up at this position to those at the origin
     earth_.Reverse(place.x(), place.y(), place.z(), reading.latitude, reading.longitude, reading.altitude, turn);
     // East, north and up at this position differ from those at the origin, because the Earth is round.
-    for (std::size_t row = 0; row < 3; ++row) {
-      reading.velocity[row] = turn[row] * velocity.x() + turn[3 + row] * velocity.y() + turn[6 + row] * velocity.z();
-    }
+    reading.velocity = Eigen::Map<const Matrix3>(turn.data()) * velocity;  // its columns are the rows: the inverse
     measurement = reading;
   }
 

@@ -83,4 +83,12 @@ void distort(double& value, const NoiseDescription& description, const Measureme
   if (noise.active()) value = noise(value);
 }
 
+void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& moment,
+             ObjectId sensor, std::uint64_t first_channel) {
+  double* component = value.data();
+  for (const NoiseDescription& description : descriptions) {
+    distort(*component++, description, moment, sensor, first_channel++);
+  }
+}
+
 }  // namespace bubblesim

@@ -3,6 +3,7 @@
 // a reading does not depend on other readings.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "bubblesim/sensor.hpp"
@@ -45,5 +46,8 @@ class Noise {
 /// Adds noise to the single value of a measurement.
 void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
              std::uint64_t channel);
+/// Likewise to the components of a vector, whose channels follow each other.
+void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& moment,
+             ObjectId sensor, std::uint64_t first_channel);
 
 }  // namespace bubblesim

@@ -70,7 +70,7 @@ TEST_F(Wrenches, TorqueAboutAPrincipalAxisTurnsAboutIt) {
   for (int axis = 0; axis < 3; ++axis) {
     world.reset();
     Vector3 torque;
-    torque[static_cast<std::size_t>(axis)] = 0.4;
+    torque[axis] = 0.4;
     const Vector3 in_world = world.pose(body).orientation * torque;
     for (int i = 0; i < 10; ++i) {
       world.apply_wrench(body, {{}, torque}, {}, WrenchFrame::kObject);

@@ -138,7 +138,7 @@ class ReferencePicture {
     if (material.texture != nullptr && has_place) return texel(*material.texture, hit.texture);
     if (material.checker_size <= 0) return rgb(material.diffuse);
     double squares = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
       squares += std::floor(hit.inside[axis] / material.checker_size + 5e-7);
     }
     return rgb(std::fmod(squares, 2) == 0 ? material.diffuse : material.checker_color);

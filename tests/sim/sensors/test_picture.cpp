@@ -139,7 +139,7 @@ constexpr std::array<std::array<double, 2>, 9> kTries = {{{0, 0},
                                                           {-kBeside, -kBeside}}};
 
 bool same_color(const Vector3& expected, const std::uint8_t* found) {
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const double level = std::round(255 * std::clamp(expected[i], 0.0, 1.0));
     if (std::abs(level - found[i]) > 1) return false;
   }
