@@ -9,6 +9,7 @@
 #include "load/file_text.hpp"
 #include "load/find/model_folders.hpp"
 #include "load/sdf/check_values.hpp"
+#include "load/sdf/sdf_element.hpp"
 #include "load/sdf/unique_names.hpp"
 #include "load/sdf/upgrade.hpp"
 #include "load/urdf/urdf_model.hpp"
@@ -59,12 +60,16 @@ const XmlElement* included_part(const XmlElement& root) {
   return nullptr;
 }
 
+/// The attributes that an <include> gives to a model.
+void set_attributes_by(const XmlElement& include, XmlElement& model) {
+  for (const char* name : {"name", "placement_frame"}) {
+    if (!include.child_text(name).empty()) model.set_attribute(name, include.child_text(name));
+  }
+}
+
 /// What an <include> changes of a model.
 void override_by(const XmlElement& include, XmlElement& model) {
-  if (!include.child_text("name").empty()) model.set_attribute("name", include.child_text("name"));
-  if (!include.child_text("placement_frame").empty()) {
-    model.set_attribute("placement_frame", include.child_text("placement_frame"));
-  }
+  set_attributes_by(include, model);
   for (const XmlElement& child : include.children) {
     if (child.name == "plugin") model.children.push_back(child);
     if (child.name == "pose" || child.name == "static" || is_own_element(child.name)) model.replace_child(child);
@@ -95,6 +100,10 @@ void Documents::prepare(XmlElement& sdf) {
 }
 
 void Documents::expand_includes(XmlElement& parent, const std::string& path) {
+  const auto has_models = [](const XmlElement& child) {
+    return child.name == "world" || child.name == "model" || child.name == "include";
+  };
+  if (std::none_of(parent.children.begin(), parent.children.end(), has_models)) return;  // most models
   std::vector<XmlElement> expanded;
   std::vector<Source> places;
   for (XmlElement& child : parent.children) {
@@ -122,17 +131,14 @@ void Documents::expand(const XmlElement& include, std::vector<XmlElement>& into)
   }
   if (found->model.name == "robot") {
     XmlElement robot = include;
-    robot.set_attribute("name",
-                        include.child_text("name").empty() ? found->model.given_name() : include.child_text("name"));
-    if (!include.child_text("placement_frame").empty()) {
-      robot.set_attribute("placement_frame", include.child_text("placement_frame"));
-    }
+    robot.set_attribute("name", found->model.given_name());
+    set_attributes_by(include, robot);
     robot.child("uri")->text = *found->model.file;
     into.push_back(std::move(robot));
     return;
   }
   const std::string* merges = include.attribute("merge");
-  if (merges != nullptr && (*merges == "true" || *merges == "1")) return merge(include, found->model, into);
+  if (merges != nullptr && is_true(*merges)) return merge(include, found->model, into);
   into.push_back(found->model);
   override_by(include, into.back());
 }

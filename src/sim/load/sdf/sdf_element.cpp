@@ -67,7 +67,7 @@ const std::string& SdfElement::as_text() const { return xml_ != nullptr ? xml_->
 
 double SdfElement::as_number() const { return numbers_of<1>(*this)[0]; }
 
-bool SdfElement::as_flag() const { return as_text() == "true" || as_text() == "1"; }
+bool SdfElement::as_flag() const { return is_true(as_text()); }
 
 Vector3 SdfElement::as_vector() const {
   const auto [x, y, z] = numbers_of<3>(*this);
@@ -92,9 +92,11 @@ Pose SdfElement::as_pose() const {
     return {{x, y, z}, rotation.norm() > 0 ? Quaternion(rotation.normalized()) : Quaternion()};
   }
   const std::string* degrees = xml_ != nullptr ? xml_->attribute("degrees") : nullptr;
-  const double unit = degrees != nullptr && (*degrees == "true" || *degrees == "1") ? M_PI / 180 : 1;
+  const double unit = degrees != nullptr && is_true(*degrees) ? M_PI / 180 : 1;
   return {x, y, z, a * unit, b * unit, c * unit};
 }
+
+bool is_true(std::string_view text) { return text == "true" || text == "1"; }
 
 bool read_numbers(std::string_view text, std::vector<double>& numbers) {
   const std::string buffer(text);

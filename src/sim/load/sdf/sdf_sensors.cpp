@@ -158,7 +158,7 @@ class KindReader {
     description.color = !is_depth_only || sensor_.has("plugin");
     description.noise = read_noise(camera.child("noise"));
     const std::string antialias = own_text(camera, "bubblesim:antialias").value_or("false");
-    description.antialias = antialias == "true" || antialias == "1";
+    description.antialias = is_true(antialias);
     if (!description.antialias && antialias != "false" && antialias != "0") {
       report(camera.source("bubblesim:antialias"),
              "<bubblesim:antialias> is '" + antialias + "', it must be true or false");

@@ -52,8 +52,7 @@ void fit_time_step(SceneDescription& scene) {
 /// The <physics> that is the default, or the first one.
 SdfElement default_physics(const SdfElement& world) {
   for (const SdfElement& physics : world.children("physics")) {
-    const std::string is_default = physics.attribute("default");
-    if (is_default == "true" || is_default == "1") return physics;
+    if (is_true(physics.attribute("default"))) return physics;
   }
   return world.child("physics");
 }

@@ -103,16 +103,13 @@ void number_models(std::vector<XmlElement>& children, const std::vector<Source>&
 
 void make_names_unique(XmlElement& owner, const std::string& path, LoadContext& context) {
   name_nameless(owner, path, context);
-  if (owner.name == "world" || owner.name == "model") {
-    keep_first_lights(owner, path, context);
-  }
+  if (owner.name != "sdf") keep_first_lights(owner, path, context);
   if (owner.name == "model") {
     number(owner, path, "joint", context);
     rename_joints_and_frames(owner, path, context);
   }
   if (owner.name == "link" || owner.name == "joint") {
     for (const char* kind : {"collision", "visual", "sensor"}) number(owner, path, kind, context);
-    keep_first_lights(owner, path, context);
   }
   for (XmlElement& child : owner.children) {
     if (child.name == "world") make_names_unique(child, path, context);
