@@ -76,11 +76,11 @@ MulticopterVelocityControl::MulticopterVelocityControl(const World& world,
     : description_(description), rotors_(std::move(rotors)) {
   check_pushable(world, description_.link);
   for (const Vector3& gains : {description_.velocity_gain, description_.attitude_gain, description_.rate_gain}) {
-    if (within(gains, kMaxEffort) && gains.minCoeff() >= 0) continue;
+    if (within(gains, kMaxEffort) && (gains.array() >= 0).all()) continue;
     throw InvalidInput(world.tree().short_path(description_.link) + ": the gains " + text(gains) +
                        " are not usable: each must be from 0 to 1e9");
   }
-  if (!(description_.max_acceleration.minCoeff() >= 0)) {
+  if (!(description_.max_acceleration.array() >= 0).all()) {
     throw InvalidInput(world.tree().short_path(description_.link) + ": the greatest acceleration " +
                        text(description_.max_acceleration) + " m/s^2 is not usable: it must be 0 or more");
   }

@@ -28,9 +28,11 @@ Vector3 to_rpy(const Quaternion& rotation) {
 }
 
 Quaternion turn_from_z(const Vector3& direction) {
-  // Eigen turns to the opposite direction about any axis across z.
-  if (direction.normalized().z() < -1 + 1e-12) return {0, 1, 0, 0};
-  return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), direction)).normalized();
+  const Vector3 to = direction.normalized();
+  if (to.z() < -1 + 1e-12) return {0, 1, 0, 0};
+  // Half of the angle between them, about the cross product of both.
+  const double twice_cosine = std::sqrt((1 + to.z()) * 2);
+  return Quaternion(twice_cosine / 2, -to.y() / twice_cosine, to.x() / twice_cosine, 0).normalized();
 }
 
 }  // namespace bubblesim

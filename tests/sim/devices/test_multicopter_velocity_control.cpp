@@ -115,6 +115,9 @@ TEST_F(X3, InvalidParametersAreRefused) {
   VelocityControlDescription bad = gains;
   bad.attitude_gain = {-1, 0, 0};
   EXPECT_THROW(MulticopterVelocityControl(world, bad, rotors), InvalidInput);
+  VelocityControlDescription endless = gains;
+  endless.max_acceleration.y() = kNaN;
+  EXPECT_THROW(MulticopterVelocityControl(world, endless, rotors), InvalidInput);
   EXPECT_THROW(MulticopterVelocityControl(world, gains, {rotors[0], rotors[1]}), InvalidInput);
 }
 
