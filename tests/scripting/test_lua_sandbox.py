@@ -12,8 +12,10 @@ from node_support import Node, run_script, write
 from ros_support import RosCore, built
 
 
-def launch(folder: Path, program: object, *options: object, name: str = "script.lua") -> tuple[int, str]:
-    code = f"function sysCall_init()\n  print(pcall(sim.launchExecutable, '{program}', '--help'))\nend\n"
+def launch(
+    folder: Path, program: object, *options: object, name: str = "script.lua", arguments: str = "--help"
+) -> tuple[int, str]:
+    code = f"function sysCall_init()\n  print(pcall(sim.launchExecutable, '{program}', '{arguments}'))\nend\n"
     if name.endswith(".py"):
         code = f"def sysCall_init():\n    sim.launchExecutable('{program}', '-c true')\n"
     run = run_script(folder, code, *options, name=name)
@@ -30,7 +32,7 @@ def program_in(folder: Path) -> Path:
 @pytest.mark.parametrize("program", ["sh", "/bin/sh", "../../../../../../../bin/sh", "rosrun"])
 def test_a_script_in_lua_starts_no_program_of_the_machine(tmp_path: Path, program: str) -> None:
     _, output = launch(tmp_path, program)
-    assert "a Lua script must not start /" in output or "not found in" in output
+    assert "must not start /" in output or "not found in" in output
     assert "true" not in output
 
 
@@ -39,23 +41,48 @@ def test_the_refusal_names_the_option(tmp_path: Path) -> None:
     assert f"node's option --allow-programs {shell}" in launch(tmp_path, "sh")[1]
 
 
-def test_a_script_in_lua_starts_programs_of_this_package(tmp_path: Path) -> None:
+def test_a_script_in_lua_starts_listed_programs_of_this_package(tmp_path: Path) -> None:
     output = launch(tmp_path, "rosBubbleRob")[1]
     assert any(line.startswith("true\t") for line in output.splitlines())  # perhaps after what the program prints
 
 
-def test_a_script_in_lua_starts_programs_of_ros_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("program", ["sim", "bubblesim", "add_message", "map_server", "/usr/lib/rosbag/record"])
+def test_a_script_in_lua_starts_no_program_that_widens_its_rights(tmp_path: Path, program: str) -> None:
+    assert "must not start /" in launch(tmp_path, program)[1]
+
+
+def test_a_package_lists_the_programs_for_scripts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     installed = program_in(tmp_path / "space" / "lib" / "robot")
     (tmp_path / "space" / "share" / "robot").mkdir(parents=True)
     source = program_in(tmp_path / "src" / "robot" / "scripts")
-    for program in (installed, source):
-        assert "must not start" in launch(tmp_path, program)[1]
-    (tmp_path / "space" / "share" / "robot" / "package.xml").touch()
-    (tmp_path / "src" / "robot" / "package.xml").touch()
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path / "space"), prepend=":")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"), prepend=":")
-    for program in (installed, source):
-        assert launch(tmp_path, program)[1].startswith("true\t")
+    for package, starts in (
+        ("<package/>", False),
+        ('<package><export><bubblesim programs="other"/></export></package>', False),
+        ("not XML", False),
+        ('<package><export><bubblesim programs="other program"/></export></package>', True),
+    ):
+        (tmp_path / "space" / "share" / "robot" / "package.xml").write_text(package)
+        (tmp_path / "src" / "robot" / "package.xml").write_text(package)
+        for program in (installed, source):
+            assert launch(tmp_path, program)[1].startswith("true\t" if starts else "false\t"), package
+
+
+def test_a_script_in_lua_names_no_log_file_of_a_ros_program(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    output = launch(tmp_path, "tricycle_avoid.py", arguments=f"__log:={log}")[1]
+    assert f"must not pass __log:={log}" in output
+    assert "must not pass" not in launch(tmp_path, "tricycle_avoid.py", arguments="__name:=avoider --help")[1]
+
+
+def test_a_script_in_lua_has_a_limited_number_of_programs(tmp_path: Path) -> None:
+    code = (
+        "function sysCall_init()\n  for i = 1, 64 do sim.launchExecutable('sleep', '30') end\n"
+        "  print(pcall(sim.launchExecutable, 'sleep', '30'))\nend\n"
+    )
+    run = run_script(tmp_path, code, "--allow-programs", "sleep", name="script.lua")
+    assert "already runs 64 programs" in run.stdout
 
 
 def test_the_user_allows_programs_and_folders(tmp_path: Path) -> None:

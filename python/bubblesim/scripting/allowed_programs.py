@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The programs that scripts can start, and the restriction to allowed programs."""
+"""The programs that scripts can start, and those that confined scripts and remote clients may start."""
 
 from __future__ import annotations
 
 import os
+import re
 import shutil
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from pathlib import Path
+
+_OWN_SOURCE = Path(__file__).resolve().parents[3]
+_RENAMING = re.compile(r"__(name|ns):=")
+_SPECIAL = re.compile(r"__\w+:=")
 
 
 def find_program(file: str) -> Path:
@@ -27,23 +33,27 @@ def find_program(file: str) -> Path:
 
 
 def is_allowed(program: Path, allowed: Sequence[str]) -> bool:
-    """Return whether a program belongs to a ROS package, including this one, or is in ``allowed``.
+    """Return whether a program is in ``allowed``, or its ROS package allows it.
+
+    A package allows the programs that its package.xml lists: ``<export><bubblesim programs="NAME NAME"/></export>``.
 
     :param allowed: programs by name or path, and folders with programs.
     """
     place = program.parent.resolve() / program.name  # keep a link itself: builds link programs
-    if place.parent in [folder.resolve() for folder in _own_folders()]:
+    if any(_covers(each, place) for each in allowed):
         return True
-    return (
-        any(_covers(each, place) for each in allowed)
-        or any(_has_installed(prefix, place) for prefix in _prefixes())
-        or any(_has_source(folder, place) for folder in _folders_in("ROS_PACKAGE_PATH"))
-    )
+    manifest = _manifest_of(place)
+    return manifest is not None and place.name in _listed_programs(manifest)
+
+
+def refused_argument(arguments: Sequence[str]) -> str | None:
+    """Return the argument that a confined caller must not pass: it lets a ROS program write files or open ports."""
+    return next((each for each in arguments if _SPECIAL.match(each) and not _RENAMING.match(each)), None)
 
 
 def _own_folders() -> list[Path]:
     # In a devel or install space, next to the simulator's program; in the source tree, in scripts/.
-    return [Path("/proc/self/exe").resolve().parent, Path(__file__).resolve().parents[3] / "scripts"]
+    return [Path("/proc/self/exe").resolve().parent, _OWN_SOURCE / "scripts"]
 
 
 def _prefixes() -> list[Path]:
@@ -55,15 +65,24 @@ def _folders_in(variable: str) -> list[Path]:
     return [Path(folder).resolve() for folder in os.environ.get(variable, "").split(":") if folder]
 
 
-def _has_source(folder: Path, program: Path) -> bool:
-    """Return whether a program is in the source of a package below a folder, as Python programs are."""
-    return any(place.is_relative_to(folder) and (place / "package.xml").is_file() for place in program.parents)
-
-
-def _has_installed(prefix: Path, program: Path) -> bool:
-    """Return whether a program is in the folder of installed programs of a ROS package: PREFIX/lib/PACKAGE."""
+def _manifest_of(program: Path) -> Path | None:
+    """Return the package.xml of the ROS package that a program belongs to; None for other programs."""
     package = program.parent.name
-    return program.parent == prefix / "lib" / package and (prefix / "share" / package / "package.xml").is_file()
+    candidates = [prefix / "share" / package for prefix in _prefixes() if program.parent == prefix / "lib" / package]
+    if program.parent in [folder.resolve() for folder in _own_folders()]:
+        candidates.append(_OWN_SOURCE)  # a devel space has no package.xml
+    sources = _folders_in("ROS_PACKAGE_PATH")
+    candidates += [place for place in program.parents if any(place.is_relative_to(folder) for folder in sources)]
+    return next((place / "package.xml" for place in candidates if (place / "package.xml").is_file()), None)
+
+
+def _listed_programs(manifest: Path) -> set[str]:
+    """Return the programs that a package.xml allows; none if it cannot be read."""
+    try:
+        exports = ElementTree.parse(manifest).iterfind("export/bubblesim")
+        return {name for export in exports for name in export.get("programs", "").split()}
+    except (OSError, ElementTree.ParseError):
+        return set()
 
 
 def _covers(allowed: str, program: Path) -> bool:

@@ -6,8 +6,10 @@ from __future__ import annotations
 import shlex
 import subprocess
 
-from bubblesim.scripting.allowed_programs import find_program
+from bubblesim.scripting.allowed_programs import find_program, refused_argument
 from bubblesim.scripting.api.sim.context import ApiContext
+
+_MOST_RUNNING = 64  # programs of one caller
 
 
 class ProgramFunctions(ApiContext):
@@ -16,17 +18,25 @@ class ProgramFunctions(ApiContext):
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
         """Start a program of this package or on PATH; ``arguments`` is split as in a shell.
 
-        Returns its process id. A Lua script can start programs of ROS packages, and those given by the node's option
-        --allow-programs; for others it raises a PermissionError.
+        Returns its process id. A Lua script or a remote client can start the programs that the package.xml of their
+        ROS package lists, and those given by the node's option --allow-programs; for others it raises a
+        PermissionError.
         """
+        caller = self._caller
         program = find_program(file)
-        if not self._caller.may_start(program):
+        words = shlex.split(arguments)
+        if not caller.may_start(program):
             raise PermissionError(
-                f"a Lua script must not start {program}, which is not part of a ROS package of the workspace; "
-                f"allow it with the node's option --allow-programs {program}"
+                f"{caller.object_path} must not start {program}, which no ROS package lists for scripts; allow it with "
+                f"the node's option --allow-programs {program}, or in the package.xml of its package: "
+                f'<export><bubblesim programs="{program.name}"/></export>'
             )
-        process = subprocess.Popen([str(program), *shlex.split(arguments)], process_group=0)
-        self._caller.programs.append(process)
+        if not caller.may_use_files and (refused := refused_argument(words)):
+            raise PermissionError(f"{caller.object_path} must not pass {refused}: it can write files or open ports")
+        if sum(each.poll() is None for each in caller.programs) >= _MOST_RUNNING:
+            raise RuntimeError(f"{caller.object_path} already runs {_MOST_RUNNING} programs, the most for one script")
+        process = subprocess.Popen([str(program), *words], process_group=0)
+        caller.programs.append(process)
         return process.pid
 
     def getModuleName(self, index: int) -> str | None:
