@@ -35,7 +35,12 @@ def main() -> int:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the server."""
-    parser.add_argument("--door", metavar="PORT", type=int, default=23000, help="port of the node's --remote")
+    parser.add_argument(
+        "--door",
+        metavar="PORT_OR_PATH",
+        default="23000",
+        help="port of the node's --remote on this machine (default 23000), or path of its socket",
+    )
     parser.add_argument("--port", type=int, help=f"port of the page (default: {PORT}, or the next free one)")
     parser.add_argument(
         "--address",
@@ -63,7 +68,7 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         loop.add_signal_handler(number, ending.set)
     if options.until_closed is not None:  # by the end of the program that has started this
         loop.add_reader(options.until_closed, ending.set)
-    hub = Hub(f"tcp://127.0.0.1:{options.door}")
+    hub = Hub(_door_address(options.door))
     application = web.Application()
     runner = web.AppRunner(application, access_log=None)
     access = Access(options.address, token=options.token)
@@ -102,6 +107,11 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     recording.close()
     await runner.cleanup()
     await hub.close()
+
+
+def _door_address(door: str) -> str:
+    """Return the ZeroMQ address of a port of this machine, or of the path of a socket."""
+    return f"tcp://127.0.0.1:{door}" if door.isdigit() else f"ipc://{Path(door).absolute()}"
 
 
 async def _listen(runner: web.AppRunner, address: str, ports: list[int]) -> int:
