@@ -17,7 +17,7 @@ run_sanitizers() {
       -DBUBBLESIM_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1 -Wno-tsan" \
       -DBUBBLESIM_VIRTUAL_ENV="$root/.ws/venv" > "$build.log" 2>&1 || { cat "$build.log"; return 1; }
     cmake --build "$build" -j "$(nproc)" >> "$build.log" 2>&1 || { tail -n 50 "$build.log"; return 1; }
-    for program in "$build"/tests/sim/test_*; do
+    for program in "$build"/tests/{codec,sim}/test_*; do
       [[ -f $program && -x $program ]] || continue
       echo "[sanitize] $kind: $(basename "$program")"
       # ThreadSanitizer needs addresses that are not randomised; the path must not lead to the workspace's libraries.

@@ -10,8 +10,7 @@
 
 namespace bubblesim::bindings {
 
-/// Raises ValueError for what is not one such value, and for more than a stranger's request may cost: 32 levels, four
-/// million values.
+/// Raises ValueError for what is not one such value, and for more than a stranger's request may cost: see check_cbor.
 pybind11::object cbor_decode(const pybind11::bytes& data);
 
 /// Arrays of numpy become bytes and its numbers become numbers; raises TypeError for values of other types.

@@ -29,7 +29,7 @@ def refusal(data: bytes) -> str:
 @given(st.lists(VALUES, max_size=4))
 def test_arguments_arrive_as_they_were(arguments: list[object]) -> None:
     request = protocol.decode(cbor2.dumps({"func": "sim.f", "args": arguments, "argsL": len(arguments), "uuid": "u"}))
-    assert request == protocol.Request("sim.f", arguments, "u", None)
+    assert (request.function, request.arguments, request.uuid) == ("sim.f", arguments, "u")
 
 
 @AT_LEISURE
@@ -76,7 +76,7 @@ def test_a_refusal_says_why(message: object, reason: str) -> None:
 
 def test_a_large_message_is_refused_or_decoded_quickly() -> None:
     assert "at most" in refusal(bytes(protocol.MOST_BYTES + 1))
-    assert "four million" in refusal(b"\x9a\x00\x50\x00\x00" + b"\x00" * 0x500000)
+    assert "200,000 values" in refusal(b"\x9a\x00\x50\x00\x00" + b"\x00" * 0x500000)
     big = protocol.decode(cbor2.dumps({"func": "f", "args": [bytes(60_000_000)], "uuid": "u"}))
     assert len(big.arguments[0]) == 60_000_000
 
