@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drawing objects of scripts: the items that viewers get."""
 
+import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from bubblesim.scripting.drawings import Drawings, Style
 from node_support import run_script
 
 HEADER = """
@@ -180,3 +183,27 @@ def test_drawings_end_with_their_script(tmp_path: Path, ending: str) -> None:
     code = "def sysCall_init(): pass\ndef sysCall_sensing(): print(len(sim.getDrawings()['handles']))\n"
     run = run_script(tmp_path, code, "--child-script", f"/Ball={ball}", scene="ball", target="/Ball/link")
     assert run.stdout.split() == ["1", "1", "0", "0"]
+
+
+def test_an_item_near_another_one_is_found_wherever_it_is() -> None:
+    random = np.random.default_rng(1)
+    drawings = Drawings()
+    drawing = drawings.create(0, Style("points", cyclic=True), capacity=200, tolerance=0.1)
+    kept: list[list[float]] = []
+    for place in random.uniform(-0.5, 0.5, (3000, 3)).tolist():
+        is_near = any(math.dist(place, other) < 0.1 for other in kept)
+        assert drawings.add_item(drawing.handle, place) is not is_near
+        kept = kept if is_near else [*kept, place][-200:]
+    np.testing.assert_allclose(drawing.items(), kept, atol=1e-6)
+
+
+def test_the_numbers_of_all_drawings_have_a_limit() -> None:
+    drawings = Drawings()
+    style = Style("triangles", colours=9, has_sizes=True, has_transparencies=True)
+    full, other = (drawings.create(0, style, capacity=1_000_000).handle for _ in range(2))
+    for _ in range(500_000):
+        drawings.add_item(full, [0.0] * 20)
+    with pytest.raises(ValueError, match="at most 10000000 numbers: remove some items"):
+        drawings.add_item(other, [0.0] * 20)
+    drawings.clear_items(full)
+    assert drawings.add_item(other, [0.0] * 20)

@@ -14,6 +14,7 @@ from bubblesim.scripting.graphs import Graphs
 from bubblesim.scripting.log import Log
 from bubblesim.scripting.object_collections import Collections
 from bubblesim.scripting.scene_edits import SceneEdits
+from bubblesim.scripting.stored_values import StoredValues
 
 Hook = Callable[[], object]
 
@@ -59,11 +60,11 @@ class SharedData:
     log: Log = field(default_factory=Log)
     collections: Collections = field(default_factory=Collections)
     edits: SceneEdits = field(default_factory=SceneEdits)
-    custom_data: dict[tuple[int, str], Any] = field(default_factory=dict)
+    custom_data: StoredValues[tuple[int, str]] = field(default_factory=lambda: StoredValues("custom data"))
     """By object, -12 for the scene, and name; stays after a stop."""
-    settings: dict[tuple[type, int | str], Any] = field(default_factory=dict)
+    settings: StoredValues[tuple[type, int | str]] = field(default_factory=lambda: StoredValues("parameters"))
     """Parameters that only store their value, by kind and number or name; stay after a stop."""
-    signals: dict[tuple[type, str], Any] = field(default_factory=dict)
+    signals: StoredValues[tuple[type, str]] = field(default_factory=lambda: StoredValues("signals"))
     """By kind and name."""
     cleared_scans: dict[str, float] = field(default_factory=dict)
     """Time of the last measurement, s, when a lidar's signal was cleared, by the signal's name."""

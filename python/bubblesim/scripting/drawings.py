@@ -7,6 +7,8 @@ else in the world; quaternions x, y, z, w; colours red, green, blue from 0 to 1.
 
 from __future__ import annotations
 
+import itertools
+import math
 from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -20,6 +22,10 @@ KINDS = ("points", "lines", "linestrip", "triangles", "triangle", "quad", "disc"
 
 _COORDINATES = {"points": 3, "lines": 6, "linestrip": 3, "triangles": 9, "sphere": 3}  # 7 of all others: a pose
 _MOST = 10_000  # drawings of a scene
+_MOST_VALUES = 10_000_000  # of all items of a scene
+_AROUND = tuple(itertools.product((-1.0, 0.0, 1.0), repeat=3))
+
+_Cell = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -76,6 +82,13 @@ class Drawing:
     _rows: array[float] = field(default_factory=lambda: array("f"))
     _revisions: array[int] = field(default_factory=lambda: array("q"))  # of the additions, rising
     _dropped: int = 0  # number of the first item in _rows
+    _cells: dict[_Cell, list[int]] = field(default_factory=dict)
+    """Numbers of items by the cell of a grid, as wide as the tolerance, that they are in; without a tolerance none."""
+
+    @property
+    def stored_values(self) -> int:
+        """Return the number of values in memory."""
+        return len(self._rows)
 
     @property
     def end(self) -> int:
@@ -93,6 +106,8 @@ class Drawing:
         full = self.end - self.first >= self.capacity
         if (full and not self.style.cyclic) or self._has_item_at(values[:3]):
             return False
+        if self.tolerance > 0.0:
+            self._cells.setdefault(self._cell(values), []).append(self.end)
         self._rows.extend(values)
         self._revisions.append(revision)
         if full:
@@ -115,12 +130,25 @@ class Drawing:
         del self._rows[: count * self.style.values]
         del self._revisions[:count]
         self._dropped = self.first
+        kept = {cell: [each for each in numbers if each >= self.first] for cell, numbers in self._cells.items()}
+        self._cells = {cell: numbers for cell, numbers in kept.items() if numbers}
 
     def _has_item_at(self, place: Sequence[float]) -> bool:
-        if self.tolerance <= 0.0 or self.end == self.first:
+        if self.tolerance <= 0.0:
             return False
-        offsets = self.items()[:, :3] - np.asarray(place, dtype=np.float32)
-        return bool((np.einsum("ij,ij->i", offsets, offsets) < self.tolerance**2).any())
+        x, y, z = self._cell(place)
+        near = (self._cells.get((x + dx, y + dy, z + dz), ()) for dx, dy, dz in _AROUND)
+        return any(
+            number >= self.first and math.dist(self._place(number), place) < self.tolerance
+            for number in itertools.chain.from_iterable(near)
+        )
+
+    def _cell(self, place: Sequence[float]) -> _Cell:
+        return place[0] // self.tolerance, place[1] // self.tolerance, place[2] // self.tolerance
+
+    def _place(self, number: int) -> array[float]:
+        begin = (number - self._dropped) * self.style.values
+        return self._rows[begin : begin + 3]
 
 
 class Drawings:
@@ -132,6 +160,7 @@ class Drawings:
         self.revision = 0
         """Rises with each change."""
         self._created = 0
+        self._values = 0  # of all items
 
     def create(
         self,
@@ -155,8 +184,12 @@ class Drawings:
     def add_item(self, handle: int, values: Sequence[float]) -> bool:
         """Add an item to a drawing; see Drawing.add."""
         drawing = self.by_handle[handle]
+        if self._values >= _MOST_VALUES:
+            raise ValueError(f"the drawing objects of a scene have at most {_MOST_VALUES} numbers: remove some items")
+        before = drawing.stored_values
         if not drawing.add(values, self.revision + 1):
             return False
+        self._values += drawing.stored_values - before
         self.revision += 1
         drawing.changed = self.revision
         return True
@@ -165,12 +198,15 @@ class Drawings:
         """Remove all items of a drawing."""
         self.revision += 1
         drawing = self.by_handle[handle]
+        self._values -= drawing.stored_values
         drawing.clear()
         drawing.changed = self.revision
 
     def remove(self, handle: int) -> None:
         """Remove a drawing if it is there."""
-        if self.by_handle.pop(handle, None) is not None:
+        drawing = self.by_handle.pop(handle, None)
+        if drawing is not None:
+            self._values -= drawing.stored_values
             self.revision += 1
 
     def remove_below(self, parents: set[int]) -> None:

@@ -50,10 +50,10 @@ class Log:
         """Create it empty; ``clock`` returns the simulated time, s."""
         self.verbosity = INFO
         """Level up to which messages are written to the terminal."""
-        self.written_once: set[tuple[int, str]] = set()
         self._clock = clock
         self._entries: deque[Entry] = deque(maxlen=_MOST)
         self._written = 0
+        self._once: dict[tuple[int, int], None] = {}  # hashes of texts by level, in the order of their writing
         self._lock = threading.Lock()
         self._unfinished: dict[tuple[int, str], str] = {}  # by level and object
 
@@ -63,6 +63,16 @@ class Log:
         with self._lock:
             self._written += 1
             self._entries.append(Entry(self._written, self._clock(), level, source, shown))
+
+    def is_first(self, level: int, text: str) -> bool:
+        """Return whether a text that is to be written once was not written before; the last 5000 are remembered."""
+        key = level, hash(text)
+        if key in self._once:
+            return False
+        if len(self._once) >= _MOST:
+            del self._once[next(iter(self._once))]
+        self._once[key] = None
+        return True
 
     def add_written(self, level: int, source: str, text: str) -> None:
         """Add what was written to a stream: each complete line is a message."""

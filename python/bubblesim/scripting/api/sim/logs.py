@@ -27,10 +27,8 @@ class LogFunctions(ApiContext):
         shown = _text_of(text)
         plain = number & ~_FLAGS
         shared = self._caller.shared
-        if number & self.verbosity_once:
-            if (plain, shown) in shared.log.written_once:
-                return
-            shared.log.written_once.add((plain, shown))
+        if number & self.verbosity_once and not shared.log.is_first(plain, shown):
+            return
         if not number & self.verbosity_onlyterminal:
             shared.log.add(plain, self._caller.object_path, shown)
         if plain > shared.log.verbosity:

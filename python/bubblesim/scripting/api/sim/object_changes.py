@@ -8,6 +8,8 @@ from bubblesim.scripting.api.kinds import Handle, Vector3
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.scene_edits import Hold, relative
 
+_MOST_CHARACTERS = 255  # of a name
+
 
 class ObjectChangeFunctions(ApiContext):
     """Changes of a stopped scene stay until it is closed. Names, parents and static flags that are changed during a run
@@ -16,8 +18,11 @@ class ObjectChangeFunctions(ApiContext):
     def setObjectAlias(self, handle: Handle, alias: str) -> None:
         """Name an object."""
         handle = self._resolve(handle)
-        if not alias or any(sign in alias for sign in "/[]{}*"):
-            raise ValueError(f"'{alias}' is not a name: it must not be empty or contain / [ ] {{ }} *")
+        if not 0 < len(alias) <= _MOST_CHARACTERS or any(sign in alias for sign in "/[]{}*"):
+            shown = alias[:_MOST_CHARACTERS]
+            raise ValueError(
+                f"'{shown}' is not a name: it must have 1 to {_MOST_CHARACTERS} characters, no / [ ] {{ }} *"
+            )
         if self._tree.kind(handle) == "dummy":
             self._tree.dummy(handle).name = alias
             return
