@@ -56,3 +56,30 @@ def test_scripts_are_called_and_call_back(tmp_path: Path) -> None:
         sim.getSimulationTime()
         assert [b for _, b in received] == [b"\x00\xff"] * 5
         assert [t for t, _ in received] == pytest.approx([0.05 * i for i in range(1, 6)])
+
+
+LARGE = """
+    def sysCall_init():
+        self.notify = None
+    def sysCall_sensing():
+        if self.notify:
+            self.notify(sim.getSimulationTime(), bytes(1_000_000))
+    def listen(callback):
+        self.notify = callback
+"""
+
+
+def test_of_the_calls_that_wait_for_a_client_the_last_16_mebibytes_are_kept(tmp_path: Path) -> None:
+    script = write(tmp_path / "script.py", LARGE)
+    with Door(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as door:
+        silent, sim = door.sim(), door.sim()
+        ball = sim.getScript(sim.scripttype_simulation, "/Ball")
+        sim.setStepping(True)
+        sim.startSimulation()
+        sim.step()
+        received = []
+        silent.callScriptFunction("listen", ball, lambda time, _: received.append(time))
+        for _ in range(100):
+            sim.step()
+        silent.getSimulationTime()
+        assert received == pytest.approx([0.05 * i for i in range(85, 101)])

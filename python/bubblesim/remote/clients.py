@@ -66,9 +66,11 @@ class Clients:
             self._modules[uuid] = RemoteSim(self._runner, client)
             self._note(True)
         if line.client is not client:
-            if line.client is not None:
-                line.client.lines.pop(line.identity, None)
-            line.client = client
+            before, line.client = line.client, client
+            if before is not None:
+                before.lines.pop(line.identity, None)
+                if not before.lines:  # nothing can reach it any more
+                    self.forget(before)
             client.lines[line.identity] = line
         client.last_seen = time.monotonic()
         return client
@@ -89,7 +91,10 @@ class Clients:
         end_programs(client.programs)
         client.programs = []
         for release in client.at_leave.values():
-            release()
+            try:
+                release()
+            except Exception as error:  # what it releases may be gone; the others follow
+                write_line(sys.stderr, f"warning: the end of {client.object_path}: {error}")
         client.at_leave.clear()
         self.stepping_changed()
 

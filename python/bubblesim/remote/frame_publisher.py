@@ -20,6 +20,8 @@ _PERIOD = 1 / 60  # s of wall time between two looks at the frame
 _IDLE = 0.25  # s, without readers
 _REPEAT = 1.0  # s after which a frame is sent again: for new readers, and as a sign of life
 _MOST_WAITING = 2  # frames for one reader
+_MOST_BYTES = 256  # of what a reader may send
+_MOST_AT_ONCE = 1000  # messages of readers between two frames
 
 
 class FramePublisher:
@@ -31,6 +33,7 @@ class FramePublisher:
         self._socket = context.socket(zmq.XPUB)
         self._socket.setsockopt(zmq.SNDHWM, _MOST_WAITING)
         self._socket.setsockopt(zmq.LINGER, 0)
+        self._socket.setsockopt(zmq.MAXMSGSIZE, _MOST_BYTES)
         self.port: int = self._socket.bind_to_random_port(f"tcp://{host}")
         self._ending = threading.Event()
         self._thread = threading.Thread(target=self._run, name="frames", daemon=True)
@@ -59,7 +62,7 @@ class FramePublisher:
         sent = 0.0
         while not self._ending.is_set():
             if self._socket.poll(0 if has_readers else int(1000 * _IDLE)):
-                has_readers = self._socket.recv()[:1] == b"\1"  # XPUB reports the first and the last reader
+                has_readers = self._read_subscriptions(has_readers)
                 last = None
             if not has_readers:
                 continue
@@ -67,6 +70,16 @@ class FramePublisher:
                 self._socket.send(_message(*now))  # never waits: what a reader cannot take is dropped
                 last, sent = now, time.monotonic()
             self._ending.wait(_PERIOD)
+
+    def _read_subscriptions(self, has_readers: bool) -> bool:
+        """Return whether there are readers now: XPUB reports the first and the last one, and what peers send else."""
+        for _ in range(_MOST_AT_ONCE):
+            if not self._socket.poll(0):
+                break
+            message = self._socket.recv()
+            if message in (b"\0", b"\1"):
+                has_readers = message == b"\1"
+        return has_readers
 
     def _last_frame(self) -> tuple[int, Any] | None:
         scene = self._scene

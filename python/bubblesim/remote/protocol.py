@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from bubblesim._core import cbor_decode, cbor_encode
@@ -79,7 +80,17 @@ def result(value: Any) -> bytes:
 
 def error(text: str) -> bytes:
     """Return the reply with an error."""
-    return encode({"err": text})
+    return encode({"err": text.encode(errors="backslashreplace").decode()})
+
+
+def error_of(raised: Exception) -> bytes:
+    """Return the reply with the error that a function has raised."""
+    return error(str(raised) or type(raised).__name__)
+
+
+def call(function: str, arguments: Iterable[Any]) -> bytes:
+    """Return the message that lets the client call its function; raise TypeError as ``encode``."""
+    return encode({"func": function, "args": list(arguments)})
 
 
 def encode(message: Any) -> bytes:

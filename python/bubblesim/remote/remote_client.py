@@ -10,8 +10,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from bubblesim.remote import protocol
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook, SharedData
+
+_MOST_CALLBACKS = 1000
+_MOST_CALLBACK_BYTES = 16 * 1024 * 1024
 
 Conversation = Generator[tuple[str, tuple[Any, ...]], Any, Any]
 """A call that calls functions of the client, yielding name and arguments; it returns the result of the call."""
@@ -26,6 +30,8 @@ class Pending:
     result: Callable[[], Any] = lambda: None
     fits_the_end: bool = False
     """The end of the simulator is what the client asked for."""
+    due: float | None = None
+    """Of ``time.monotonic``, s: when it is done at the latest, asked then, too; None: steps and commands suffice."""
 
 
 @dataclass
@@ -100,6 +106,37 @@ class Door(Protocol):
         """Send the callbacks of a client if it waits for a reply."""
 
 
+class CallbackQueue:
+    """Calls of a client's functions, as messages, until it waits for a reply. The oldest are dropped."""
+
+    def __init__(self) -> None:
+        """Create it empty."""
+        self._messages: deque[bytes] = deque()
+        self._bytes = 0
+
+    def __len__(self) -> int:
+        """Return the number of calls."""
+        return len(self._messages)
+
+    def put(self, message: bytes) -> None:
+        """Add a call."""
+        self._messages.append(message)
+        self._bytes += len(message)
+        while len(self._messages) > _MOST_CALLBACKS or (self._bytes > _MOST_CALLBACK_BYTES and len(self._messages) > 1):
+            self.take()
+
+    def take(self) -> bytes:
+        """Remove the oldest call and return it."""
+        message = self._messages.popleft()
+        self._bytes -= len(message)
+        return message
+
+    def clear(self) -> None:
+        """Remove all calls."""
+        self._messages.clear()
+        self._bytes = 0
+
+
 @dataclass(eq=False)
 class RemoteClient:
     """A program outside; see Caller."""
@@ -116,7 +153,7 @@ class RemoteClient:
     """What the client holds in this scene is released by these when it leaves, or its connection breaks."""
     programs: list[Any] = field(default_factory=list)
     lines: dict[bytes, Line] = field(default_factory=dict)
-    callbacks: deque[tuple[str, tuple[Any, ...]]] = field(default_factory=lambda: deque(maxlen=1000))
+    callbacks: CallbackQueue = field(default_factory=CallbackQueue)
     level: int = 0
     """Of nested setStepping."""
     granted: int = 0
@@ -170,6 +207,10 @@ class RemoteCallback:
     name: str
 
     def __call__(self, *arguments: Any) -> None:
-        """Have the client call it; of more than 1000 calls that wait, the oldest are dropped."""
-        self.client.callbacks.append((self.name, arguments))
+        """Have the client call it; of more than 1000 calls or 16 MiB that wait, the oldest are dropped."""
+        try:
+            message = protocol.call(self.name, arguments)
+        except TypeError as error:
+            message = protocol.call(self.name, [str(error)])
+        self.client.callbacks.put(message)
         self.client.door.deliver(self.client)

@@ -3,18 +3,22 @@
 
 from __future__ import annotations
 
+import math
 import threading
+import time
 from pathlib import Path
 from typing import Any
 
-from bubblesim._core import RunState, Scene
+from bubblesim._core import RunState, Scene, cbor_decode
 from bubblesim.remote.remote_client import Conversation, Pending, RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
+from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
 
 _TOLERANCE = 1e-6  # of a step
 _CALLS_OF_TEST = 99
+_LONGEST_WAIT = 86400.0  # s
 
 
 @variant_of_module("sim")
@@ -22,6 +26,7 @@ class RemoteSim(SimApi):
     """Functions and constants of `sim` for one client."""
 
     _caller: RemoteClient
+    _most_unpacked = 1_000_000
 
     def setStepping(self, enable: bool) -> int:
         """Enable or disable stepping mode, in which a step waits for ``step`` of this client; calls nest."""
@@ -49,6 +54,8 @@ class RemoteSim(SimApi):
         """Wait for a number of seconds of simulated time, or of wall time; return the excess time."""
         if not simulation_time:
             return self._wait_for_wall_time(seconds)
+        if not math.isfinite(seconds):
+            raise ValueError(f"sim.wait: {seconds:g} s is not a time to wait")
         if self._stopped():
             raise RuntimeError("sim.wait: the simulation is stopped, its time does not pass")
         end = self._simulation.state_time + seconds
@@ -103,6 +110,13 @@ class RemoteSim(SimApi):
         self._require_changeable_scene("sim.closeScene")
         return self._change_scene(Scene.empty())
 
+    def unpackTable(self, data: Bytes) -> Any:
+        """See SimApi.unpackTable; with the limits of a request, because the bytes are the client's."""
+        try:
+            return cbor_decode(data)
+        except ValueError as error:
+            raise ValueError(f"sim.unpackTable: the bytes are not a packed table: {error}") from None
+
     def testCB(self, first: Any, callback: Any, second: Any, calls: int = _CALLS_OF_TEST) -> Conversation:
         """Call a function of the client several times, and return what it returns at last."""
         if not isinstance(callback, RemoteCallback):
@@ -130,16 +144,10 @@ class RemoteSim(SimApi):
         return Pending(carried_out.is_set, fits_the_end=fits_the_end)
 
     def _wait_for_wall_time(self, seconds: float) -> Pending:
-        over = threading.Event()
-
-        def end() -> None:
-            over.set()
-            self._caller.door.after_commands(lambda: None)
-
-        timer = threading.Timer(max(0.0, seconds), end)
-        timer.daemon = True
-        timer.start()
-        return Pending(over.is_set, lambda: 0.0)
+        if not 0.0 <= seconds <= _LONGEST_WAIT:
+            raise ValueError(f"sim.wait: {seconds:g} s is not a time to wait: from 0 to {_LONGEST_WAIT:g} (a day)")
+        due = time.monotonic() + seconds
+        return Pending(lambda: time.monotonic() >= due, lambda: 0.0, due=due)
 
     def _require_changeable_scene(self, function: str) -> None:
         if why := self._caller.door.fixed_scene:

@@ -25,17 +25,14 @@ from bubblesim.remote.frame_publisher import FramePublisher
 from bubblesim.remote.function_calls import carry_out, info
 from bubblesim.remote.listening import listen
 from bubblesim.remote.remote_client import Line, Pending, RemoteClient
+from bubblesim.remote.router import NO_DESCRIPTOR, Router
+from bubblesim.remote.waiting_calls import WaitingCalls
 
 _SLICE = 0.005  # s of requests between two looks at other commands
 _MOST_NESTED = 50  # calls in callbacks in calls
 _ENDED = "the simulator has ended"
-
-# As plain numbers: those of pyzmq are enumerations, whose operators take longer than sending.
-_NOW = int(zmq.NOBLOCK)
-_MORE_NOW = int(zmq.NOBLOCK | zmq.SNDMORE)
-_HAS_MORE = int(zmq.RCVMORE)
-_EVENTS = int(zmq.EVENTS)
-_INPUT = int(zmq.POLLIN)
+_TOO_OLD = "the client speaks a version of ZeroMQ's protocol before 3.0: use libzmq 4, JeroMQ 0.4 or a later one"
+_MOST_REPORTED = 20  # errors of messages; a client could fill the disk
 
 
 class RemoteServer:
@@ -70,14 +67,16 @@ class RemoteServer:
         self._watch_of_monitor: Any = None
         self._clients = Clients(self, note_clients)
         self._lines: dict[bytes, Line] = {}
-        self._waiting: dict[bytes, Line] = {}  # those with a pending call; perhaps some others
+        self._waiting = WaitingCalls(self._answer, self._wake_up)
         self._ending = False
         self._info = protocol.encode({"ret": [info()]})
         self._context = zmq.Context()
         self._address = address
         self._frames: FramePublisher | None = None
         self._socket = listen(self._context, address, port)
+        self._router = Router(self._socket)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
+        self._reported = 0
         if trusted:
             write_line(
                 sys.stderr,
@@ -104,7 +103,7 @@ class RemoteServer:
         self._clients.begin_scene(host)
         if self._frames is not None:
             self._frames.show(self.scenes, self._runner)
-        self._runner.post(self._answer_pending)
+        self._runner.post(self._waiting.answer_due)
         self._watch.look_again()  # the descriptors do not signal what came in between
 
     def detach(self) -> None:
@@ -136,13 +135,12 @@ class RemoteServer:
         """Count a step, and answer those who waited for it."""
         self.steps += 1
         self._clients.note_step()
-        if self._waiting:
-            self._answer_pending()
+        self._waiting.answer_done()
 
     def stop(self) -> None:
         """End the stepping of all clients."""
         self._clients.end_stepping()
-        self._runner.post(self._answer_pending)  # the state is stopped then
+        self._runner.post(self._waiting.answer_done)  # the state is stopped then
 
     def close(self) -> None:
         """Send an error to the clients that wait, and stop listening."""
@@ -157,6 +155,7 @@ class RemoteServer:
                 fits = line.pending is not None and line.pending.fits_the_end
                 self._send(line, protocol.result(None) if fits else protocol.error(_ENDED))
         self._clients.end_programs()
+        self._waiting.close()
         if self._frames is not None:
             self._frames.close()
         self._socket.disable_monitor()
@@ -182,14 +181,13 @@ class RemoteServer:
 
         def carried_out() -> None:
             done()
-            self._answer_pending()
+            self._waiting.answer_done()
 
-        if self._runner is not None:  # a timer may end between two scenes
-            self._runner.post(carried_out)
+        self._runner.post(carried_out)
 
     def deliver(self, client: RemoteClient) -> None:
         """Send the callbacks of a client if it waits for a reply."""
-        for line in client.lines.values():
+        for line in list(client.lines.values()):  # one that cannot be sent to is dropped
             if client.callbacks and line.is_open and not line.calls_back:
                 self._pump(line)
         self._watch.look_again()
@@ -199,35 +197,39 @@ class RemoteServer:
     def _serve(self) -> bool:
         """Handle requests for a while; return whether there are more."""
         end = time.perf_counter() + _SLICE
-        while int(self._socket.getsockopt(_EVENTS)) & _INPUT:  # cheaper than an exception of recv
+        while self._router.has_input():
             if time.perf_counter() > end:
                 return True
-            self._receive()
+            try:
+                self._receive()
+            except Exception as error:  # one that leaves would end the watch for all clients
+                self._report("a message of a remote client", error)
         return False
 
     def _receive(self) -> None:
         """Handle one message."""
-        receive, option = self._socket.recv, self._socket.getsockopt
-        identity = receive(_NOW)
-        line = self._lines.get(identity)
-        if line is not None:
-            parts = [receive(_NOW)]
-            while option(_HAS_MORE):
-                parts.append(receive(_NOW))
-        else:
+        received = self._router.receive(self._lines)
+        if received is None:
+            return
+        identity, data, descriptor = received
+        if descriptor == NO_DESCRIPTOR:
+            self._router.send(identity, protocol.error(_TOO_OLD))
+            return
+        if descriptor is not None:
             self._serve_monitor()  # before a descriptor is known under its new owner
-            frames = self._socket.recv_multipart(copy=False)
-            line = self._lines[identity] = Line(identity, None, int(frames[-1].get(zmq.SRCFD)))
-            parts = [frame.bytes for frame in frames]
-        if len(parts) != 2 or parts[0]:
+            self._lines[identity] = Line(identity, None, descriptor)
+        line = self._lines[identity]
+        if data is None:
             self._send(line, protocol.error("expected a request of one part: use a REQ socket"))
             return
         try:
-            request = protocol.decode(parts[1])
+            self._handle(line, protocol.decode(data))
         except protocol.RequestError as error:
             self._send(line, protocol.error(str(error)))
-            return
-        self._handle(line, request)
+        except Exception as error:
+            line.clear()
+            self._send(line, protocol.error_of(error))
+            raise
 
     def _handle(self, line: Line, request: protocol.Request) -> None:
         if not request.uuid:
@@ -256,8 +258,7 @@ class RemoteServer:
             else:
                 value = carry_out(request, self._clients.sim_of(request.uuid), client)
                 if isinstance(value, Pending) and not value.is_done():
-                    line.pending = value
-                    self._waiting[line.identity] = line
+                    self._waiting.add(line, value)
                     self._pump(line)
                     return
                 if hasattr(value, "send"):
@@ -266,7 +267,7 @@ class RemoteServer:
                     return
                 reply = protocol.result(value.result() if isinstance(value, Pending) else value)
         except Exception as error:
-            reply = protocol.error(_text(error))
+            reply = protocol.error_of(error)
         line.reply = reply
         self._pump(line)
 
@@ -279,7 +280,7 @@ class RemoteServer:
         if line.conversation is not None:
             self._go_on(line, values[0] if len(values) == 1 else tuple(values) or None)
             return
-        self._settle(line)
+        self._waiting.settle(line)
         self._pump(line)
 
     def _go_on(self, line: Line, value: Any) -> None:
@@ -287,12 +288,12 @@ class RemoteServer:
         try:
             name, arguments = line.conversation.send(value)
             line.calls_back = True
-            self._send(line, protocol.encode({"func": name, "args": list(arguments)}))
+            self._send(line, protocol.call(name, arguments))
             return
         except StopIteration as end:
             line.reply = protocol.result(end.value)
         except Exception as error:
-            line.reply = protocol.error(_text(error))
+            line.reply = protocol.error_of(error)
         line.conversation = None
         self._pump(line)
 
@@ -301,71 +302,55 @@ class RemoteServer:
         if line.calls_back or line.conversation is not None:
             return
         if line.client is not None and line.client.callbacks:
-            name, arguments = line.client.callbacks.popleft()
-            try:
-                message = protocol.encode({"func": name, "args": list(arguments)})
-            except TypeError as error:
-                message = protocol.encode({"func": name, "args": [str(error)]})
             line.calls_back = True
-            self._send(line, message)
+            self._send(line, line.client.callbacks.take())
         elif line.reply is not None:
             reply, line.reply = line.reply, None
             if line.outer:
                 line.end_inner()
                 if line.pending is not None:
-                    self._waiting[line.identity] = line
+                    self._waiting.add(line, line.pending)
             self._send(line, reply)
 
-    def _answer_pending(self) -> None:
-        for line in list(self._waiting.values()):
-            if self._settle(line):
-                self._pump(line)
-                self._watch.look_again()
+    def _answer(self, line: Line) -> None:
+        """Send the reply of a call that has waited."""
+        self._pump(line)
+        self._watch.look_again()
 
-    def _settle(self, line: Line) -> bool:
-        """Turn a pending call into its reply if it is done."""
-        pending = line.pending
-        if pending is not None and not pending.is_done():
-            return False
-        self._waiting.pop(line.identity, None)
-        if pending is None:
-            return False
-        line.pending = None
-        try:
-            line.reply = protocol.result(pending.result())
-        except Exception as error:
-            line.reply = protocol.error(_text(error))
-        return True
+    def _wake_up(self) -> None:
+        """Answer what is due; called by another thread."""
+        runner = self._runner  # None between two scenes: attaching the next one does the same
+        if runner is not None:
+            runner.post(self._waiting.answer_due)
 
     def _send(self, line: Line, message: bytes) -> None:
-        send = self._socket.send
-        try:
-            try:
-                send(line.identity, _MORE_NOW)
-            except zmq.Again:
-                self._socket.getsockopt(_EVENTS)  # learns here how much the peer has read
-                send(line.identity, _MORE_NOW)
-        except zmq.ZMQError:  # it is gone, or does not read
+        if not self._router.send(line.identity, message):
             self._drop(line)
-            return
-        send(b"", _MORE_NOW)  # only the first part can fail
-        send(message, _NOW)
+
+    def _report(self, what: str, error: Exception) -> None:
+        self._reported += 1
+        if self._reported <= _MOST_REPORTED:
+            last = "; further ones are not reported" if self._reported == _MOST_REPORTED else ""
+            write_line(sys.stderr, f"error: {what}: {type(error).__name__}: {error}{last}")
 
     # Broken connections
 
     def _serve_monitor(self) -> bool:
         """Forget the lines whose connection broke."""
-        while True:
-            try:
+        try:
+            while True:
                 descriptor = int(recv_monitor_message(self._monitor, zmq.NOBLOCK)["value"])
-            except zmq.Again:
-                return False
-            for line in [line for line in self._lines.values() if line.descriptor == descriptor]:
-                self._drop(line)
+                for line in [line for line in self._lines.values() if line.descriptor == descriptor]:
+                    self._drop(line)
+        except zmq.Again:
+            return False
+        except Exception as error:  # see _serve
+            self._report("the end of a connection of a remote client", error)
+            return True
 
     def _drop(self, line: Line) -> None:
         self._lines.pop(line.identity, None)
-        self._waiting.pop(line.identity, None)
+        self._waiting.discard(line)
         line.clear()
         client = line.client
         if client is None:
@@ -375,8 +360,4 @@ class RemoteServer:
             self._clients.forget(client)
         elif client.waits_for_time:  # perhaps on this line
             client.waits_for_time = False
-            self._answer_pending()
-
-
-def _text(error: Exception) -> str:
-    return str(error) or type(error).__name__
+            self._waiting.answer_done()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import struct
+import sys
 from typing import Any
 
 import cbor2
@@ -14,6 +15,9 @@ from bubblesim.scripting.api.sim.context import ApiContext
 
 class PackFunctions(ApiContext):
     """Bytes are little-endian. ``start`` and ``count`` select numbers of a table; a count of 0 selects all the rest."""
+
+    _most_unpacked = sys.maxsize
+    """Numbers that a call can return."""
 
     def packTable(self, table: Any) -> bytes:
         """Return nested tables, texts, bytes and numbers as bytes (CBOR, RFC 8949)."""
@@ -36,7 +40,7 @@ class PackFunctions(ApiContext):
 
     def unpackUInt8Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
         """Unpack bytes, starting at byte ``offset``, as integers."""
-        return _unpack("sim.unpackUInt8Table", "B", data, start, count, offset)
+        return self._unpack("sim.unpackUInt8Table", "B", data, start, count, offset)
 
     def packInt32Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
         """Pack integers as 4 bytes each."""
@@ -44,7 +48,7 @@ class PackFunctions(ApiContext):
 
     def unpackInt32Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
         """Unpack integers of 4 bytes each, starting at byte ``offset``."""
-        return _unpack("sim.unpackInt32Table", "i", data, start, count, offset)
+        return self._unpack("sim.unpackInt32Table", "i", data, start, count, offset)
 
     def packFloatTable(self, numbers: Numbers, start: int = 0, count: int = 0) -> bytes:
         """Pack numbers as 4 bytes each (IEEE 754 single precision)."""
@@ -52,7 +56,7 @@ class PackFunctions(ApiContext):
 
     def unpackFloatTable(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[float]:
         """Unpack numbers of 4 bytes each, starting at byte ``offset``."""
-        return _unpack("sim.unpackFloatTable", "f", data, start, count, offset)
+        return self._unpack("sim.unpackFloatTable", "f", data, start, count, offset)
 
     def packDoubleTable(self, numbers: Numbers, start: int = 0, count: int = 0) -> bytes:
         """Pack numbers as 8 bytes each (IEEE 754 double precision)."""
@@ -60,7 +64,18 @@ class PackFunctions(ApiContext):
 
     def unpackDoubleTable(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[float]:
         """Unpack numbers of 8 bytes each, starting at byte ``offset``."""
-        return _unpack("sim.unpackDoubleTable", "d", data, start, count, offset)
+        return self._unpack("sim.unpackDoubleTable", "d", data, start, count, offset)
+
+    def _unpack(self, function: str, letter: str, data: bytes, start: int, count: int, offset: int) -> list[Any]:
+        if not 0 <= offset <= len(data):
+            raise ValueError(f"{function}: offset {offset} is outside the {len(data)} bytes")
+        size = struct.calcsize(letter)
+        there = (len(data) - offset) // size
+        picked = _range(function, there, start, count)
+        numbers = picked.stop - picked.start
+        if numbers > self._most_unpacked:
+            raise ValueError(f"{function}: {numbers} numbers: at most {self._most_unpacked}; unpack them in the client")
+        return list(struct.unpack_from(f"<{numbers}{letter}", data, offset + picked.start * size))
 
 
 def _pack(function: str, letter: str, numbers: list[Any], start: int, count: int) -> bytes:
@@ -69,15 +84,6 @@ def _pack(function: str, letter: str, numbers: list[Any], start: int, count: int
         return struct.pack(f"<{len(picked)}{letter}", *picked)
     except (struct.error, OverflowError) as error:
         raise ValueError(f"{function}: number out of range: {error}") from None
-
-
-def _unpack(function: str, letter: str, data: bytes, start: int, count: int, offset: int) -> list[Any]:
-    if not 0 <= offset <= len(data):
-        raise ValueError(f"{function}: offset {offset} is outside the {len(data)} bytes")
-    size = struct.calcsize(letter)
-    there = (len(data) - offset) // size
-    picked = _range(function, there, start, count)
-    return list(struct.unpack_from(f"<{picked.stop - picked.start}{letter}", data, offset + picked.start * size))
 
 
 def _range(function: str, there: int, start: int, count: int) -> slice:

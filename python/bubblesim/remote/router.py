@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The messages of the server's ROUTER socket: one request or reply at a time, part by part.
+
+Functions of pyzmq for messages of several parts take longer than all others together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import NamedTuple
+
+import zmq
+
+# As plain numbers: those of pyzmq are enumerations, whose operators take longer than sending.
+_NOW = int(zmq.NOBLOCK)
+_MORE_NOW = int(zmq.NOBLOCK | zmq.SNDMORE)
+_HAS_MORE = int(zmq.RCVMORE)
+_EVENTS = int(zmq.EVENTS)
+_INPUT = int(zmq.POLLIN)
+
+NO_DESCRIPTOR = -1
+"""Instead of a descriptor: the peer speaks a ZMTP before 3.0, in which libzmq tells nothing about the connection."""
+
+
+class Received(NamedTuple):
+    """A message of a peer."""
+
+    identity: bytes
+    request: bytes | None
+    """None if the message is not an empty part and one other, as a REQ socket sends it."""
+    descriptor: int | None
+    """Of the connection, or NO_DESCRIPTOR; None for a known peer."""
+
+
+class Router:
+    """Receives and sends without waiting."""
+
+    def __init__(self, socket: zmq.Socket[bytes]) -> None:
+        """Use a ROUTER socket with ROUTER_MANDATORY."""
+        self._socket = socket
+        self._discards = False
+
+    def has_input(self) -> bool:
+        """Return whether there is something to receive; cheaper than an exception of ``receive``."""
+        return bool(int(self._socket.getsockopt(_EVENTS)) & _INPUT)
+
+    def receive(self, known: Container[bytes]) -> Received | None:
+        """Return the next message; None after one more part of a message that has too many.
+
+        :param known: identities of the peers whose descriptors are known.
+        :raises zmq.ZMQError: if there is none.
+        """
+        receive, option = self._socket.recv, self._socket.getsockopt
+        if self._discards:
+            receive(_NOW)
+            self._discards = bool(option(_HAS_MORE))
+            return None
+        identity = receive(_NOW)
+        descriptor = None
+        if identity in known:
+            first = receive(_NOW)
+        else:
+            frame = self._socket.recv(_NOW, copy=False)
+            first, descriptor = frame.bytes, _descriptor(frame)
+        request = receive(_NOW) if option(_HAS_MORE) and not first else None
+        self._discards = bool(option(_HAS_MORE))
+        return Received(identity, None if self._discards else request, descriptor)
+
+    def send(self, identity: bytes, message: bytes) -> bool:
+        """Send a reply; return whether the peer is there and reads."""
+        send = self._socket.send
+        try:
+            try:
+                send(identity, _MORE_NOW)
+            except zmq.Again:
+                self._socket.getsockopt(_EVENTS)  # learns here how much the peer has read
+                send(identity, _MORE_NOW)
+        except zmq.ZMQError:
+            return False
+        send(b"", _MORE_NOW)  # only the first part can fail
+        send(message, _NOW)
+        return True
+
+
+def _descriptor(frame: zmq.Frame) -> int:
+    try:
+        return int(frame.get(zmq.SRCFD))
+    except zmq.ZMQError:
+        return NO_DESCRIPTOR
