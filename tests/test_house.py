@@ -98,6 +98,7 @@ PYTHON_LAYERS = [
         "scripting.problems",
         "scripting.scene_edits",
         "scripting.saved_scene",
+        "scripting.stored_values",
     },
     {"scripting.caller", "scripting.allowed_programs", "scripting.threads"},
     {"scripting.api"},

@@ -2,7 +2,9 @@
 // The door for programs outside, as a system of a simulation.
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bubblesim/child_scripts.hpp"
@@ -12,8 +14,10 @@ namespace bubblesim {
 
 struct RemoteDoorOptions {
   std::string address = "127.0.0.1";
-  int port = 0;          ///< 0: a free one
-  bool trusted = false;  ///< clients may do what Python child scripts may do: start all programs, use all files
+  std::optional<int> port;       ///< TCP; 0: a free one, null: none
+  std::filesystem::path socket;  ///< Unix domain, in a folder that only this user may enter; empty: none
+  std::filesystem::path token;   ///< file with the text that clients must know; empty: none
+  bool trusted = false;          ///< clients may do what Python child scripts may do: start all programs, use all files
   /// Why clients cannot load another scene; empty if they can.
   std::string fixed_scene;
 };

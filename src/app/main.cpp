@@ -46,7 +46,7 @@ std::unique_ptr<Session> next_session(Node& node, const std::shared_ptr<const Sc
   }
 }
 
-int run_node(const Options& options, int& argc, char** argv) {
+int run_node(Options& options, int& argc, char** argv) {
   const std::shared_ptr<const Scene> scene =
       options.scene.empty() ? empty_scene() : load_scene(options.scene, options.arguments);
   print_warnings(scene->warnings());
@@ -70,7 +70,6 @@ int run_node(const Options& options, int& argc, char** argv) {
 int run(int argc, char** argv) {
   try {
     ParsedOptions parsed = parse_options(argc, argv);
-    if (parsed.options) complete_for_web(*parsed.options);
     if (parsed.options) remove_xacro_arguments(*parsed.options, argc, argv);
     const int exit_code = parsed.options ? run_node(*parsed.options, argc, argv) : parsed.exit_code;
     return flush_output() || exit_code != kFine ? exit_code : kOutputLost;

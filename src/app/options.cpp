@@ -145,6 +145,10 @@ ParsedOptions parse_options(int argc, char** argv) {
           ->check(CLI::Range(0, 65535));
   app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)")
       ->needs(remote);
+  app.add_option("--remote-token", options.remote_token,
+                 "FILE: refuse clients that do not send the text in FILE; made with a new token if there is none. "
+                 "Without it, every user of this machine can connect")
+      ->needs(remote);
   app.add_flag("--remote-trusted", options.remote_trusted,
                "clients may do what Python child scripts may: start any program, load scenes and models from any file, "
                "save scenes")
@@ -179,6 +183,11 @@ ParsedOptions parse_options(int argc, char** argv) {
     if (web_port != 0) options.web_port = web_port;
     options.speed = parse_speed(speed);
     options.ros = !no_ros;
+    if (*remote && !options.web_edit && options.remote_token.empty()) {
+      throw CLI::ValidationError("--web-edit=false",
+                                 "with --remote it needs --remote-token: without one, whoever may "
+                                 "only look could connect there and change the simulation");
+    }
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");
     if (no_ros && !options.lockstep.empty()) throw CLI::ValidationError("--lockstep", "needs ROS");
     for (const std::string& text : child_scripts) options.child_scripts.push_back(parse_child_script(text));

@@ -39,7 +39,7 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   if (options.remote_port && !options.start && !options.paused) how.initial = RunState::kStopped;
   if (!is_first) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
-  how.ends_at_stop = (!options.ros && !options.remote_port) || options.until;  // nothing can or should start it again
+  how.ends_at_stop = (!options.ros && !options.has_door()) || options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
@@ -119,6 +119,14 @@ Session::RunnerUse::~RunnerUse() {
   node.runner.set(nullptr);
 }
 
+Session::DoorUse::~DoorUse() {
+  try {
+    door.detach();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+}
+
 Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_first, const std::string& failure)
     : node_(node),
       simulation_(std::move(simulation)),
@@ -150,25 +158,17 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*services_);
   }
   if (observers_) simulation_->add(*observers_);
-  if (options.remote_port && !node.door) {
-    node.door = std::make_unique<RemoteDoor>(python, RemoteDoorOptions{options.remote_address, *options.remote_port,
-                                                                       options.remote_trusted, fixed_scene(options)});
+  if (options.has_door() && !node.door) {
+    node.door = std::make_unique<RemoteDoor>(
+        python, RemoteDoorOptions{options.remote_address, options.remote_port, options.window_socket,
+                                  options.remote_token, options.remote_trusted, fixed_scene(options)});
   }
   if (node.door) {
     simulation_->add(*node.door);
-    node.door->attach(*scripts_, failure);
+    door_use_ = std::make_unique<DoorUse>(*node.door, *scripts_, failure);
   }
-  node.counts.watch(*scripts_);
+  counts_use_ = std::make_unique<CountsUse>(node.counts, *scripts_);
   if (is_first && !options.load_state.empty()) load_state(*simulation_, options.load_state);
-}
-
-Session::~Session() {
-  try {
-    if (node_.door) node_.door->detach();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-  }
-  node_.counts.keep();
 }
 
 std::shared_ptr<const Scene> Session::run() {

@@ -82,7 +82,6 @@ class Session {
   /// `is_first`: the scene of the command line, which starts as the options say; later ones are stopped. `failure`: see
   /// RemoteDoor::attach().
   Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_first, const std::string& failure = {});
-  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -92,6 +91,8 @@ class Session {
   int finish();
 
  private:
+  // Each part that stays lets go of this session's by a guard, also when the constructor fails.
+
   /// Ends the use of the runner by the node's parts.
   struct RunnerUse {
     RunnerUse(Node& its_node, Runner& used) : node(its_node), runner(used) {}
@@ -100,6 +101,26 @@ class Session {
     RunnerUse& operator=(const RunnerUse&) = delete;
     Node& node;
     Runner& runner;
+  };
+
+  /// Lets the remote clients wait for the next session.
+  struct DoorUse {
+    DoorUse(RemoteDoor& its_door, const ChildScripts& scripts, const std::string& failure) : door(its_door) {
+      door.attach(scripts, failure);
+    }
+    ~DoorUse();
+    DoorUse(const DoorUse&) = delete;
+    DoorUse& operator=(const DoorUse&) = delete;
+    RemoteDoor& door;
+  };
+
+  /// Keeps the last numbers of the scripts.
+  struct CountsUse {
+    CountsUse(ScriptCounts& its_counts, const ChildScripts& scripts) : counts(its_counts) { counts.watch(scripts); }
+    ~CountsUse() { counts.keep(); }
+    CountsUse(const CountsUse&) = delete;
+    CountsUse& operator=(const CountsUse&) = delete;
+    ScriptCounts& counts;
   };
 
   Node& node_;
@@ -111,6 +132,8 @@ class Session {
   std::unique_ptr<GazeboPlugins> plugins_;
   std::unique_ptr<ChildScripts> scripts_;
   std::unique_ptr<NodeServices> services_;
+  std::unique_ptr<DoorUse> door_use_;
+  std::unique_ptr<CountsUse> counts_use_;
 };
 
 }  // namespace bubblesim::app

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "web_server.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <spawn.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace bubblesim::app {
@@ -21,42 +20,34 @@ namespace {
 
 constexpr int kLifelineOfServer = 3;
 
-/// A port that nobody else is given. Its socket stays open: a port that is only looked at may be taken by another
-/// process before the door listens. The door may share it (SO_REUSEADDR), since this socket does not listen.
-int free_port() {
-  const int probe = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  auto* generic = reinterpret_cast<sockaddr*>(&address);
-  const int shared = 1;
-  const bool found = probe >= 0 && setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared) == 0 &&
-                     bind(probe, generic, size) == 0 && getsockname(probe, generic, &size) == 0;
-  if (!found) throw std::runtime_error(std::string("--web: no free port for the door: ") + std::strerror(errno));
-  return ntohs(address.sin_port);
-}
-
 }  // namespace
 
-void complete_for_web(Options& options) {
-  if (!options.web) return;
-  if (!options.remote_port) {
-    options.remote_port = free_port();
-    options.start = !options.paused;
-  } else if (*options.remote_port == 0) {
-    options.remote_port = free_port();
+PrivateFolder::PrivateFolder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  for (const std::filesystem::path parent : {runtime != nullptr ? runtime : "", "/tmp"}) {
+    std::string name = (parent / "bubblesim-XXXXXX").string();
+    if (!parent.is_absolute() || mkdtemp(name.data()) == nullptr) continue;  // its mode is 0700
+    path_ = name;
+    return;
   }
+  throw std::runtime_error(std::string("--web: no folder in /tmp for the window's socket: ") + std::strerror(errno));
 }
 
-WebServer::WebServer(const Options& options) {
+PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+WebServer::WebServer(Options& options) {
   if (!options.web) return;
+  options.window_socket = folder_.emplace().path() / "door";
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "bubblesim";
   std::vector<std::string> arguments = {program.string(), "view",
-                                        "--door",         std::to_string(*options.remote_port),
+                                        "--door",         options.window_socket.string(),
                                         "--until-closed", std::to_string(kLifelineOfServer),
                                         "--address",      options.web_address};
   if (options.web_port) arguments.insert(arguments.end(), {"--port", std::to_string(*options.web_port)});
+  if (!options.remote_token.empty()) arguments.insert(arguments.end(), {"--door-token", options.remote_token.string()});
   if (!options.web_edit) arguments.emplace_back("--look");
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);

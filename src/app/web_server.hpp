@@ -2,25 +2,38 @@
 // The server of the window, a process of its own that ends with this one.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 #include "options.hpp"
 
 namespace bubblesim::app {
 
-/// Takes a free port for the door if the window is wanted and no port for clients is given, and lets the simulation
-/// start at once, as without a door.
-void complete_for_web(Options& options);
+/// A new folder that only this user may enter, for a socket; removed at the end.
+class PrivateFolder {
+ public:
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 class WebServer {
  public:
-  /// Starts the server if the options want it. It waits for the door. Throws std::runtime_error when it cannot be
-  /// started.
-  explicit WebServer(const Options& options);
+  /// Starts the server if the options want it, and sets their window_socket, where it waits for the door. Throws
+  /// std::runtime_error when it cannot be started.
+  explicit WebServer(Options& options);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
  private:
-  int lifeline_ = -1;  // the server ends when this is closed
+  std::optional<PrivateFolder> folder_;  // of the socket
+  int lifeline_ = -1;                    // the server ends when this is closed
 };
 
 }  // namespace bubblesim::app

@@ -16,7 +16,8 @@ RemoteDoor::RemoteDoor(PythonEngine& engine, const RemoteDoorOptions& options)
   with_python([&] {
     const py::object server = py::module_::import("bubblesim.remote.server").attr("RemoteServer");
     const py::cpp_function note_clients([this](bool any) { has_clients_ = any; });
-    methods_->bind(server(options.address, options.port, note_clients, py::arg("trusted") = options.trusted,
+    methods_->bind(server(options.address, options.port, note_clients, py::arg("socket") = options.socket.string(),
+                          py::arg("token") = options.token.string(), py::arg("trusted") = options.trusted,
                           py::arg("fixed_scene") = options.fixed_scene));
   });
 }

@@ -14,6 +14,7 @@ import rlcompleter
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -44,25 +45,30 @@ def add_parser(commands: Any) -> None:
         help="open a Python prompt on a simulator",
         description=_DESCRIPTION,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        usage="bubblesim shell [SCENE [option of the node ...]] [--port PORT]",
+        usage="bubblesim shell [SCENE [option of the node ...]] [--port PORT [--token FILE]]",
         allow_abbrev=False,
     )
     parser.add_argument("scene", metavar="SCENE", nargs="?", help="start a node with this scene; default: an empty one")
     parser.add_argument("--port", type=int, help="use the node that listens on this port")
+    parser.add_argument("--token", metavar="FILE", type=Path, help="token of a node that runs with --remote-token=FILE")
     parser.set_defaults(command=_open, parser=parser, other_options=[])
 
 
 def _open(options: argparse.Namespace) -> int:
     if options.port is not None and (options.scene or options.other_options):
         raise ValueError("give either the scene for a new node, or the --port of a running one")
+    if options.port is None and options.token is not None:
+        raise ValueError("--token belongs to a running node: give its --port")
     signal.signal(signal.SIGINT, signal.default_int_handler)  # the program ends by it otherwise
     with contextlib.ExitStack() as stack:
         node = None
-        port = options.port
+        port, token = options.port, options.token
         if port is None:
-            node, port = stack.enter_context(_started_node([options.scene] if options.scene else [], options))
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bubblesim-shell-"))
+            token = Path(folder) / "token"  # the shell alone may use its node
+            node, port = stack.enter_context(_started_node([options.scene] if options.scene else [], token, options))
         try:
-            connection = stack.enter_context(_ShellConnection(port, timeout=5.0))
+            connection = stack.enter_context(_ShellConnection(port, timeout=5.0, token=token))
         except TimeoutError as error:
             raise RunError(f"{error}; start it with --remote={port}") from None
         _Prompt(connection, node).interact(f"sim: the simulator on port {port}; Ctrl-D ends", exitmsg="")
@@ -70,9 +76,11 @@ def _open(options: argparse.Namespace) -> int:
 
 
 @contextlib.contextmanager
-def _started_node(scene: list[str], options: argparse.Namespace) -> Iterator[tuple[subprocess.Popen[str], int]]:
+def _started_node(
+    scene: list[str], token: Path, options: argparse.Namespace
+) -> Iterator[tuple[subprocess.Popen[str], int]]:
     """Run a node of its own process group, which Ctrl-C does not reach; yield it and the port of its door."""
-    command = [str(node_program()), *scene, *options.other_options, "--remote=0"]
+    command = [str(node_program()), *scene, *options.other_options, "--remote=0", f"--remote-token={token}"]
     node = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, process_group=0)
     try:
         assert node.stderr is not None
@@ -103,8 +111,8 @@ def _pass_on(output: IO[str]) -> None:
 class _ShellConnection(Connection):
     """A connection that can be used again after Ctrl-C."""
 
-    def __init__(self, port: int, *, timeout: float) -> None:
-        super().__init__(port, timeout=timeout)
+    def __init__(self, port: int, *, timeout: float, token: Path | None) -> None:
+        super().__init__(port, timeout=timeout, token=token)
         self._timeout = _LONGEST_CALL
 
     def call(self, function: str, *arguments: Any) -> Any:

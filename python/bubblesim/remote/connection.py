@@ -6,6 +6,7 @@ from __future__ import annotations
 import functools
 import uuid
 from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Self
 
@@ -15,6 +16,7 @@ import zmq
 
 from bubblesim.remote.frames import Frame, read_frames
 from bubblesim.remote.remote_sim import RemoteSim
+from bubblesim.remote.token import read
 from bubblesim.scripting.api.functions import functions
 
 _PORT = 23000
@@ -26,12 +28,17 @@ class Connection:
     ``sim`` has the functions and constants of `sim` with their documentation. Lists of numbers arrive as numpy arrays.
     """
 
-    def __init__(self, port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0) -> None:
+    def __init__(
+        self, port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0, token: Path | str | None = None
+    ) -> None:
         """Connect to a node that was started with --remote.
 
         :param timeout: s to wait for a reply, more than the longest ``sim.wait``.
+        :param token: file with the token of a node that was started with --remote-token.
         :raises TimeoutError: if there is no answer.
+        :raises RuntimeError: if the node wants another token.
         """
+        self._secret = {"token": read(Path(token))} if token is not None else {}
         self._host = host
         self._address = f"{host}:{port}"
         self._uuid = str(uuid.uuid4())
@@ -42,7 +49,7 @@ class Connection:
         self._socket.connect(f"tcp://{self._address}")
         try:
             known = self.call("zmqRemoteApi.info", "sim")
-        except TimeoutError:
+        except (TimeoutError, RuntimeError):
             self.close()
             raise
         self.sim: Any = SimpleNamespace(**{name: e["const"] for name, e in known.items() if "const" in e})
@@ -53,7 +60,7 @@ class Connection:
     def call(self, function: str, *arguments: Any) -> Any:
         """Call a function by its full name, such as 'sim.getObject'; raise RuntimeError with its error."""
         plain = [value.tolist() if isinstance(value, np.ndarray | np.generic) else value for value in arguments]
-        self._socket.send(cbor2.dumps({"func": function, "args": plain, "uuid": self._uuid}))
+        self._socket.send(cbor2.dumps({"func": function, "args": plain, "uuid": self._uuid, **self._secret}))
         if not self._socket.poll(int(1000 * self._timeout)):
             raise TimeoutError(f"no answer from {self._address} to {function} in {self._timeout:g} s")
         reply = cbor2.loads(self._socket.recv())
@@ -101,10 +108,12 @@ def _typed(value: Any) -> Any:
     return value
 
 
-def connect(port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0) -> Connection:
+def connect(
+    port: int = _PORT, host: str = "127.0.0.1", *, timeout: float = 60.0, token: Path | str | None = None
+) -> Connection:
     """Connect to a node that was started with --remote; see Connection.
 
     >>> with bubblesim.connect() as simulator:
     ...     simulator.sim.startSimulation()
     """
-    return Connection(port, host, timeout=timeout)
+    return Connection(port, host, timeout=timeout, token=token)

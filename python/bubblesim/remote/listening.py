@@ -13,10 +13,15 @@ from bubblesim.output import write_line
 from bubblesim.remote import protocol
 
 
-def listen(context: zmq.Context[zmq.Socket[bytes]], address: str, port: int) -> zmq.Socket[bytes]:
-    """Return a socket that is bound to address:port, and log where; port 0 takes a free one.
+def listen(
+    context: zmq.Context[zmq.Socket[bytes]], address: str, port: int | None, path: str, *, wants_token: bool
+) -> zmq.Socket[bytes]:
+    """Return a socket that is bound to address:port and to a Unix domain socket, and log where.
 
-    :raises RuntimeError: if the address cannot be used; the context is terminated.
+    :param port: 0 takes a free one, None listens on no port.
+    :param path: of the Unix domain socket, in a folder that only this user may enter; empty: none.
+    :param wants_token: clients must know a token.
+    :raises RuntimeError: if the address or the path cannot be used; the context is terminated.
     """
     socket = context.socket(zmq.ROUTER)
     socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
@@ -27,14 +32,28 @@ def listen(context: zmq.Context[zmq.Socket[bytes]], address: str, port: int) -> 
     socket.setsockopt(zmq.HEARTBEAT_IVL, 10_000)  # ms; finds machines that are gone
     socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30_000)
     try:
-        socket.bind(f"tcp://{address}:{port if port else '*'}")
+        where = path
+        if path:
+            socket.bind(f"ipc://{path}")
+        if port is not None:
+            where = f"{address}:{port}"
+            socket.bind(f"tcp://{address}:{port or '*'}")
     except zmq.ZMQError as error:
         socket.close(0)
         context.term()
         reason = os.strerror(error.errno or 0)  # error.strerror also has the address in pyzmq 26
-        raise RuntimeError(f"cannot listen on {address}:{port}: {reason}; another port: --remote=PORT") from None
-    where = socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0")
-    write_line(sys.stderr, f"info: remote clients can connect to {where}")
-    if not is_loopback(address):
-        write_line(sys.stderr, f"warning: all who reach {address} can control the simulation: there is no password")
+        raise RuntimeError(f"cannot listen on {where}: {reason}; another port: --remote=PORT") from None
+    if port is not None:
+        _say_who_can_connect(socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0"), address, wants_token)
     return socket
+
+
+def _say_who_can_connect(where: str, address: str, wants_token: bool) -> None:
+    write_line(sys.stderr, f"info: remote clients can connect to {where}")
+    if is_loopback(address):
+        if not wants_token:
+            write_line(sys.stderr, "info: so can all users of this machine; --remote-token=FILE refuses them")
+    elif wants_token:
+        write_line(sys.stderr, f"warning: the connections to {address} are not encrypted")
+    else:
+        write_line(sys.stderr, f"warning: all who reach {address} can control the simulation: there is no token")

@@ -30,6 +30,8 @@ class Request(NamedTuple):
     """Empty if the client sends none."""
     timeout: float | None
     """s of silence after which the client is forgotten; only in the first request."""
+    token: Any
+    """Which lets the client in; None if it sends none."""
 
 
 def decode(data: bytes) -> Request:
@@ -53,7 +55,7 @@ def decode(data: bytes) -> Request:
     uuid = message.get("uuid", "")
     if not isinstance(uuid, str) or len(uuid) > 200:
         raise RequestError("'uuid' is not a text of at most 200 characters")
-    return Request(message["func"], arguments, uuid, _timeout(message.get("timeout")))
+    return Request(message["func"], arguments, uuid, _timeout(message.get("timeout")), message.get("token"))
 
 
 def _timeout(value: Any) -> float | None:

@@ -47,6 +47,8 @@ class Line:
     """Sent when the client has returned from the callbacks before it."""
     conversation: Conversation | None = None
     calls_back: bool = False
+    has_token: bool = False
+    """The client has sent the token, if one is wanted."""
     outer: list[tuple[Pending | None, bytes | None, Conversation | None]] = field(default_factory=list)
     """The calls whose callbacks have made the current one."""
 

@@ -26,11 +26,16 @@ from bubblesim.remote.function_calls import carry_out, info
 from bubblesim.remote.listening import listen
 from bubblesim.remote.remote_client import Line, Pending, RemoteClient
 from bubblesim.remote.router import NO_DESCRIPTOR, Router
+from bubblesim.remote.token import is_same, make_or_read
 from bubblesim.remote.waiting_calls import WaitingCalls
 
 _SLICE = 0.005  # s of requests between two looks at other commands
 _MOST_NESTED = 50  # calls in callbacks in calls
 _ENDED = "the simulator has ended"
+_NEEDS_TOKEN = (
+    "this node wants a token (--remote-token=FILE), the text in FILE: client.call('bubblesim.token', [TOKEN]) first, "
+    "or bubblesim.connect(token=FILE)"
+)
 _TOO_OLD = "the client speaks a version of ZeroMQ's protocol before 3.0: use libzmq 4, JeroMQ 0.4 or a later one"
 _MOST_REPORTED = 20  # errors of messages; a client could fill the disk
 
@@ -41,18 +46,22 @@ class RemoteServer:
     def __init__(
         self,
         address: str,
-        port: int,
+        port: int | None,
         note_clients: Callable[[bool], None],
         *,
+        socket: str = "",
+        token: str = "",
         trusted: bool = False,
         fixed_scene: str = "",
     ) -> None:
-        """Listen on address:port; port 0 takes a free one.
+        """Listen on address:port, and on a Unix domain socket; see ``listen``.
 
         :param note_clients: called with whether there are clients; ``publish`` is called only then.
+        :param socket: path of the Unix domain socket; empty: none.
+        :param token: file with the text that clients must know; empty: they need none.
         :param trusted: clients may start all programs and use all files.
         :param fixed_scene: why clients cannot load another scene; empty if they can.
-        :raises RuntimeError: if the address cannot be used.
+        :raises RuntimeError: if the address or the token's file cannot be used.
         """
         self.host: Any = None
         self.trusted = trusted
@@ -70,10 +79,11 @@ class RemoteServer:
         self._waiting = WaitingCalls(self._answer, self._wake_up)
         self._ending = False
         self._info = protocol.encode({"ret": [info()]})
+        self._token = make_or_read(Path(token)) if token else ""
         self._context = zmq.Context()
-        self._address = address
+        self._address = address if port is not None else ""
         self._frames: FramePublisher | None = None
-        self._socket = listen(self._context, address, port)
+        self._socket = listen(self._context, address, port, socket, wants_token=bool(token))
         self._router = Router(self._socket)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
         self._reported = 0
@@ -90,6 +100,13 @@ class RemoteServer:
 
         :param failure: why the scene that a client asked for is not this one.
         """
+        try:
+            self._attach(host, failure)
+        except BaseException:
+            self.detach()  # wholly or not at all
+            raise
+
+    def _attach(self, host: Any, failure: str) -> None:
         self.host = host
         self.failure = failure
         self.scenes += 1
@@ -104,7 +121,7 @@ class RemoteServer:
         if self._frames is not None:
             self._frames.show(self.scenes, self._runner)
         self._runner.post(self._waiting.answer_due)
-        self._watch.look_again()  # the descriptors do not signal what came in between
+        self._look_again()  # the descriptors do not signal what came in between
 
     def detach(self) -> None:
         """Leave the scene; requests wait until the next one is attached."""
@@ -115,9 +132,10 @@ class RemoteServer:
         self.host = self._runner = None
 
     def _close_watches(self) -> None:
-        if self.host is not None:
-            self._watch.close()
-            self._watch_of_monitor.close()
+        for watch in (self._watch, self._watch_of_monitor):
+            if watch is not None:
+                watch.close()
+        self._watch = self._watch_of_monitor = None
 
     def change_scene(self, scene: Any) -> None:
         """Let the node go on with another ``bubblesim.Scene``."""
@@ -167,6 +185,8 @@ class RemoteServer:
 
     def publish_frames(self) -> int:
         """Publish frames from now on, and return the port."""
+        if not self._address:
+            raise RuntimeError("frames are published on TCP: start the node with --remote")
         if self._frames is None:
             self._frames = FramePublisher(self._context, self._address)
             self._frames.show(self.scenes, self._runner)
@@ -190,9 +210,13 @@ class RemoteServer:
         for line in list(client.lines.values()):  # one that cannot be sent to is dropped
             if client.callbacks and line.is_open and not line.calls_back:
                 self._pump(line)
-        self._watch.look_again()
+        self._look_again()
 
     # Messages
+
+    def _look_again(self) -> None:
+        if self._watch is not None:
+            self._watch.look_again()
 
     def _serve(self) -> bool:
         """Handle requests for a while; return whether there are more."""
@@ -235,6 +259,12 @@ class RemoteServer:
         if not request.uuid:
             self._send(line, protocol.encode({"success": False, "error": "the request has no uuid"}))
             return
+        if self._token and not self._has_token(line, request):
+            self._send(line, protocol.error(_NEEDS_TOKEN))
+            return
+        if request.function == "bubblesim.token":
+            self._send(line, protocol.result(None))
+            return
         client = self._clients.client_of(line, request.uuid, request.timeout)
         if request.function == protocol.EXECUTED:
             self._returned(line, request.arguments)
@@ -247,6 +277,12 @@ class RemoteServer:
             if line.calls_back:  # a call in a callback
                 line.begin_inner()
             self._call(line, request, client)
+
+    def _has_token(self, line: Line, request: protocol.Request) -> bool:
+        """Return whether a request or an earlier one of its line has the token."""
+        sent = request.arguments[0] if request.function == "bubblesim.token" and request.arguments else request.token
+        line.has_token = line.has_token or (isinstance(sent, str) and is_same(sent, self._token))
+        return line.has_token
 
     def _call(self, line: Line, request: protocol.Request, client: RemoteClient) -> None:
         if self._ending:
@@ -315,7 +351,7 @@ class RemoteServer:
     def _answer(self, line: Line) -> None:
         """Send the reply of a call that has waited."""
         self._pump(line)
-        self._watch.look_again()
+        self._look_again()
 
     def _wake_up(self) -> None:
         """Answer what is due; called by another thread."""

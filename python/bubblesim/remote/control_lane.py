@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stops and pauses a simulation whose thread does not serve the door: a script that does not return keeps it.
+
+A thread of its own owns a second socket, beside that of the door in the folder that only this user may enter. It hands
+over commands, which the runner carries out between steps; a script that is stuck is interrupted for a pending stop.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import zmq
+
+from bubblesim.remote import protocol
+
+_LOOK = 250  # ms between two looks for the end
+_COMMANDS: dict[str, Callable[[Any], object]] = {
+    "window.stop": lambda runner: runner.stop(wait=False),
+    "window.pause": lambda runner: runner.pause(wait=False),
+}
+
+
+def path_of(door: str) -> str:
+    """Return the path of the lane's socket beside that of a door."""
+    return f"{door}-control"
+
+
+class ControlLane:
+    """Hands commands to the runner of the scene that runs."""
+
+    def __init__(self, context: zmq.Context[Any], door: str) -> None:
+        """Listen beside the Unix domain socket of a door."""
+        self._runner: Any = None
+        self._guard = threading.Lock()  # of the runner, which must not end while a command is handed over
+        self._ending = threading.Event()
+        self._socket = context.socket(zmq.REP)
+        self._socket.setsockopt(zmq.LINGER, 0)
+        self._socket.setsockopt(zmq.MAXMSGSIZE, 1 << 16)
+        self._socket.bind(f"ipc://{path_of(door)}")
+        self._thread = threading.Thread(target=self._run, name="control lane", daemon=True)
+        self._thread.start()
+
+    def show(self, runner: Any) -> None:
+        """Command this runner from now on; None between two scenes."""
+        with self._guard:
+            self._runner = runner
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._ending.set()
+        self._thread.join()
+        self._socket.close()
+
+    def _run(self) -> None:
+        while not self._ending.is_set():
+            if self._socket.poll(_LOOK):
+                self._socket.send(self._answer(self._socket.recv()))
+
+    def _answer(self, message: bytes) -> bytes:
+        try:
+            function = protocol.decode(message).function
+            command = _COMMANDS.get(function)
+            if command is None:
+                raise AttributeError(f"there is no command '{function}' here: {', '.join(_COMMANDS)}")
+            with self._guard:
+                if self._runner is None:
+                    raise RuntimeError("another scene is being loaded")
+                command(self._runner)
+        except Exception as error:
+            return protocol.error_of(error)
+        return protocol.result(None)

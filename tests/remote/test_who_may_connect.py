@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who reaches the simulator from outside: the owner alone by the window, and with a token by --remote."""
+
+import re
+import stat
+from pathlib import Path
+
+import cbor2
+import pytest
+
+import bubblesim
+from door_support import Door, refusal
+from node_support import Node, run_sim
+from ros_support import free_port, ros_environment
+
+WANTS = "this node wants a token"
+
+
+def listening_ports(pid: int) -> list[int]:
+    """Return the TCP ports on which a process listens."""
+    own = {str(each.readlink()) for each in Path(f"/proc/{pid}/fd").iterdir()}
+    table = [
+        line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/{pid}/net/{name}").read_text().split("\n")
+    ]
+    sockets = [row for row in table[1:] if len(row) > 9 and row[3] == "0A"]  # LISTEN
+    return [int(row[1].rpartition(":")[2], 16) for row in sockets if f"socket:[{row[9]}]" in own]
+
+
+@pytest.fixture
+def guarded(tmp_path: Path) -> Door:
+    with Door(tmp_path, "--remote-token", tmp_path / "token") as door:
+        yield door
+
+
+@pytest.mark.parametrize("edit", ["true", "false"])
+def test_the_window_opens_no_port_of_the_node(tmp_path: Path, edit: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    environment = ros_environment(free_port(), tmp_path) | {"XDG_RUNTIME_DIR": str(tmp_path)}
+    with Node(environment, tmp_path / "log", "ball", "--no-ros", "--web", f"--web-edit={edit}") as node:
+        node.wait_for_output("the window is at")
+        assert listening_ports(node.process.pid) == []
+        (folder,) = tmp_path.glob("bubblesim-*")
+        assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+        assert node.end() == 0
+    assert not folder.exists()
+
+
+def test_a_window_that_may_only_look_is_not_joined_by_an_open_port() -> None:
+    run = run_sim("ball", "--no-ros", "--web", "--web-edit=false", "--remote")
+    assert run.returncode == 2
+    assert "with --remote it needs --remote-token" in run.stderr
+
+
+def test_a_token_lets_clients_in(guarded: Door, tmp_path: Path) -> None:
+    token = tmp_path / "token"
+    assert stat.S_IMODE(token.stat().st_mode) == 0o600
+    with bubblesim.connect(guarded.port, token=token) as simulator:
+        assert simulator.sim.getSimulationTime() == 0
+    client = guarded.client()
+    client.call("bubblesim.token", [token.read_text().strip()])
+    assert client.require("sim").getSimulationTime() == 0
+
+
+def test_without_the_token_no_function_is_called(guarded: Door, tmp_path: Path) -> None:
+    assert WANTS in refusal(bubblesim.connect, guarded.port)
+    client = guarded.client()
+    assert WANTS in refusal(client.require, "sim")
+    assert WANTS in refusal(client.call, "bubblesim.token", ["guess" * 6])
+    assert WANTS in refusal(client.call, "sim.startSimulation", [])
+    other = tmp_path / "other"
+    other.write_text("t" * 32)
+    other.chmod(0o600)
+    assert WANTS in refusal(lambda: bubblesim.connect(guarded.port, token=other))
+    with bubblesim.connect(guarded.port, token=tmp_path / "token") as simulator:
+        assert simulator.sim.getSimulationState() == simulator.sim.simulation_stopped
+
+
+def test_a_known_uuid_does_not_replace_the_token(guarded: Door, tmp_path: Path) -> None:
+    socket = guarded.raw()
+    token = (tmp_path / "token").read_text().strip()
+    for extra, answer in (({"token": token}, "ret"), ({}, "ret")):  # a line that has sent it keeps it
+        socket.send(cbor2.dumps({"func": "sim.getSimulationTime", "args": [], "uuid": "one", **extra}))
+        assert answer in cbor2.loads(socket.recv())
+    socket.close()
+    other = guarded.raw()
+    other.send(cbor2.dumps({"func": "sim.getSimulationTime", "args": [], "uuid": "one"}))
+    assert WANTS in cbor2.loads(other.recv())["err"]
+    other.close()
+
+
+@pytest.mark.parametrize(
+    ("text", "mode", "why"),
+    [("short", 0o600, "has 5 characters"), ("t" * 32, 0o644, "other users can read or write")],
+)
+def test_a_token_that_does_not_protect_is_refused(tmp_path: Path, text: str, mode: int, why: str) -> None:
+    token = tmp_path / "token"
+    token.write_text(text)
+    token.chmod(mode)
+    run = run_sim("ball", "--no-ros", f"--remote={free_port()}", f"--remote-token={token}")
+    assert run.returncode == 2
+    assert why in run.stderr
+
+
+def test_an_open_door_says_that_all_users_may_connect(door: Door) -> None:
+    assert "so can all users of this machine; --remote-token=FILE refuses them" in door.output
+
+
+def test_a_client_cannot_start_the_simulator(door: Door) -> None:
+    sim = door.sim()
+    for program in ("sim", "bubblesim", "/usr/lib/rosbag/record"):
+        assert re.search("remote client 1 must not start /", refusal(sim.launchExecutable, program, "ball"))
