@@ -51,6 +51,7 @@ Options read(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  bubblesim::stay_on_this_machine(argc, argv);
   ros::init(argc, argv, "map_saver", ros::init_options::AnonymousName);
   if (argc == 2 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h")) {
     std::fputs(kUsage, stdout);

@@ -25,6 +25,7 @@ inline ros::NodeHandle start_node() {
 /// parameter, which it logs.
 template <typename Node>
 int run_node(int argc, char** argv, const char* name) {
+  stay_on_this_machine(argc, argv);
   ros::init(argc, argv, name);
   const ros::NodeHandle alive = start_node();  // the last handle also ends the log
   try {

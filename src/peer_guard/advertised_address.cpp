@@ -91,6 +91,22 @@ std::optional<Address> only_address(const std::string& host, int family) {
 
 }  // namespace
 
+void stay_on_this_machine(int argc, const char* const* argv) {
+  const char* of_environment = std::getenv("ROS_MASTER_URI");
+  std::string master = of_environment != nullptr ? of_environment : "http://localhost:11311";
+  bool is_chosen = is_set("ROS_HOSTNAME") || is_set("ROS_IP");
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::string name = argument.substr(0, argument.find(":="));
+    if (name == "__master") master = argument.substr(name.size() + 2);
+    is_chosen = is_chosen || name == "__hostname" || name == "__ip";
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  if (is_chosen || !ros::network::splitURI(master, host, port)) return;
+  if (host == "localhost" || host.rfind("127.", 0) == 0) setenv("ROS_HOSTNAME", "localhost", 1);
+}
+
 AdvertisedAddress::AdvertisedAddress() : host_(chosen_host()) { advertised = this; }
 
 AdvertisedAddress::~AdvertisedAddress() { advertised = nullptr; }

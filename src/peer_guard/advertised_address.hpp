@@ -7,6 +7,10 @@
 
 namespace bubblesim {
 
+/// Lets roscpp advertise `localhost` if only this machine reaches the master and the user chose no address. Nodes
+/// elsewhere do not know such a master, but roscpp would listen on all addresses for them. Call it before ros::init().
+void stay_on_this_machine(int argc, const char* const* argv);
+
 /// While it exists, sockets that this thread binds to all addresses are bound to the node's advertised address instead:
 /// ros::start() then opens its XML-RPC and TCPROS ports on that address only. It acts if the user chose the address, by
 /// ROS_HOSTNAME, ROS_IP, `__hostname:=` or `__ip:=`. The sockets stay bound to all addresses if the name has several

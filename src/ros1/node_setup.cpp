@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "advertised_address.hpp"
 #include "peer_limits.hpp"
 #include "peer_lines.hpp"
 
@@ -41,6 +42,7 @@ void init_node(int& argc, char** argv, const std::string& default_name) {
     throw std::invalid_argument("invalid ROS master URI '" + uri + "': set " + kMasterVariable + " to something like " +
                                 kUsualMaster);
   }
+  stay_on_this_machine(argc, argv);
   try {
     ros::init(argc, argv, default_name, ros::init_options::NoSigintHandler);
   } catch (const ros::Exception& error) {

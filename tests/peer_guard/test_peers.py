@@ -126,7 +126,7 @@ def environment(core: RosCore, **chosen: str) -> dict[str, str]:
         ({"ROS_HOSTNAME": "127.0.0.1"}, {LOOPBACK}),
         ({"ROS_HOSTNAME": "localhost"}, {LOOPBACK}),
         ({"ROS_IP": "127.0.0.1"}, {LOOPBACK}),
-        ({}, {ANY_ADDRESS}),
+        ({}, {LOOPBACK}),  # as the master, which is on localhost
     ],
 )
 @pytest.mark.parametrize("program", NODES)
@@ -135,6 +135,12 @@ def test_ports_listen_on_the_address_that_the_user_chose(
 ) -> None:
     with Node(program, environment(core, **chosen), tmp_path) as node:
         assert node.listens() == addresses
+
+
+def test_with_a_master_for_all_machines_ports_listen_on_all_addresses(core: RosCore, tmp_path: Path) -> None:
+    master = environment(core)["ROS_MASTER_URI"].replace("localhost", socket.gethostname())
+    with Node("sim", environment(core, ROS_MASTER_URI=master), tmp_path) as node:
+        assert node.listens() == {ANY_ADDRESS}
 
 
 def test_an_address_of_the_command_line_counts(core: RosCore, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import TypeVar
 
 import rospy
 
+from bubblesim.addresses import stay_on_this_machine
 from bubblesim.program import BY_CTRL_C, run_program
 
 Node = TypeVar("Node")
@@ -44,6 +45,7 @@ def run_node(
 def run_ros_program(main: Callable[[], int]) -> int:
     """Run the program of a node; return its exit code. Ctrl-C shows no traceback, also while waiting for a master."""
     _bound_the_shutdown()
+    stay_on_this_machine(sys.argv)
     report = threading.excepthook
 
     def report_unless_ending(arguments: threading.ExceptHookArgs) -> None:
