@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "bubblesim/error.hpp"
@@ -72,7 +73,7 @@ class Simulation {
   /// The following functions change what is simulated. Call them between steps, or in a system's process_input(), where
   /// they take effect at once. They wait for a step that another thread runs. They throw std::logic_error in the other
   /// phases of a step, and in another thread while Python systems are in a step. Run state and requests are not
-  /// changed.
+  /// changed. Models can also be added and removed in a system's actuate(), by the stepping thread or its StandIn.
 
   /// Resets the models that are there now, and the sensors, to the start; time goes on.
   void reset_world();
@@ -87,6 +88,20 @@ class Simulation {
   bool has_scene_models() const { return world_.has_scene_models(); }
   /// Sets the seed of what is random from now on. What the scene randomizes is drawn in the next reset.
   void set_seed(std::uint64_t seed);
+  /// During its lifetime this thread may add and remove models in actuate() like the stepping thread, which waits for
+  /// it: the thread of a script, in its turn.
+  class StandIn {
+   public:
+    explicit StandIn(Simulation& simulation) : simulation_(simulation) {
+      simulation_.stand_in_ = std::this_thread::get_id();
+    }
+    ~StandIn() { simulation_.stand_in_ = std::thread::id(); }
+    StandIn(const StandIn&) = delete;
+    StandIn& operator=(const StandIn&) = delete;
+
+   private:
+    Simulation& simulation_;
+  };
   /// Adds a model with its sensors, and calls model_added() of the systems. Throws like World::add_model; nothing is
   /// changed then. Adds warnings to `warnings`, unless it is null.
   ObjectId add_model(ModelDescription model, std::vector<Problem>* warnings = nullptr);
@@ -175,6 +190,7 @@ class Simulation {
   void handle(const Diverged& divergence);
   void remove_model_now(ObjectId model);
   void check_may_change() const;
+  void check_may_change_models() const;
   void make_sensors(ObjectId model);
   void reset_sensors();
   void restart_sensors();
@@ -209,6 +225,8 @@ class Simulation {
   double time_before_ = 0;  // s
   AccessLock stepping_;     // held by step()
   bool in_step_ = false;    // after its process_input(); guarded by world_.access()
+  bool actuates_ = false;   // within it: the systems command the world
+  std::thread::id stand_in_;
 };
 
 }  // namespace bubblesim

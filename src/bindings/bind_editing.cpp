@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -44,6 +45,18 @@ ObjectId add_copy(Simulation& simulation, const ModelCopy& copy, const std::stri
   return simulation.add_model(std::move(model));
 }
 
+/// A context of Python in which its thread stands in for the stepping one.
+class StandInContext {
+ public:
+  explicit StandInContext(Simulation& simulation) : simulation_(simulation) {}
+  void enter() { stand_in_.emplace(simulation_); }
+  void leave() { stand_in_.reset(); }
+
+ private:
+  Simulation& simulation_;
+  std::optional<Simulation::StandIn> stand_in_;
+};
+
 }  // namespace
 
 void bind_editing(py::module_& module) {
@@ -58,6 +71,13 @@ void bind_editing(py::module_& module) {
              "Return the description of a model of the top level, with its present pose.");
   module.def("add_copy", &add_copy, py::arg("simulation"), py::arg("copy"), py::arg("name"), py::arg("position"),
              py::arg("orientation"), "Add a model by the description of another one; return its handle.");
+
+  py::class_<StandInContext>(module, "StandIn",
+                             "A context in which this thread may add and remove models like the stepping thread, which "
+                             "waits for it.")
+      .def(py::init<Simulation&>(), py::arg("simulation"), py::keep_alive<1, 2>())
+      .def("__enter__", &StandInContext::enter)
+      .def("__exit__", [](StandInContext& context, const py::args&) { context.leave(); });
 
   using Spring = Attached<PointSpring>;
   py::class_<Spring>(module, "PointSpring", "A spring that pulls a point of a link to a place in the world.")

@@ -232,3 +232,60 @@ def test_lua_has_them_too(tmp_path: Path) -> None:
     """
     run = run_script(tmp_path, code, "--strict", name="script.lua")
     assert (run.stderr, run.returncode) == ("", 0)
+
+
+CHANGES = """
+def change(phase):
+    shape = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.1, 0.1, 0.1])
+    removed = sim.removeObjects([sim.createPureShape(sim.pure_primitive_cuboid, 8, [0.1, 0.1, 0.1], 1)])
+    print(phase, sim.getObjectAlias(shape), removed)
+
+def sysCall_init():
+    change('init')
+
+def sysCall_actuation():
+    if sim.getSimulationTime() < 0.06:
+        change('actuation')
+
+def sysCall_thread():
+    change('thread')
+
+def sysCall_sensing():
+    try:
+        change('sensing')
+    except RuntimeError as error:
+        print(error)
+"""
+
+
+def test_models_come_and_go_in_all_phases_but_sensing(tmp_path: Path) -> None:
+    run = run_script(tmp_path, CHANGES, "--strict", scene="ball", target="/Ball", until=0.1)
+    assert (run.stderr, run.returncode) == ("", 0)
+    refused = "cannot change the world in this phase of a step; change it between steps"
+    assert run.stdout.splitlines() == [
+        "init Cuboid 1",
+        "thread Cuboid_2 1",
+        "actuation Cuboid_3 1",
+        refused,
+        "actuation Cuboid_4 1",
+        refused,
+    ]
+
+
+def test_another_thread_of_a_script_changes_no_models(tmp_path: Path) -> None:
+    code = """
+import threading
+
+def sysCall_init():
+    def change():
+        try:
+            sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.1, 0.1, 0.1])
+        except RuntimeError as error:
+            print(error)
+    other = threading.Thread(target=change)
+    other.start()
+    other.join()
+    sim.quitSimulator()
+"""
+    run = run_script(tmp_path, code, "--strict", scene="ball", target="/Ball")
+    assert "another thread is running a step" in run.stdout

@@ -101,7 +101,10 @@ void Simulation::step() {
   const AccessLock::Hold hold(world_.access());
   const Noted in_pass(in_step_);
   step_start_ = state_time();  // process_input() may reset it
-  for (System* system : systems_) system->actuate(world_, step_start_);
+  {
+    const Noted actuates(actuates_);
+    for (System* system : systems_) system->actuate(world_, step_start_);
+  }
   advance_physics(substep(scene(), time_step_));
   ++steps_;  // the world shows the end of the step from here on
   const Noted after_physics(after_physics_);
@@ -116,8 +119,12 @@ void Simulation::check_may_change() const {
   if (!stepping_.is_mine()) {
     throw std::logic_error("cannot change the simulation: another thread is running a step; change it between steps");
   }
-  throw std::logic_error(
-      "cannot change the world in this phase of a step; change it before the actuation or after the step");
+  throw std::logic_error("cannot change the world in this phase of a step; change it between steps");
+}
+
+void Simulation::check_may_change_models() const {
+  if (actuates_ && (stepping_.is_mine() || stand_in_ == std::this_thread::get_id())) return;
+  check_may_change();
 }
 
 void Simulation::reset_world() {
@@ -170,7 +177,7 @@ void Simulation::set_seed(std::uint64_t seed) {
 
 ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {
   const AccessLock::Hold hold(world_.access());
-  check_may_change();
+  check_may_change_models();
   const ObjectId id = world_.add_model(std::move(model), warnings);
   rays_->add_model(world_, id, world_.description(id));
   make_sensors(id);
@@ -181,7 +188,7 @@ ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* war
 
 void Simulation::remove_model(ObjectId model) {
   const AccessLock::Hold hold(world_.access());
-  check_may_change();
+  check_may_change_models();
   world_.check_removable(model);
   remove_model_now(model);
 }

@@ -29,7 +29,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         return self._tree.dummy(dummy).size
 
     def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
-        """Create a shape at the origin and return its handle; not in sysCall_actuation and sysCall_sensing.
+        """Create a shape at the origin and return its handle; not in sysCall_sensing.
 
         Types: sim.primitiveshape_cuboid, spheroid, cylinder, capsule, plane and disc; ``sizes`` are full lengths along
         x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable until
@@ -59,7 +59,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.
 
-        In sysCall_actuation and sysCall_sensing only dummies can be removed.
+        In sysCall_sensing only dummies can be removed.
         """
         resolved = [self._resolve(handle) for handle in handles]
         for handle in resolved:

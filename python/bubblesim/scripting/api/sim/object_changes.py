@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from bubblesim._core import sensor_kind
+import contextlib
+
+from bubblesim._core import StandIn, sensor_kind
 from bubblesim.scripting.api.kinds import Handle, Vector3
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.scene_edits import Hold, relative
+from bubblesim.scripting.threads import script_thread
 
 _MOST_CHARACTERS = 255  # of a name
 
@@ -205,12 +208,18 @@ class ObjectChangeFunctions(ApiContext):
         number = 1
         while (free := name if number == 1 else f"{name}_{number}") in taken:
             number += 1
-        model = int(self._simulation.add_model(text, name=free).handle)
+        with self._stand_in():
+            model = int(self._simulation.add_model(text, name=free).handle)
         self._edits.texts[model] = text
         return model
 
     def _remove_model(self, handle: int) -> None:
-        if scripts := self._caller.shared.scripts:
-            scripts.remove_model(handle)
-        else:
-            self._simulation.remove_model(handle)
+        with self._stand_in():
+            if scripts := self._caller.shared.scripts:
+                scripts.remove_model(handle)
+            else:
+                self._simulation.remove_model(handle)
+
+    def _stand_in(self) -> contextlib.AbstractContextManager[object]:
+        """Return a context in which a script's thread, whose turn it is, changes models like the simulation's."""
+        return StandIn(self._simulation) if script_thread.current() else contextlib.nullcontext()

@@ -54,7 +54,7 @@ class SceneFileFunctions(CreatedObjectFunctions):
         return 1
 
     def loadModel(self, file: str) -> int:
-        """Add a model by the name of its file and return its handle; not in sysCall_actuation and sysCall_sensing.
+        """Add a model by the name of its file and return its handle; not in sysCall_sensing.
 
         It is searched as models/NAME/model.sdf and NAME.sdf in the folder of the scene and the folders of scenes. A
         name that is taken gets a number. It stays until it is removed.
