@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -54,13 +55,19 @@ std::shared_ptr<const TriangleMesh> read(const MeshRequest& request, const MeshR
   return finish_mesh(std::move(mesh));
 }
 
+/// What became of a file's content.
+struct Known {
+  std::weak_ptr<const TriangleMesh> mesh;
+  std::optional<std::string> error;  ///< of a file that cannot be used, so that it is not read for each use
+};
+
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshReader& reader) {
   // Materials and textures are in files next to the mesh, so equal meshes may look different in other folders.
   using Key = std::tuple<std::string, std::uint64_t, std::uint64_t, double, double, double, std::string, bool>;
   static std::mutex mutex;
-  static std::map<Key, std::weak_ptr<const TriangleMesh>> known;
+  static std::map<Key, Known> known;
   const std::scoped_lock lock(mutex);
   const MeshReader::Content file = reader.content(request.file.string());
   const Key key{(request.file.parent_path() / request.file.extension()).string(),
@@ -72,14 +79,20 @@ std::shared_ptr<const TriangleMesh> load_mesh(const MeshRequest& request, MeshRe
                 request.submesh,
                 request.center};
   if (const auto found = known.find(key); found != known.end()) {
-    if (std::shared_ptr<const TriangleMesh> mesh = found->second.lock()) return mesh;
+    if (std::shared_ptr<const TriangleMesh> mesh = found->second.mesh.lock()) return mesh;
+    if (found->second.error) throw MeshError(*found->second.error);
   }
   for (auto entry = known.begin(); entry != known.end();) {
-    entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
+    entry = entry->second.mesh.expired() && !entry->second.error ? known.erase(entry) : std::next(entry);
   }
-  std::shared_ptr<const TriangleMesh> mesh = read(request, file, reader);
-  known.insert_or_assign(key, mesh);
-  return mesh;
+  try {
+    std::shared_ptr<const TriangleMesh> mesh = read(request, file, reader);
+    known.insert_or_assign(key, Known{mesh, {}});
+    return mesh;
+  } catch (const MeshError& error) {
+    known.insert_or_assign(key, Known{{}, error.what()});
+    throw;
+  }
 }
 
 }  // namespace bubblesim

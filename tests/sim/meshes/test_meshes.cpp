@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "meshes/convex_hull.hpp"
 #include "meshes/made_meshes.hpp"
@@ -174,6 +176,23 @@ TEST(MeshFile, OfColladaIsInMetersWithItsAxesAsTheyAre) {
   EXPECT_FLOAT_EQ(mesh->materials[0].diffuse.g, 0.4F);
 }
 
+TEST(MeshFile, OfColladaMayHaveCommentsAndSpacesAnywhere) {
+  std::string spaced = kDae;
+  const auto replace = [&spaced](const std::string& from, const std::string& to) {
+    spaced.replace(spaced.find(from), from.size(), to);
+  };
+  replace(R"(<vertices id="v">)", R"(<vertices id="v"><!-- <vertices id="old"> -->)");
+  replace("<color>0.2", "<color>\n  0.2");
+  replace("<matrix>1", "<matrix> <!-- row by row -->\n\t1");
+  replace("<p>0 1 2</p>", "<p> 0 1  2 </p>");
+  replace(">0 0 0 1 0", ">\n0 0 0\t1 0");
+  const TemporaryFile file("spaced.dae", spaced);
+  const auto mesh = load({file.path()});
+  expect_near(mesh->low, {0.254, 0, 0}, kRounding);
+  expect_near(mesh->high, {0.2794, 0, 0.0254}, kRounding);
+  EXPECT_FLOAT_EQ(mesh->materials.at(0).diffuse.g, 0.4F);
+}
+
 TEST(MeshFile, OfColladaKnowsASubmeshByTheNameAndTheIdOfItsNodeAndGeometry) {
   const TemporaryFile file("tri.dae", kDae);
   for (const char* name : {"Part", "node-id", "tri", "tri-id"}) {
@@ -194,6 +213,20 @@ TEST(MeshFile, ThatCannotBeReadTellsWhy) {
   const TemporaryFile empty("empty.stl", "solid nothing\nendsolid nothing\n");
   EXPECT_NE(complaint([&] { load({empty.path()}); }), "");
   EXPECT_EQ(complaint([&] { load({"/nowhere/at_all.stl"}); }), "does not exist");
+}
+
+std::size_t number_of_children() {
+  std::ifstream children("/proc/thread-self/children");
+  return static_cast<std::size_t>(std::distance(std::istream_iterator<int>(children), {}));
+}
+
+TEST(MeshFile, ThatIsDamagedIsReadOnce) {
+  const TemporaryFile broken("broken.dae", "<COLLADA version='1.4.1'>");
+  const std::string reported = complaint([&] { load({broken.path()}); });
+  const std::size_t before = number_of_children();
+  MeshReader reader;
+  EXPECT_EQ(complaint([&] { load_mesh({broken.path()}, reader); }), reported);
+  EXPECT_EQ(number_of_children(), before) << "a reader was started";
 }
 
 // Their effect in assimp: an invalid token takes memory without end, and the nodes overflow its stack.

@@ -45,8 +45,8 @@ std::chrono::milliseconds patience() {
 
 /// The program on PATH, or else that of the virtual environment of this build.
 std::string program() {
-  const std::string found = find_program("xacro");
-  const std::string own = BUBBLESIM_VIRTUAL_ENV "/bin/xacro";
+  std::string found = find_program("xacro");
+  std::string own = BUBBLESIM_VIRTUAL_ENV "/bin/xacro";
   if (!found.empty() || !std::filesystem::is_regular_file(own)) return found;
   return own;
 }

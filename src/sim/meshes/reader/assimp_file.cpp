@@ -2,26 +2,53 @@
 #include "meshes/reader/assimp_file.hpp"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <memory>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
+#include "meshes/reader/collada_text.hpp"
 #include "meshes/reader/file_materials.hpp"
 #include "meshes/reader/gather.hpp"
 
 namespace bubblesim {
 namespace {
 
-/// Mesh files refer to other files: reading a FIFO or a device would never end.
+/// Opens what Assimp reads. Mesh files refer to other files: reading a FIFO or a device would never end.
 class RegularFiles final : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     std::error_code error;
-    return std::filesystem::is_regular_file(file, error) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    if (!std::filesystem::is_regular_file(file, error)) return nullptr;
+    return is_collada(file) ? open_plain(file) : DefaultIOSystem::Open(file, mode);
+  }
+
+ private:
+  static bool is_collada(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return extension == ".dae";
+  }
+
+  static Assimp::IOStream* open_plain(const char* file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream) return nullptr;
+    const std::string plain = plain_collada(text.str());
+    auto bytes = std::make_unique<std::uint8_t[]>(plain.size());
+    std::copy(plain.begin(), plain.end(), bytes.get());
+    return new Assimp::MemoryIOStream(bytes.release(), plain.size(), true);  // which deletes them
   }
 };
 

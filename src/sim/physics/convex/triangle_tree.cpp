@@ -25,7 +25,8 @@ TriangleTree::TriangleTree(const std::vector<double>& coordinates, const std::ve
 }
 
 std::array<Vector3, 3> TriangleTree::corners(std::uint32_t triangle) const {
-  return {corners_[indices_[3 * triangle]], corners_[indices_[3 * triangle + 1]], corners_[indices_[3 * triangle + 2]]};
+  const std::size_t first = 3 * static_cast<std::size_t>(triangle);
+  return {corners_[indices_[first]], corners_[indices_[first + 1]], corners_[indices_[first + 2]]};
 }
 
 Bounds TriangleTree::bounds_of(std::uint32_t triangle) const {
