@@ -78,3 +78,37 @@ def test_use_sim_time_is_put_back_at_the_end(roscore: RosCore, before: bool | No
         assert "/use_sim_time" not in parameters
     else:
         assert roscore.run("rosparam", "get", "/use_sim_time") == f"{str(before).lower()}\n"
+
+
+def test_a_second_simulator_is_refused_before_its_nodes_replace_those_of_the_first(roscore: RosCore) -> None:
+    launched = start(["roslaunch", "bubblesim", "bubblerob.launch"], roscore.env, stdout=subprocess.DEVNULL)
+    try:
+        helpers = {"/map_to_odom", "/robot_state_publisher"}
+        wait_until(lambda: helpers < set(roscore.nodes()), "the other nodes", 2 * DEADLINE)
+        wait_until(lambda: "/sim_ros_interface" in roscore.nodes(), "the simulator", 2 * DEADLINE)
+        before = {name: roscore.pid_of(name) for name in helpers}
+        second = subprocess.run(
+            ["roslaunch", "bubblesim", "tricycle.launch"],
+            env=roscore.env,
+            capture_output=True,
+            text=True,
+            timeout=3 * DEADLINE,
+            check=False,
+        )
+        assert second.returncode != 0
+        assert "error: a simulator runs already as node /sim_ros_interface" in second.stderr
+        assert {name: roscore.pid_of(name) for name in helpers} == before
+    finally:
+        stop_launch(launched)
+
+
+def test_programs_that_were_not_built_are_named_with_the_cure() -> None:
+    run = subprocess.run(
+        ["rosrun", "bubblesim", "before_launch", "--needs", "mapper", "no_such_program"],
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        check=False,
+    )
+    assert run.returncode == 1
+    assert run.stderr == "error: not built: no_such_program; in a clone, run scripts/setup --with maps\n"
