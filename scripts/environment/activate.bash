@@ -7,5 +7,6 @@ set +u  # catkin's setup files read variables that may not be set
 # shellcheck disable=SC1091
 source "$_bubblesim_root/.ws/devel/setup.bash"
 export VIRTUAL_ENV=$_bubblesim_root/.ws/venv
+export PYTHONNOUSERSITE=1  # Debian's modules are not made for the numpy of a `pip install --user`
 export PATH=$VIRTUAL_ENV/bin:/usr/bin:/bin:$PATH
 unset _bubblesim_root

@@ -56,6 +56,7 @@ void start() {
   PyConfig_InitPythonConfig(&config);
   config.parse_argv = 0;
   config.install_signal_handlers = 0;  // the program handles SIGINT and SIGTERM itself
+  config.user_site_directory = 0;      // Debian's modules are not made for the numpy of a `pip install --user`
   config.buffered_stdio = 0;           // shows the output of scripts at once and in order with ours
   // Python derives the folder of its library from its program's name.
   check(PyConfig_SetBytesString(&config, &config.program_name, BUBBLESIM_PYTHON), "its program name");

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import site
 import subprocess
 import sys
 import tempfile
@@ -29,6 +30,19 @@ def check_python() -> Iterator[Finding]:
     else:
         yield ok(f"Python {version}, {sys.executable}")
     yield core_fault() or ok(f"numpy {np.__version__}")
+    yield from _check_users_packages()
+
+
+def _check_users_packages() -> Iterator[Finding]:
+    """Name the user's own packages that hide Debian's from other programs; ours leave them out."""
+    folder = Path(site.getusersitepackages())
+    hiding = [name for name in ("numpy", "matplotlib") if (folder / name).is_dir()]
+    if hiding:
+        yield warning(
+            f"{' and '.join(hiding)} in {folder} may not fit Debian's Python modules: rospy programs load them, "
+            "bubblesim's own programs use Debian's",
+            f"export PYTHONNOUSERSITE=1, or pip uninstall {' '.join(hiding)}",
+        )
 
 
 def core_fault() -> Finding | None:
