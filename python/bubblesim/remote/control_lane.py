@@ -16,10 +16,11 @@ import zmq
 from bubblesim.remote import protocol
 
 _LOOK = 250  # ms between two looks for the end
-_COMMANDS: dict[str, Callable[[Any], object]] = {
+COMMANDS: dict[str, Callable[[Any], object]] = {
     "window.stop": lambda runner: runner.stop(wait=False),
     "window.pause": lambda runner: runner.pause(wait=False),
 }
+"""By the names that the functions of the window have in the door."""
 
 
 def path_of(door: str) -> str:
@@ -61,9 +62,9 @@ class ControlLane:
     def _answer(self, message: bytes) -> bytes:
         try:
             function = protocol.decode(message).function
-            command = _COMMANDS.get(function)
+            command = COMMANDS.get(function)
             if command is None:
-                raise AttributeError(f"there is no command '{function}' here: {', '.join(_COMMANDS)}")
+                raise AttributeError(f"there is no command '{function}' here: {', '.join(COMMANDS)}")
             with self._guard:
                 if self._runner is None:
                     raise RuntimeError("another scene is being loaded")

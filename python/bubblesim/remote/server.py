@@ -21,6 +21,7 @@ from bubblesim._core import scene_folders
 from bubblesim.output import write_line
 from bubblesim.remote import protocol
 from bubblesim.remote.clients import Clients
+from bubblesim.remote.control_lane import ControlLane
 from bubblesim.remote.frame_publisher import FramePublisher
 from bubblesim.remote.function_calls import carry_out, info
 from bubblesim.remote.listening import listen
@@ -85,6 +86,7 @@ class RemoteServer:
         self._frames: FramePublisher | None = None
         self._socket = listen(self._context, address, port, socket, wants_token=bool(token))
         self._router = Router(self._socket)
+        self._control = ControlLane(self._context, socket) if socket else None
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
         self._reported = 0
         if trusted:
@@ -118,6 +120,8 @@ class RemoteServer:
         self._watch = self._runner.watch(self._socket.getsockopt(zmq.FD), self._serve)
         self._watch_of_monitor = self._runner.watch(self._monitor.getsockopt(zmq.FD), self._serve_monitor)
         self._clients.begin_scene(host)
+        if self._control is not None:
+            self._control.show(host.runner)
         if self._frames is not None:
             self._frames.show(self.scenes, self._runner)
         self._runner.post(self._waiting.answer_due)
@@ -125,6 +129,8 @@ class RemoteServer:
 
     def detach(self) -> None:
         """Leave the scene; requests wait until the next one is attached."""
+        if self._control is not None:
+            self._control.show(None)
         self._close_watches()
         self._clients.leave_scene()
         if self._frames is not None:
@@ -176,6 +182,8 @@ class RemoteServer:
         self._waiting.close()
         if self._frames is not None:
             self._frames.close()
+        if self._control is not None:
+            self._control.close()
         self._socket.disable_monitor()
         self._monitor.close(0)
         self._socket.close()
