@@ -3,7 +3,10 @@
 import { AmbientLight, Color, DirectionalLight, Group, PointLight, SpotLight, Vector3 } from "three";
 
 const SHADOW_SPAN = 12; // m around the point that is looked at
-const BIAS = 0.004; // m
+const MAP_SIZE = 2048; // texels
+// A texel covers a part of an inclined surface, and the filter looks at its neighbours: a surface shades itself unless
+// it is looked up this far in front of it.
+const NORMAL_BIAS = 2.5; // texels
 
 export class Lights {
   group = new Group();
@@ -28,7 +31,7 @@ export class Lights {
       camera.near = 0.05;
       camera.far = 6 * span;
       camera.updateProjectionMatrix();
-      light.shadow.bias = -BIAS / (camera.far - camera.near);
+      light.shadow.normalBias = (NORMAL_BIAS * 2 * span) / MAP_SIZE; // m
     }
   }
 
@@ -48,9 +51,9 @@ export class Lights {
     }
     if (shadows && description.cast_shadows && description.kind !== "point") {
       light.castShadow = true;
-      light.shadow.mapSize.set(2048, 2048);
-      light.shadow.bias = -0.0003;
-      light.shadow.normalBias = 0.004; // m
+      light.shadow.mapSize.set(MAP_SIZE, MAP_SIZE);
+      light.shadow.bias = -0.0001;
+      light.shadow.normalBias = 0.01; // m; of directional lights: see follow()
     }
     this.group.add(light);
     if (light.target) this.group.add(light.target);
