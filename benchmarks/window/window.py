@@ -10,6 +10,7 @@ import argparse
 import asyncio
 import contextlib
 import itertools
+import os
 import re
 import statistics
 import struct
@@ -74,20 +75,21 @@ class Client:
 
     async def read(self, address: str, seconds: float) -> None:
         """Read frames for a time."""
-        origin = address.partition("/?")[0]
-        jar = aiohttp.CookieJar(unsafe=True)  # of an address without a name
-        async with aiohttp.ClientSession(cookie_jar=jar) as session:
-            await session.get(address)
-            async with session.ws_connect(f"{origin}/socket", headers={"Origin": origin}, max_msg_size=0) as socket:
-                end = time.monotonic() + seconds
-                async for message in socket:
-                    if message.data[0] == 0:
-                        (written,) = struct.unpack_from("<d", message.data, 16)
-                        self.latencies.append(time.monotonic() - written)
-                        self.sizes.append(len(message.data))
-                        await socket.send_bytes(cbor2.dumps([struct.unpack_from("<I", message.data, 4)[0]]))
-                    if time.monotonic() > end:
-                        return
+        origin, _, token = address.partition("/#token=")
+        async with (
+            aiohttp.ClientSession() as session,
+            session.ws_connect(f"{origin}/socket", headers={"Origin": origin}, max_msg_size=0) as socket,
+        ):
+            await socket.send_str(token)
+            end = time.monotonic() + seconds
+            async for message in socket:
+                if message.data[0] == 0:
+                    (written,) = struct.unpack_from("<d", message.data, 16)
+                    self.latencies.append(time.monotonic() - written)
+                    self.sizes.append(len(message.data))
+                    await socket.send_bytes(cbor2.dumps([struct.unpack_from("<I", message.data, 4)[0]]))
+                if time.monotonic() > end:
+                    return
 
 
 def first_picture(address: str, openings: int) -> float:
@@ -114,11 +116,12 @@ def window_of(scene: str, folder: Path, *options: str) -> Iterator[tuple[int, st
     """Run a node with a window; yield its process and the address."""
     log = folder / "log"
     command = [str(node_program()), scene, "--no-ros", "--web", *options]
-    with log.open("w") as output, subprocess.Popen(command, stderr=output) as node:
+    environment = os.environ | {"BUBBLESIM_WEB_TOKEN": "benchmark"}
+    with log.open("w") as output, subprocess.Popen(command, env=environment, stderr=output) as node:
         try:
             while not (found := re.search(r"the window is at (\S+)", log.read_text())):
                 time.sleep(0.2)
-            yield node.pid, found[1]
+            yield node.pid, f"{found[1]}#token=benchmark"
         finally:
             node.terminate()
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Takes the picture of the window: python docs/images/window.py. Needs `scripts/setup --with tests`."""
 
+import os
 import re
 import subprocess
 import tempfile
@@ -45,11 +46,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         log = Path(folder) / "log"
         command = [str(node_program()), "tricycle", "--no-ros", "--web"]
-        with log.open("w") as errors, subprocess.Popen(command, stderr=errors) as node:
+        environment = os.environ | {"BUBBLESIM_WEB_TOKEN": "picture"}
+        with log.open("w") as errors, subprocess.Popen(command, env=environment, stderr=errors) as node:
             try:
                 while not (address := re.search(r"the window is at (\S+)", log.read_text())):
                     time.sleep(0.2)
-                picture(address[1])
+                picture(f"{address[1]}#token=picture")
             finally:
                 node.terminate()
 

@@ -59,8 +59,8 @@ def run(scene: str, seconds: float, picture: Path) -> None:
             if controller:
                 programs.start("controller", "rosrun", "bubblesim", controller)
             wait_for(lambda: len(recording.samples) > 1, "the robot's pose on /tf", programs, stop)
-            if address := re.search(r"the window is at (\S+)", simulator.output()):
-                print(f"window             {address[1]}", flush=True)
+            if window := re.search(r"the window is at .* (xdg-open \S+)", simulator.output()):
+                print(f"window             {window[1]}", flush=True)
             if recording.samples:
                 watch(recording, seconds, programs, stop)
             observer.close()

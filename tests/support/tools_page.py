@@ -13,7 +13,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from node_support import Node
 from ros_support import free_port, ros_environment, start, stop, wait_until
-from web_support import PATIENCE, launch_browser, new_page
+from web_support import PATIENCE, TOKEN, launch_browser, new_page
 
 
 class ToolsPage:
@@ -32,10 +32,10 @@ class ToolsPage:
             Node(self.env, folder / "node.txt", scene, *ros, f"--remote={door}", "--start", *options)
         )
         wait_until(lambda: "remote clients can connect" in self.node.output, "the door", timeout=PATIENCE / 1000)
-        command = [sys.executable, "-m", "bubblesim.web", "--door", str(door), "--port", str(self.port), "--token", "t"]
+        command = [sys.executable, "-m", "bubblesim.web", "--door", str(door), "--port", str(self.port)]
         log = folder / "server.txt"
         with log.open("w") as output:
-            self.server = start(command, self.env, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
+            self.server = start(command, self.env | TOKEN, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
         self._ends.callback(stop, self.server)
         wait_until(lambda: "the window is at" in log.read_text(), "the server", timeout=PATIENCE / 1000)
 
@@ -46,7 +46,7 @@ class ToolsPage:
         self.page = new_page(browser, 1400, 900)
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.goto(f"http://127.0.0.1:{self.port}/?token=t")
+        self.page.goto(f"http://127.0.0.1:{self.port}/#token=t")
         self.wait_for("window.bubblesim?.scene.objects.size > 0")
         return self
 

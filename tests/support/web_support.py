@@ -15,6 +15,7 @@ from ros_support import built, start, stop, wait_until
 
 # Without --disable-gpu-compositing the whole page is drawn by the software GL, at twice the time.
 _FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--no-sandbox"]
+TOKEN = {"BUBBLESIM_WEB_TOKEN": "t"}  # for the environment of a node or server
 PATIENCE = 60_000  # ms, for a busy machine that draws without a GPU
 
 
@@ -40,13 +41,13 @@ class Node:
         self._errors = self._log.open("w")
         command = [str(built("sim")), scene, "--no-ros", "--web", *options]
         self._output = (folder / "node.out").open("w")
-        self.process = start(command, dict(os.environ), stdout=self._output, stderr=self._errors)
+        self.process = start(command, os.environ | TOKEN, stdout=self._output, stderr=self._errors)
         try:
-            self.address = self.find(r"the window is at (\S+)\s")
+            self.origin = self.find(r"the window is at (\S+)/\s")
         except BaseException:
             self.__exit__()
             raise
-        self.origin = self.address.partition("/?")[0]
+        self.address = f"{self.origin}/#token=t"
 
     def find(self, pattern: str) -> str:
         """Return the first group of the pattern as soon as the node's errors have it."""

@@ -11,7 +11,7 @@ import pytest
 
 from node_support import run_sim
 from ros_support import free_port, start, stop, wait_until
-from web_support import Node, Window
+from web_support import TOKEN, Node, Window
 
 Show = Callable[..., Window]
 
@@ -64,16 +64,16 @@ def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -
 def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle", "--remote=0") as node:
         door, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
-        command = ["bubblesim", "view", "--door", door, "--port", str(port), "--token", "t"]
+        command = ["bubblesim", "view", "--door", door, "--port", str(port)]
 
         def start_server() -> "subprocess.Popen[str]":
             with (tmp_path / "view.err").open("w") as log:
-                server = start(command, dict(os.environ), stderr=log)
+                server = start(command, os.environ | TOKEN, stderr=log)
             wait_until(lambda: "the window is at" in (tmp_path / "view.err").read_text(), "the server")
             return server
 
         server = start_server()
-        page = show(f"http://127.0.0.1:{port}/?token=t")
+        page = show(f"http://127.0.0.1:{port}/#token=t")
         page.may_lose_server = True
         os.kill(server.pid, signal.SIGKILL)
         server.wait()

@@ -3,33 +3,42 @@
 import { decode, encode } from "cborg";
 
 import { Emitter } from "./emitter.js";
+import { takeToken } from "./token.js";
 
 const RETRY = 700; // ms
+const MOST_CALLS = 48; // without an answer; the server refuses more than 64
+const NO_TOKEN = 4401; // close code: the token is not that of the server
+const LOST = "No connection to the server";
 
 export const STATES = ["stopped", "paused", "running", "stopping"];
 
 /// Emits the events of the server by their names, and
-/// "connection" (true or false), "frame" (see readFrame).
+/// "connection" (true or false), "frame" (see readFrame), "problem" when `problem` may be another one.
 export class Link extends Emitter {
   connected = false;
   mayEdit = true;
   frame = null;
+  problem = LOST; // why there is no connection
   #socket = null;
   #next = 1;
   #open = new Map();
+  #waiting = [];
 
   connect() {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
     this.#socket = socket;
-    socket.onopen = () => this.#setConnected(true);
+    socket.onopen = () => socket.send(takeToken());
     socket.onmessage = ({ data }) => this.#receive(data);
-    socket.onclose = () => {
+    socket.onclose = ({ code, reason }) => {
+      this.problem = reason || LOST;
       this.#setConnected(false);
-      for (const { reject } of this.#open.values()) reject(new Error("the connection to the server is lost"));
+      this.emit("problem");
+      for (const { reject } of [...this.#open.values(), ...this.#waiting]) reject(new Error("the connection to the server is lost"));
       this.#open.clear();
-      setTimeout(() => this.connect(), RETRY);
+      this.#waiting = [];
+      if (code !== NO_TOKEN) setTimeout(() => this.connect(), RETRY);
     };
   }
 
@@ -42,9 +51,17 @@ export class Link extends Emitter {
         return;
       }
       const number = this.#next++;
-      this.#open.set(number, { resolve, reject });
-      this.#socket.send(encode([number, name, args, line]));
+      this.#waiting.push({ number, bytes: encode([number, name, args, line]), resolve, reject });
+      this.#sendCalls();
     });
+  }
+
+  #sendCalls() {
+    while (this.#waiting.length > 0 && this.#open.size < MOST_CALLS) {
+      const call = this.#waiting.shift();
+      this.#open.set(call.number, call);
+      this.#socket.send(call.bytes);
+    }
   }
 
   #setConnected(connected) {
@@ -63,13 +80,17 @@ export class Link extends Emitter {
     }
     const message = decode(new Uint8Array(data));
     if (message[0] === null) {
-      if (message[1] === "hello") this.mayEdit = message[2].edit;
+      if (message[1] === "hello") {
+        this.mayEdit = message[2].edit;
+        this.#setConnected(true); // the server has accepted the token
+      }
       this.emit(message[1], message[2]);
       return;
     }
     const [number, reply] = message;
     const call = this.#open.get(number);
     this.#open.delete(number);
+    this.#sendCalls();
     if (!call) return;
     if ("err" in reply) call.reject(new Error(reply.err));
     else call.resolve(reply.ret.length > 1 ? reply.ret : reply.ret[0]);

@@ -43,11 +43,12 @@ for (const panel of panels) layout.add(panel, app);
 
 const lost = h("div.lost", { hidden: true });
 const showState = () => {
-  const text = !link.connected ? "No connection to the server" : scene.info ? "" : "Waiting for the simulator";
+  const text = !link.connected ? link.problem : scene.info ? "" : "Waiting for the simulator";
   lost.hidden = !text;
   lost.textContent = text;
 };
 link.on("connection", showState);
+link.on("problem", showState);
 link.on("gone", () => {
   scene.info = null;
   showState();

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim.web import ros_topics
+from bubblesim.web.threads import in_thread
 
 _BEGIN = 30.0  # s until rosbag has opened its file
 _GRACE = 30.0  # s for the index of the bag
@@ -51,17 +52,22 @@ class Recording:
         """Record topics, or all without a list, to a new file in the folder where the server was started."""
         if self._is_busy():
             raise RuntimeError(f"{self._file or 'a bag'} is being recorded already")
-        await asyncio.to_thread(ros_topics.node)
-        program = await asyncio.to_thread(_recorder)
+        await in_thread(ros_topics.node)
+        program = await in_thread(_recorder)
         for topic in topics:
             if not topic.startswith("/"):
                 raise ValueError(f"'{topic}' is not the name of a topic: it must begin with /")
         now = datetime.datetime.now().astimezone()
         file = str(Path.cwd() / f"bubblesim_{now:%Y-%m-%d_%H-%M-%S}.bag")
-        command = [program, "-q", "-O", file, *(topics or ["-a"])]
+        # The kernel ends it with the server, also if that is killed.
+        command = ["setpriv", "--pdeathsig", "INT", program, "-q", "-O", file, *(topics or ["-a"])]
         self._file = ""
         self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
-        await self._wait_for(file)
+        try:
+            await self._wait_for(file)
+        except asyncio.CancelledError:  # the page has closed: nobody knows of this recording
+            self.close()
+            raise
         self._file = file
         return self.state()
 
@@ -82,7 +88,7 @@ class Recording:
         if process is not None and process.poll() is None:
             process.send_signal(signal.SIGINT)
             try:
-                await asyncio.to_thread(process.wait, _GRACE)
+                await in_thread(process.wait, _GRACE)
             except subprocess.TimeoutExpired:
                 process.terminate()
         self._process = None  # not before: until then pages show that it runs, and its file has another name

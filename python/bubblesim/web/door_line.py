@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import asyncio
 import uuid
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import cbor2
@@ -12,24 +14,37 @@ import zmq
 import zmq.asyncio
 
 _TIMEOUT = 660.0  # s; the longest of the door's own waits is shorter
+_MOST_LINES = 8  # of one client; each takes two descriptors
 
 
 class DoorError(RuntimeError):
     """The simulator has answered with an error, or not at all."""
 
 
+class NoAnswerError(DoorError):
+    """There is no simulator, or it is busy."""
+
+
+@dataclass
+class _Line:
+    lock: asyncio.Lock
+    socket: zmq.asyncio.Socket | None = None
+
+
 class DoorClient:
     """A client of the door, such as a page. Calls on one of its lines wait for each other."""
 
-    def __init__(self, context: zmq.asyncio.Context, address: str) -> None:
+    def __init__(self, context: zmq.asyncio.Context, address: str, token: Callable[[], str] = str) -> None:
         """Connect; this does not wait.
 
         :param address: of the door, such as tcp://127.0.0.1:23000.
+        :param token: returns that which the door wants; empty: none.
         """
+        self._token = token
         self._context = context
         self._address = address
         self._uuid = str(uuid.uuid4())
-        self._lines: dict[str, tuple[asyncio.Lock, zmq.asyncio.Socket]] = {}
+        self._lines: dict[str, _Line] = {}
 
     async def call(self, function: str, *arguments: Any, timeout: float = _TIMEOUT) -> Any:
         """Call a function by its full name, and return its result.
@@ -46,30 +61,32 @@ class DoorClient:
         """Call a function, and return the reply as the door sends it: a CBOR map with ``ret`` or ``err``.
 
         :param line: calls on different lines do not wait for each other.
+        :raises DoorError: if there are too many lines, or no answer in ``timeout`` s.
         """
         if line not in self._lines:
-            self._lines[line] = (asyncio.Lock(), self._connect())
-        lock, _ = self._lines[line]
-        async with lock:
-            socket = self._lines[line][1]
-            message = {"func": function, "args": arguments, "uuid": self._uuid, "timeout": 86400}
-            await socket.send_multipart([b"", cbor2.dumps(message)])
+            if len(self._lines) >= _MOST_LINES:
+                raise DoorError(f"{function}: no line '{line}': there are {_MOST_LINES} already: {list(self._lines)}")
+            self._lines[line] = _Line(asyncio.Lock())
+        used = self._lines[line]
+        message = {"func": function, "args": arguments, "uuid": self._uuid, "timeout": 86400, "token": self._token()}
+        async with used.lock:
+            socket = used.socket = used.socket or self._connect()
             try:
+                await socket.send_multipart([b"", cbor2.dumps(message)])
                 reply: list[bytes] = await asyncio.wait_for(socket.recv_multipart(), timeout)
-            except TimeoutError:
-                socket.close(0)
-                self._lines[line] = (lock, self._connect())
-                raise DoorError(f"{function}: no answer from the simulator in {timeout:g} s") from None
-            except asyncio.CancelledError:
-                socket.close(0)
-                self._lines[line] = (lock, self._connect())
+            except BaseException as error:
+                socket.close(0)  # a late answer would be taken for that of the next call
+                used.socket = None
+                if isinstance(error, TimeoutError):
+                    raise NoAnswerError(f"{function}: no answer from the simulator in {timeout:g} s") from None
                 raise
         return reply[-1]
 
     def close(self) -> None:
         """Disconnect."""
-        for _, socket in self._lines.values():
-            socket.close(0)
+        for line in self._lines.values():
+            if line.socket is not None:
+                line.socket.close(0)
         self._lines.clear()
 
     def _connect(self) -> zmq.asyncio.Socket:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import sys
 from collections import deque
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,10 @@ from typing import Any
 import zmq.asyncio
 
 from bubblesim._core import FrameReader
-from bubblesim.web.door_line import DoorClient, DoorError
+from bubblesim.output import write_line
+from bubblesim.remote.control_lane import path_of
+from bubblesim.remote.token import read
+from bubblesim.web.door_line import DoorClient, NoAnswerError
 
 _PERIOD = 1 / 60  # s between two looks at the frames
 _IDLE = 0.25  # s, without pages
@@ -24,10 +28,16 @@ _ANSWER = 10.0  # s
 class Hub:
     """Follows one simulator."""
 
-    def __init__(self, address: str) -> None:
-        """Remember the address of the door; ``run`` does the work."""
+    def __init__(self, address: str, token_file: Path | None = None) -> None:
+        """Remember the address of the door and the file of the token that it wants; ``run`` does the work."""
         self.context = zmq.asyncio.Context()
         self.address = address
+        self.token = ""
+        self._token_file = token_file  # a node that begins makes it
+        self.control: DoorClient | None = None
+        """The lane for what a script that does not return must not hold up; None through a port, which has none."""
+        if address.startswith("ipc://"):
+            self.control = DoorClient(self.context, path_of(address))
         self.scene: dict[str, Any] = {}
         """What window.share returns; empty while there is no simulator."""
         self.session = 0
@@ -39,10 +49,15 @@ class Hub:
         self.events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
         self.next_event = 0
         self.pages = 0
-        self._door = DoorClient(self.context, address)
+        self._door = self.connect()
         self._reader: FrameReader | None = None
         self._packed: tuple[int, bytes] | None = None
         self._kept: dict[tuple[str, int], bytes] = {}
+        self._problem = ""
+
+    def connect(self) -> DoorClient:
+        """Return a new client of the door."""
+        return DoorClient(self.context, self.address, lambda: self.token)
 
     async def run(self) -> None:
         """Follow the simulator until cancelled."""
@@ -50,8 +65,10 @@ class Hub:
             try:
                 await self._begin()
                 await self._follow()
-            except (DoorError, OSError):
-                pass
+            except NoAnswerError:
+                pass  # it has not started yet, or has ended
+            except Exception as error:  # whatever it is: the next simulator may be another one
+                self._warn(error)
             if self.scene:
                 self.scene = {}
                 self._reader = None
@@ -59,7 +76,18 @@ class Hub:
                 await self._notify()
             await asyncio.sleep(_BETWEEN_TRIES)
 
+    def _warn(self, error: Exception) -> None:
+        """Report why the simulator cannot be shown; once, not at each try."""
+        problem = str(error) or type(error).__name__
+        if problem != self._problem:
+            self._problem = problem
+            write_line(sys.stderr, f"warning: the window cannot show the simulator, and tries again: {problem}")
+
     async def _begin(self) -> None:
+        if self._token_file is not None:
+            if not self._token_file.exists():
+                raise NoAnswerError(f"{self._token_file} is not there yet")
+            self.token = read(self._token_file)
         scene = await self._door.call("window.share", timeout=_ANSWER)
         self._reader = FrameReader(scene["frames"])
         self._kept.clear()
@@ -105,7 +133,11 @@ class Hub:
         if self._reader is None:
             return None
         if self._packed is None or self._packed[0] != self.count:
-            packed = self._reader.packed()
+            try:
+                packed = self._reader.packed()
+            except RuntimeError as error:  # the memory of frames cannot be read
+                self._warn(error)
+                return None
             if packed is None:
                 return None
             self._packed = (self.count, packed)
@@ -135,4 +167,6 @@ class Hub:
         """Leave the simulator."""
         with contextlib.suppress(zmq.ZMQError):
             self._door.close()
+            if self.control is not None:
+                self.control.close()
             self.context.destroy(0)

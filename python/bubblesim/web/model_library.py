@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-import asyncio
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from bubblesim._core import SceneView, Simulation, scene_folders
+from bubblesim.web.threads import in_thread
 
 _MOST = 500
 
@@ -26,21 +26,21 @@ async def models(page: Any) -> list[dict[str, str]]:
 async def preview(page: Any, name: str) -> list[dict[str, Any]]:
     """Return the objects of a model, as window.models does for those of the scene."""
     files = {each["name"]: each["file"] for each in await models(page)}
-    objects: list[dict[str, Any]] = (await asyncio.to_thread(_loaded, files[name]))[1]
+    objects: list[dict[str, Any]] = (await in_thread(_loaded, files[name]))[1]
     return objects
 
 
 async def preview_mesh(page: Any, name: str, number: int) -> dict[str, Any]:
     """Return the arrays of a mesh of a model."""
     files = {each["name"]: each["file"] for each in await models(page)}
-    mesh: dict[str, Any] = (await asyncio.to_thread(_loaded, files[name]))[0].mesh(number)
+    mesh: dict[str, Any] = (await in_thread(_loaded, files[name]))[0].mesh(number)
     return mesh
 
 
 async def preview_texture(page: Any, name: str, number: int) -> dict[str, Any]:
     """Return an image of a model."""
     files = {each["name"]: each["file"] for each in await models(page)}
-    texture: dict[str, Any] = (await asyncio.to_thread(_loaded, files[name]))[0].texture(number)
+    texture: dict[str, Any] = (await in_thread(_loaded, files[name]))[0].texture(number)
     return texture
 
 

@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The connection of one page: its calls, the frames and the events.
 
-Messages are binary. Those of the page are CBOR lists: ``[number, function, arguments, line]`` is a call, ``[count]``
-says that a frame was drawn. Those of the server are frames, which begin with a zero byte (see FrameReader.packed), and
-CBOR lists: ``[number, reply]`` answers a call, ``[null, name, data]`` is an event.
+The first message of a page is the token, as text. All others are binary. Those of the page are CBOR lists:
+``[number, function, arguments, line]`` is a call, ``[count]`` says that a frame was drawn. Those of the server are
+frames, which begin with a zero byte (see FrameReader.packed), and CBOR lists: ``[number, reply]`` answers a call,
+``[null, name, data]`` is an event.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+from collections.abc import Coroutine
 from typing import Any
 
 import cbor2
 from aiohttp import WSMsgType, web
 
 from bubblesim._core import cbor_decode
-from bubblesim.web.access import is_looking
-from bubblesim.web.door_line import DoorClient, DoorError
+from bubblesim.remote.control_lane import COMMANDS
+from bubblesim.web.access import Access, is_looking
+from bubblesim.web.door_line import DoorError
 from bubblesim.web.hub import Hub
 from bubblesim.web.ros_markers import PageMarkers
 from bubblesim.web.ros_topics import PageTopics
@@ -25,68 +28,85 @@ from bubblesim.web.served import SERVED
 from bubblesim.web.tools import TOOLS
 
 _MOST_BYTES = 64 * 1024 * 1024
+_MOST_CALLS = 64  # without an answer; the page sends fewer (web/src/link.js)
 _IN_FLIGHT = 2  # frames that were sent and not drawn yet
 _KEPT = {"window.mesh", "window.texture"}
 _SERVED = SERVED | TOOLS
 
 
-class Page:
-    """A page, from its connection to its end."""
+async def serve_page(request: web.Request, access: Access, hub: Hub, *, may_edit: bool) -> web.WebSocketResponse:
+    """Serve a page until it closes, if it has the token."""
+    socket = web.WebSocketResponse(max_msg_size=_MOST_BYTES, heartbeat=20, compress=False)
+    await socket.prepare(request)
+    transport = request.transport
+    if await access.lets_in(socket, transport):
+        if transport is not None:
+            transport.set_write_buffer_limits(high=65536)
+        await Page(hub, socket, may_edit=may_edit).serve()
+    return socket
 
-    def __init__(self, hub: Hub, *, may_edit: bool) -> None:
+
+class Page:
+    """A page, from its token to its end."""
+
+    def __init__(self, hub: Hub, socket: web.WebSocketResponse, *, may_edit: bool) -> None:
         """Prepare the connection.
 
         :param may_edit: the page may call functions that change the simulation or files.
         """
         self.hub = hub
         self.may_edit = may_edit
-        self.door = DoorClient(hub.context, hub.address)
+        self.door = hub.connect()
         self.topics = PageTopics()
         self.markers = PageMarkers()
-        self._socket = web.WebSocketResponse(max_msg_size=_MOST_BYTES, heartbeat=20, compress=False)
-        self._tasks: set[asyncio.Task[None]] = set()
-        self._drawn = 0
+        self._socket = socket
+        self._calls: set[asyncio.Task[None]] = set()
         self._sent: list[int] = []
 
-    async def serve(self, request: web.Request) -> web.WebSocketResponse:
-        """Serve the page until it closes."""
-        await self._socket.prepare(request)
-        transport = request.transport
-        if transport is not None:
-            transport.set_write_buffer_limits(high=65536)
+    async def serve(self) -> None:
+        """Serve the page until it closes. What it has begun ends first: calls, their threads and subscriptions."""
+        async with contextlib.AsyncExitStack() as ends:
+            ends.push_async_callback(self.topics.close)
+            ends.push_async_callback(self.markers.close)
+            ends.callback(self.door.close)
+            async with asyncio.TaskGroup() as tasks:
+                await self._receive_all(tasks)
+
+    async def _receive_all(self, tasks: asyncio.TaskGroup) -> None:
         self.hub.pages += 1
-        self._start(self._send_news())
+        news = tasks.create_task(self._guarded(self._send_news()))
         try:
             async for message in self._socket:
                 if message.type == WSMsgType.BINARY:
-                    await self._receive(message.data)
+                    await self._receive(message.data, tasks)
         finally:
             self.hub.pages -= 1
-            for task in list(self._tasks):
+            for task in (news, *self._calls):
                 task.cancel()
-            self.topics.close()
-            self.markers.close()
-            self.door.close()
-        return self._socket
 
-    async def _receive(self, data: bytes) -> None:
+    async def _receive(self, data: bytes, tasks: asyncio.TaskGroup) -> None:
         try:
             message = cbor_decode(data)
         except ValueError:
             return
-        if not isinstance(message, list):
-            return
-        if len(message) == 1:
-            self._sent = [count for count in self._sent if count != message[0]]
-            async with self.hub.changed:
-                self.hub.changed.notify_all()
-        elif len(message) == 4:
-            self._start(self._answer(*message))
+        match message:
+            case [int(drawn)]:
+                self._sent = [count for count in self._sent if count != drawn]
+                async with self.hub.changed:
+                    self.hub.changed.notify_all()
+            case [int(number), str(), list(), str()] if len(self._calls) >= _MOST_CALLS:
+                error = f"this page waits for the answers of {_MOST_CALLS} calls: it can call more when they are there"
+                await self._guarded(self._send_reply(number, _encode({"err": error})))
+            case [int(number), str(function), list(arguments), str(line)]:
+                call = tasks.create_task(self._guarded(self._answer(number, function, arguments, line)))
+                self._calls.add(call)
+                call.add_done_callback(self._calls.discard)
 
-    async def _answer(self, number: Any, function: Any, arguments: Any, line: Any) -> None:
-        reply = await self._reply(str(function), list(arguments), str(line))
-        with contextlib.suppress(ConnectionError, RuntimeError):
-            await self._socket.send_bytes(b"\x82" + cbor2.dumps(number) + reply)
+    async def _answer(self, number: int, function: str, arguments: list[Any], line: str) -> None:
+        await self._send_reply(number, await self._reply(function, arguments, line))
+
+    async def _send_reply(self, number: int, reply: bytes) -> None:
+        await self._socket.send_bytes(b"\x82" + cbor2.dumps(number) + reply)
 
     async def _reply(self, function: str, arguments: list[Any], line: str) -> bytes:
         """Return the reply to a call as CBOR, a map with ``ret`` or ``err``."""
@@ -99,6 +119,8 @@ class Page:
                 return _encode({"ret": [value]})
             if not self.may_edit and not is_looking(function):
                 raise DoorError(f"{function}: this window may only look")
+            if function in COMMANDS and self.hub.control is not None:
+                return await self.hub.control.forward(function, [])
             if function in _KEPT:
                 return await self.hub.kept(function, int(arguments[0]))
             return await self.door.forward(function, arguments, line)
@@ -135,13 +157,8 @@ class Page:
     async def _event(self, name: str, data: Any) -> None:
         await self._socket.send_bytes(cbor2.dumps([None, name, data]))
 
-    def _start(self, work: Any) -> None:
-        task = asyncio.get_running_loop().create_task(self._guarded(work))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-
-    async def _guarded(self, work: Any) -> None:
-        with contextlib.suppress(ConnectionError, RuntimeError):
+    async def _guarded(self, work: Coroutine[Any, Any, None]) -> None:
+        with contextlib.suppress(ConnectionError):  # the page has closed
             await work
 
 

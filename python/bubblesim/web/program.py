@@ -7,9 +7,11 @@ import argparse
 import asyncio
 import errno
 import os
+import shlex
 import signal
 import sys
 import webbrowser
+from collections.abc import Callable
 from pathlib import Path
 
 from aiohttp import web
@@ -18,12 +20,17 @@ from bubblesim.addresses import is_loopback
 from bubblesim.output import write_line
 from bubblesim.running.places import page_folder
 from bubblesim.web.access import Access
+from bubblesim.web.address_file import write_address
 from bubblesim.web.bag_recording import recording
+from bubblesim.web.connections import Connection, Connections
 from bubblesim.web.hub import Hub
-from bubblesim.web.page import Page
+from bubblesim.web.log_limit import limit_log
+from bubblesim.web.page import serve_page
 
 PORT = 8080
+TOKEN = "BUBBLESIM_WEB_TOKEN"  # variable of the environment: other users see command lines
 _TRIES = 20  # ports, when none was asked for
+_LONGEST_END = 5  # s for the end, however long a call of another program takes
 
 
 def main() -> int:
@@ -41,15 +48,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="23000",
         help="port of the node's --remote on this machine (default 23000), or path of its socket",
     )
+    parser.add_argument("--door-token", metavar="FILE", help="token of a node that runs with --remote-token=FILE")
     parser.add_argument("--port", type=int, help=f"port of the page (default: {PORT}, or the next free one)")
     parser.add_argument(
         "--address",
         default="127.0.0.1",
-        help="address to listen on (default 127.0.0.1); with another one, all who reach it and have the token control "
-        "the simulation, over a connection that is not encrypted",
+        help="address to listen on (default 127.0.0.1); with another one, all who reach it and have the token can run "
+        "programs as you, over a connection that is not encrypted",
     )
-    parser.add_argument("--look", action="store_true", help="pages may look, and change nothing")
-    parser.add_argument("--token", help="the token of the address (default: a new one)")
+    parser.add_argument(
+        "--look", action="store_true", help="pages may look, and change nothing: no scripts, files or programs"
+    )
     parser.add_argument("--until-closed", metavar="DESCRIPTOR", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--browser", action="store_true", help="open the page in a browser, if there is a display")
 
@@ -57,6 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def serve(options: argparse.Namespace) -> int:
     """Run the server with the given arguments."""
     folder = page_folder()
+    limit_log()
     asyncio.run(_serve(options, folder))
     return 0
 
@@ -68,17 +78,18 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         loop.add_signal_handler(number, ending.set)
     if options.until_closed is not None:  # by the end of the program that has started this
         loop.add_reader(options.until_closed, ending.set)
-    hub = Hub(_door_address(options.door))
+    hub = Hub(_door_address(options.door), Path(options.door_token) if options.door_token else None)
     application = web.Application()
-    runner = web.AppRunner(application, access_log=None)
-    access = Access(options.address, token=options.token)
+    runner = web.AppRunner(application, access_log=None, keepalive_timeout=5.0)
+    connections = Connections()
+    access = Access(options.address, connections, os.environ.pop(TOKEN, ""))
     application.middlewares.append(access.middleware)
 
     async def index(_request: web.Request) -> web.StreamResponse:
         return web.FileResponse(folder / "index.html")
 
     async def page(request: web.Request) -> web.StreamResponse:
-        return await Page(hub, may_edit=not options.look).serve(request)
+        return await serve_page(request, access, hub, may_edit=not options.look)
 
     application.router.add_get("/", index)
     application.router.add_get("/socket", page)
@@ -86,7 +97,9 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     await runner.setup()
     ports = [options.port] if options.port is not None else list(range(PORT, PORT + _TRIES))
     try:
-        port = await _listen(runner, options.address, ports)
+        assert runner.server is not None
+        make_protocol = runner.server
+        listening, port = await _listen(lambda: Connection(connections, make_protocol()), options.address, ports)
     except OSError as error:
         await runner.cleanup()
         raise SystemExit(
@@ -95,18 +108,39 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         ) from None
     access.port = port
     following = asyncio.create_task(hub.run())
-    shown = f"[{options.address}]" if ":" in options.address else options.address
-    address = f"http://{shown}:{port}/?token={access.token}"
-    write_line(sys.stderr, f"info: the window is at {address}")
-    if not is_loopback(options.address):
-        write_line(sys.stderr, f"warning: all who reach {options.address} and have this address can use the window")
-    if options.browser and os.environ.get("DISPLAY"):
-        webbrowser.open(address)
+    file = _show_address(options, access)
     await ending.wait()
-    following.cancel()
+    signal.alarm(_LONGEST_END)
+    if file is not None:
+        file.unlink(missing_ok=True)  # while the port is ours: after that it may be that of another server
     recording.close()
+    following.cancel()
+    await asyncio.wait([following])
+    listening.close()
+    await runner.server.shutdown(1.0)
     await runner.cleanup()
     await hub.close()
+
+
+def _show_address(options: argparse.Namespace, access: Access) -> Path | None:
+    """Print the address, and write it to a file, which is returned. A log gets it without the token."""
+    file = None
+    shown = access.whole_address
+    try:
+        file = write_address(access.whole_address, access.port)
+    except OSError as error:
+        write_line(sys.stderr, f"warning: the address of the window cannot be written to a file: {error}")
+        hint = f"and needs the token that {TOKEN} gives to the node"
+    else:
+        hint = f"and needs a token: xdg-open {shlex.quote(str(file))}"
+    if not sys.stderr.isatty():
+        shown = f"{access.public_address} {hint}"
+    write_line(sys.stderr, f"info: the window is at {shown}")
+    if not is_loopback(options.address):
+        write_line(sys.stderr, f"warning: all who reach {options.address} and have the token can use the window")
+    if options.browser and os.environ.get("DISPLAY") and file is not None:
+        webbrowser.open(file.as_uri())  # the command line of a browser does not show the token
+    return file
 
 
 def _door_address(door: str) -> str:
@@ -114,18 +148,18 @@ def _door_address(door: str) -> str:
     return f"tcp://127.0.0.1:{door}" if door.isdigit() else f"ipc://{Path(door).absolute()}"
 
 
-async def _listen(runner: web.AppRunner, address: str, ports: list[int]) -> int:
+async def _listen(
+    make_protocol: Callable[[], asyncio.Protocol], address: str, ports: list[int]
+) -> tuple[asyncio.Server, int]:
     """Listen on the first port that is free, and return it.
 
     :raises OSError: if there is none.
     """
+    loop = asyncio.get_running_loop()
     for port in ports:
-        site = web.TCPSite(runner, address, port, shutdown_timeout=1.0)
-        try:
-            await site.start()  # not after a look at which one is free: other servers look at the same time
-            return port
+        try:  # not after a look at which one is free: other servers look at the same time
+            return await loop.create_server(make_protocol, address, port, backlog=128), port
         except OSError as error:
-            await site.stop()
             if error.errno != errno.EADDRINUSE or port == ports[-1]:
                 raise
     raise ValueError("no ports are given")

@@ -7,7 +7,6 @@ which of them are links of the scene.
 
 from __future__ import annotations
 
-import asyncio
 import threading
 import time
 from collections.abc import Iterator
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim.web.ros_topics import node
+from bubblesim.web.threads import in_thread
 
 _OWN = "/bubblesim/drawings"  # pages have the drawings of scripts from the simulator
 _KINDS = ("visualization_msgs/Marker", "visualization_msgs/MarkerArray")
@@ -34,6 +34,7 @@ class PageMarkers:
     def __init__(self) -> None:
         """Subscribe to nothing yet."""
         self._lock = threading.Lock()
+        self._subscribing = threading.Lock()
         self._subscribers: dict[str, Any] = {}
         self._markers: dict[tuple[str, str, int], tuple[dict[str, Any], float]] = {}
         self._parents: dict[str, tuple[str, Pose]] = {}
@@ -44,7 +45,7 @@ class PageMarkers:
         """Return the ``revision``, all ``markers`` if it is not ``since``, and the ``frames`` that they are in."""
         if time.monotonic() >= self._next_scan:
             self._next_scan = time.monotonic() + _BETWEEN_SCANS
-            await asyncio.to_thread(self._scan)
+            await in_thread(self._scan)
         now = time.monotonic()
         with self._lock:
             for key in [key for key, (_, end) in self._markers.items() if end < now]:
@@ -57,18 +58,25 @@ class PageMarkers:
                 news["markers"] = markers
             return news
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """End all subscriptions."""
-        for subscriber in self._subscribers.values():
-            subscriber.unregister()
-        self._subscribers.clear()
+        await in_thread(self._end)
+
+    def _end(self) -> None:
+        with self._subscribing:
+            for subscriber in self._subscribers.values():
+                subscriber.unregister()
+            self._subscribers.clear()
         with self._lock:
             self._markers.clear()
             self._revision += 1
         self._next_scan = 0.0
 
     def _scan(self) -> None:
-        rospy = node()
+        with self._subscribing:
+            self._subscribe(node())
+
+    def _subscribe(self, rospy: Any) -> None:
         from tf2_msgs.msg import TFMessage
         from visualization_msgs.msg import Marker, MarkerArray
 
@@ -141,4 +149,4 @@ async def news(page: Any, since: int) -> dict[str, Any]:
 
 async def end(page: Any) -> None:
     """End the subscriptions of a page."""
-    await asyncio.to_thread(page.markers.close)
+    await page.markers.close()

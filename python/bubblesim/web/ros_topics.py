@@ -11,6 +11,7 @@ from collections import deque
 from typing import Any
 
 from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.web.threads import in_thread
 
 _lock = threading.Lock()
 _ROS_TYPES = {"geometry_msgs/Twist", "geometry_msgs/TwistStamped"}
@@ -34,7 +35,8 @@ class NoRosError(RuntimeError):
 def _started() -> Any:
     import rospy
 
-    rospy.init_node("bubblesim_window", anonymous=True, disable_signals=True)
+    # Without /rosout: a page that may only look makes this a node, too, and must not publish.
+    rospy.init_node("bubblesim_window", anonymous=True, disable_signals=True, disable_rosout=True)
     return rospy
 
 
@@ -64,7 +66,7 @@ async def topics(_page: Any) -> list[list[str]]:
             known.setdefault(name, types.get(name, "*"))
         return sorted([name, kind] for name, kind in known.items() if kind != "*")
 
-    return await asyncio.to_thread(ask)
+    return await in_thread(ask)
 
 
 async def fields(_page: Any, topic: str) -> list[str]:
@@ -73,7 +75,7 @@ async def fields(_page: Any, topic: str) -> list[str]:
     def ask() -> list[str]:
         return list(_paths(_class_of(topic), ""))[:_MOST_FIELDS]
 
-    return await asyncio.to_thread(ask)
+    return await in_thread(ask)
 
 
 def _class_of(topic: str) -> Any:
@@ -169,10 +171,7 @@ class Driver:
             self.send(STANDING)
 
     def close(self) -> None:
-        """Stop the robot, and end publishing: in a thread, because a message is lost if its topic ends too early."""
-        threading.Thread(target=self._end).start()
-
-    def _end(self) -> None:
+        """Stop the robot, and end publishing. It waits: a message is lost if its topic ends too early."""
         from bubblesim.nodes.last_message import send_last
 
         if self._moving or time.monotonic() - self._last < _RECENT:
@@ -181,7 +180,11 @@ class Driver:
 
 
 class PageTopics:
-    """What one page subscribes and publishes."""
+    """What one page subscribes and publishes.
+
+    Functions of ROS wait for other processes, so they run in threads. Each thread notes what it has made: then
+    ``close`` finds it, also if the page has closed meanwhile.
+    """
 
     def __init__(self) -> None:
         """Create it without topics."""
@@ -195,10 +198,13 @@ class PageTopics:
         """Subscribe to a field of a topic; return the number of the watch."""
         if len(self._watches) >= _MOST_WATCHED:
             raise ValueError(f"a page can plot at most {_MOST_WATCHED} fields of topics")
-        found = await asyncio.to_thread(Watch, topic, path)
         self._created += 1
-        self._watches[self._created] = found
-        return self._created
+        number = self._created
+        await in_thread(self._begin_watch, number, topic, path)
+        return number
+
+    def _begin_watch(self, number: int, topic: str, path: str) -> None:
+        self._watches[number] = Watch(topic, path)
 
     def samples(self, number: int, since: int) -> dict[str, Any]:
         """Return the samples of a watch; see Watch.since."""
@@ -208,19 +214,27 @@ class PageTopics:
         """End a watch."""
         found = self._watches.pop(number, None)
         if found is not None:
-            await asyncio.to_thread(found.close)
+            await in_thread(found.close)
 
     async def drive(self, topic: str, velocity: Velocity) -> None:
         """Publish a velocity; without another one within 0.4 s, zero follows."""
         async with self._driving:
-            if self._driver is None or self._driver.topic != topic:
-                if self._driver is not None:
-                    self._driver.close()
-                    self._driver = None
-                self._driver = await asyncio.to_thread(Driver, topic)
-            self._driver.send(velocity)
+            driver = self._driver
+            if driver is None or driver.topic != topic:
+                driver = await in_thread(self._begin_driving, topic)
+            driver.send(velocity)
         if self._guard is None:
             self._guard = asyncio.get_running_loop().create_task(self._watch_silence())
+
+    def _begin_driving(self, topic: str) -> Driver:
+        self._end_driving()
+        self._driver = Driver(topic)
+        return self._driver
+
+    def _end_driving(self) -> None:
+        driver, self._driver = self._driver, None
+        if driver is not None:
+            driver.close()
 
     async def _watch_silence(self) -> None:
         while self._driver is not None:
@@ -229,13 +243,14 @@ class PageTopics:
                 self._driver.stop_if_silent()
         self._guard = None
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """Stop the robot, and end all subscriptions."""
-        if self._driver is not None:
-            self._driver.close()
-            self._driver = None
+        await in_thread(self._end)
+        if self._guard is not None:
+            self._guard.cancel()
+
+    def _end(self) -> None:
+        self._end_driving()
         for each in self._watches.values():
             each.close()
         self._watches.clear()
-        if self._guard is not None:
-            self._guard.cancel()

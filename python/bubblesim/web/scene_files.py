@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from bubblesim.scripting.saved_scene import write_scene
+from bubblesim.web.threads import in_thread
 
 _SUFFIXES = (".sdf", ".world")
 
@@ -34,7 +35,7 @@ async def save(page: Any, folder: str, name: str, overwrite: bool) -> dict[str, 
     file = Path(folder, name if name.endswith(_SUFFIXES) else f"{name}.sdf")
     text = await page.door.call("window.get_scene_text", folder)
     try:
-        await asyncio.to_thread(write_scene, text, file, overwrite=overwrite is True)
+        await in_thread(partial(write_scene, text, file, overwrite=overwrite is True))
     except FileExistsError:
         return {"file": str(file), "saved": False}
     return {"file": str(file), "saved": True}

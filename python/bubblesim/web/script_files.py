@@ -7,7 +7,6 @@ written here.
 
 from __future__ import annotations
 
-import asyncio
 import hashlib
 import os
 import re
@@ -23,6 +22,7 @@ from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
 from bubblesim.scripting.problems import of_source
+from bubblesim.web.threads import in_thread
 
 _CHECKED = "checked_script"  # name of the module that a script has during a check
 _MOST_CHARACTERS = 2_000_000
@@ -47,7 +47,7 @@ async def save(page: Any, handle: int, text: str, version: str) -> dict[str, Any
     file = Path(script["file"]).resolve()
     if version and _version(read_text(file)) != version:
         raise FileExistsError(f"{file} was changed by another program since it was opened here")
-    await asyncio.to_thread(_replace, file, text)
+    await in_thread(_replace, file, text)
     running = await page.door.call("sim.initScript", handle)
     return {"version": _version(text), "running": bool(running)}
 

@@ -21,7 +21,7 @@ export const contacts = {
       const count = app.link.frame?.count;
       if (count === last) return;
       last = count;
-      const points = await app.link.call("window.get_contacts", [], "contacts");
+      const points = await app.link.call("window.get_contacts", [], "overlays");
       const positions = new Float32Array(points.flatMap(([x, y, z]) => [x, y, z]));
       dots.geometry.dispose();
       dots.geometry = new BufferGeometry();

@@ -162,7 +162,7 @@ export const drawings = {
       revision = 0;
     };
     const poll = new Poll(app, PERIOD, async () => {
-      const news = await app.link.call("sim.getDrawings", [revision], "drawings");
+      const news = await app.link.call("sim.getDrawings", [revision], "overlays");
       if (news.revision < revision) clear();
       const there = new Set(news.handles);
       let changed = news.revision !== revision;

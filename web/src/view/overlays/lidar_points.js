@@ -24,7 +24,7 @@ function layer(app, make) {
       }
       for (const sensor of scene.objects.values()) {
         if (sensor.kind !== "sensor" || !["lidar", "proximity"].includes(sensor.parameters.kind)) continue;
-        const reading = await link.call("window.reading", [sensor.handle], "readings");
+        const reading = await link.call("window.reading", [sensor.handle], "overlays");
         if (!shown.has(sensor.handle)) {
           const holder = make();
           holder.matrixAutoUpdate = false;
