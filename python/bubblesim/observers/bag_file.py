@@ -21,12 +21,17 @@ class _WholeWrites(io.FileIO):
 
 
 class BagFile(rosbag.Bag):  # type: ignore[misc]
-    """A bag opened for writing. It is written in chunks of 768 KiB; after an error, complete chunks can be kept."""
+    """A bag opened for writing. Written in chunks of at most 768 KiB; after an error, complete ones can be kept."""
 
     def __init__(self, file: Path) -> None:
         """Open it, replacing an existing file; raise OSError on failure."""
         self._chunk_open = False
         super().__init__(_WholeWrites(file, "w+"), "w")
+
+    def complete_chunk(self) -> None:
+        """Complete the chunk in progress: ``rosbag reindex`` restores it if the process is killed; raise OSError."""
+        if self._chunk_open:
+            self._stop_writing_chunk()
 
     def close_at_last_chunk(self) -> bool:
         """After an error: drop the incomplete chunk, write the index, and close.

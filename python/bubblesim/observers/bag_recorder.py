@@ -34,6 +34,9 @@ class BagRecorder:
     Messages are stamped with ROS time when they were received or published: in simulated time with the start of the
     step, those published after the physics and /clock with its end. At each time, received messages are written first,
     sorted by topic, and then /clock. So equal runs write equal bags, independent of the delays of connections.
+
+    A chunk is completed in each second of ROS time, not of wall time, which would make equal runs different: if the
+    simulator is killed, ``rosbag reindex`` restores all but the last second.
     """
 
     def __init__(self, file: Path, bridge: Any) -> None:
@@ -47,6 +50,7 @@ class BagRecorder:
         self._definitions: dict[str, _Definition] = {}
         self._received: list[_Message] = []
         self._published: list[_Message] = []
+        self._second = 0  # of the chunk in progress
 
     def advertised(self, publisher: int) -> None:
         """Do nothing."""
@@ -97,6 +101,9 @@ class BagRecorder:
         for topic, message_type, data, time in messages:
             definition = self._definition(message_type)
             bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
+        if sec != self._second:
+            bag.complete_chunk()
+            self._second = sec
 
     def _now(self) -> genpy.Time:
         sec, nanosec = self._bridge.now()
