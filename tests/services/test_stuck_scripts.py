@@ -128,6 +128,26 @@ def test_those_that_return_go_on(run: Run) -> None:
     assert "interrupted" not in node.output
 
 
+def test_a_script_of_the_second_run_is_reported_and_broken_off(run: Run) -> None:
+    node, remote = run("""
+        import os
+        number = os.environ['RUNS'] = os.environ.get('RUNS', '') + 'I'
+        def sysCall_init(): print('run', number)
+        def sysCall_actuation():
+            while number == 'II': pass
+        def sysCall_cleanup(): print('end of run', number)
+    """)
+    node.wait_for_output("run I\n")
+    remote.press("stop")
+    node.wait_for_output("end of run I\n")
+    remote.press("start")
+    node.wait_for_output("run II\n")
+    node.wait_for_output("the simulation is waiting")
+    assert "has not returned from sysCall_actuation for 1.5 s, now at " in node.output
+    remote.press("stop")
+    node.wait_for_output("was interrupted in sysCall_actuation")
+
+
 def test_a_clean_up_that_does_not_return_is_broken_off_by_a_second_stop(run: Run) -> None:
     node, remote = run("def sysCall_init(): pass\ndef sysCall_cleanup():\n    print('stuck')\n    while True: pass\n")
     remote.press("stop")

@@ -79,10 +79,11 @@ class ScriptHost:
         script_thread.install()
         script_output.install()
         process_calls.install()
-        self._watchdog = Watchdog(self)
+        self._watchdog: Watchdog | None = None  # from start() to finish()
 
     def start(self) -> None:
-        """Load the scripts from their files."""
+        """Load the scripts from their files; for the simulation's thread."""
+        self._watchdog = Watchdog(self)
         self.shared.graphs.begin_run()
         self._keep([self._load(path, handle, file) for path, handle, file in self._placed])
 
@@ -280,7 +281,9 @@ class ScriptHost:
         try:
             _finish(self.scripts)
         finally:
-            self._watchdog.end()
+            if self._watchdog is not None:
+                self._watchdog.end()
+                self._watchdog = None
 
 
 def _finish(scripts: list[ChildScript]) -> None:

@@ -16,7 +16,7 @@ _CHECKS = 3  # number of checks with the same call before the warning
 
 
 class Watchdog:
-    """Watches a host, which is created on the simulation's thread, until end() or the host's destruction."""
+    """Watches the scripts of a run, from its start on the simulation's thread to end() or the host's destruction."""
 
     def __init__(self, host: Host) -> None:
         """Start watching."""
