@@ -37,7 +37,7 @@ class AccessLock {
       if (lock_ != nullptr) lock_->release();
     }
     ~Pause() {
-      if (lock_ != nullptr) lock_->take();
+      if (lock_ != nullptr) lock_->wait_for_turn();  // also when another thread has claimed the lock meanwhile
     }
     Pause(const Pause&) = delete;
     Pause& operator=(const Pause&) = delete;
@@ -49,9 +49,10 @@ class AccessLock {
   /// Holds the lock during its lifetime and refuses it to other threads: they get std::logic_error instead of waiting.
   class Claim {
    public:
+    /// Throws InvalidInput when the lock is claimed already.
     explicit Claim(AccessLock& lock) : lock_(lock) {
-      lock_.claimed_by_ = std::this_thread::get_id();  // first, so that only threads that wait already are let through
-      lock_.take();
+      lock_.claim();  // first, so that only threads that wait already are let through
+      lock_.wait_for_turn();
     }
     ~Claim() {
       lock_.claimed_by_ = std::thread::id();
@@ -69,11 +70,16 @@ class AccessLock {
   void take();
   /// Throws like take().
   void check_not_claimed() const;
+  /// Throws InvalidInput while any thread has claimed the lock.
+  void check_can_be_claimed() const;
   /// Takes the lock if no thread holds it or waits for it. Throws like take().
   bool try_take();
-  void release();
+  void release() noexcept;
 
  private:
+  void claim();
+  void wait_for_turn() noexcept;
+
   // Each thread draws a number and gets the lock when that number is served.
   std::atomic<std::uint64_t> next_{0};
   std::atomic<std::uint64_t> served_{0};

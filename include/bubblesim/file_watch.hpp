@@ -22,7 +22,8 @@ struct WatchedFile {
 /// called again without a look at the descriptor, after commands and after a step that is due. An exception of the
 /// function ends the watch.
 ///
-/// Use this class before the run of the runner, after it, or on the runner's thread.
+/// Use this class before the run of the runner, after it, or on the runner's thread: elsewhere its constructor and
+/// close() throw std::logic_error, and its destructor leaves the end of the watch to the runner's thread.
 class FileWatch {
  public:
   /// The runner and the descriptor must outlive this object.

@@ -56,7 +56,7 @@ struct RunnerOptions {
 /// System's. Commands of the time before run() are carried out at its start.
 class Runner {
  public:
-  /// The simulation must outlive the runner.
+  /// The simulation must outlive the runner. Throws InvalidInput while another Runner runs it in the background.
   explicit Runner(Simulation& simulation, RunnerOptions options = {});
   /// Calls finish(), and loses its exception.
   ~Runner();
@@ -110,8 +110,8 @@ class Runner {
   void wake();
   /// The state after the last step, or after the last input and commands of a pause. Does not wait for a step.
   std::shared_ptr<const Frame> frame() const;
-  /// Memory in which other processes find each frame from now on. Call it before run(), after it, or on the runner's
-  /// thread. It lives as long as the runner.
+  /// Memory in which other processes find each frame from now on. Throws std::logic_error in another thread while the
+  /// runner runs. It lives as long as the runner.
   FrameMemory& share_frames();
   /// Statistics since the last call; what concerns scripts is left empty.
   RunReport take_report();
@@ -120,8 +120,8 @@ class Runner {
   /// Puts a failure into the report.
   void report_failure(const std::string& why);
 
-  /// A step waits until all gates are open. Call these before run(), after it, or on the runner's thread, but not in a
-  /// function of a gate.
+  /// A step waits until all gates are open. These and the next two throw std::logic_error in another thread while the
+  /// runner runs. Do not call them in a function of a gate.
   GateId add_gate(StepGate gate);
   void remove_gate(GateId gate);
   void remove_gates();
@@ -132,6 +132,7 @@ class Runner {
   /// step throws, except a divergence that a reset can mend.
   void run();
   /// The same on a thread of its own. Until finish(), the simulation refuses the other threads with std::logic_error.
+  /// Throws InvalidInput when another Runner runs the simulation in the background, std::logic_error during a step.
   void run_in_background();
   /// Ends the thread of run_in_background() and waits for it; from here on, commands are refused until the next run.
   /// Throws what that thread's run() has thrown.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -63,6 +64,8 @@ class Simulation {
   /// Systems are not owned. They are called in the order in which they were added.
   void add(System& system);
 
+  /// Whether a divergence writes the last states to a file; true at first.
+  void set_writes_last_states(bool writes) { writes_last_states_ = writes; }
   /// Runs one step of time_step() seconds. On divergence, the last states are written to a file and the scene's
   /// on_divergence is applied; kPause throws Diverged. Models that fell below the scene are removed. Threads that step
   /// take turns. Throws std::logic_error when a system calls it.
@@ -75,6 +78,8 @@ class Simulation {
   /// phases of a step, and in another thread while Python systems are in a step. Run state and requests are not
   /// changed. Models can also be added and removed in a system's actuate(), by the stepping thread or its StandIn.
 
+  /// Throws what they throw at the wrong time. For a thread that holds world().access().
+  void check_may_change() const;
   /// Resets the models that are there now, and the sensors, to the start; time goes on.
   void reset_world();
   /// Like reset_world(), and sets time to 0: from here on the simulation equals a new one of these models, bit by bit.
@@ -114,8 +119,10 @@ class Simulation {
   std::string save();
   /// Likewise, into a string that may be used again.
   void save(std::string& bytes);
-  /// Restores a saved state. Models that were added since are removed. Throws InvalidInput when the bytes are no state
-  /// of this version and scene, or are damaged, and then changes nothing; and when models or devices are missing.
+  /// Restores a saved state. Models that were added since are removed. Throws InvalidInput, and changes nothing, when
+  /// the bytes are no state of this version and scene or are damaged, and when models, devices or systems are missing
+  /// or are others. What a device or a system throws is thrown after the state was put back, as far as no model was
+  /// removed; then the simulation must be reset.
   void restore(std::string_view state);
 
   /// Simulation time in s: the start of the current step, constant during a step, 0 in the first one. Between steps it
@@ -189,7 +196,6 @@ class Simulation {
   void advance_physics(double substep);
   void handle(const Diverged& divergence);
   void remove_model_now(ObjectId model);
-  void check_may_change() const;
   void check_may_change_models() const;
   void make_sensors(ObjectId model);
   void reset_sensors();
@@ -200,10 +206,16 @@ class Simulation {
   void update(SensorSlot& slot);
   void require_proximity(ObjectId sensor);
   void update_sensors();
+  struct Backup;
   void transfer(StateArchive& archive);
-  void transfer_systems(StateArchive& archive);
-  void randomize();
+  std::map<std::string, std::string> system_states();
+  System& system_named(const std::string& name);
+  void restore_systems(const std::map<std::string, std::string>& states);
+  void check_models(const std::vector<ObjectId>& saved) const;
   void remove_models_except(const std::vector<ObjectId>& saved);
+  Backup make_backup();
+  void put_back(const Backup& backup);
+  void randomize();
 
   std::shared_ptr<const Scene> scene_;
   std::uint64_t seed_;
@@ -216,6 +228,7 @@ class Simulation {
   std::uint64_t measurements_ = 0;
   double brightness_ = 1;
   std::vector<System*> systems_;
+  bool writes_last_states_ = true;
   std::uint64_t steps_ = 0;     // whose physics have run
   double time_step_;            // s
   bool after_physics_ = false;  // of the current step

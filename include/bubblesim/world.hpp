@@ -230,9 +230,15 @@ class World {
   /// hashes in every process. Not covered: how long a body has been at rest, which ODE does not report.
   std::uint64_t state_hash() const;
 
-  /// Saves or restores all that determines the future: the physics with its memory, motors, applied wrenches, devices
-  /// and their schedules, random numbers. Restoring needs a world with the same models and devices, throws InvalidInput
-  /// when they differ, and then leaves a state to be reset or restored. Saving throws Diverged after a divergence.
+  /// Saves what a world must have so that the next two can be restored: the descriptions of those of `models` that were
+  /// added, and the devices of `models` and of the world. Or compares it: throws InvalidInput when it differs. Throws
+  /// Diverged when only a reset helps.
+  void transfer_layout(StateArchive& archive, const std::vector<ObjectId>& models) const;
+  /// Saves or restores the devices of `models` and of the world, and their schedules.
+  void transfer_devices(StateArchive& archive, const std::vector<ObjectId>& models);
+  /// Saves or restores all else that determines the future: the physics with its memory, motors, applied wrenches,
+  /// random numbers. Throws InvalidInput for values that are not usable; the world must be reset or restored then.
+  /// Saving throws Diverged after a divergence.
   void transfer(StateArchive& archive);
 
   struct State;  // see src/sim/physics/world_state.hpp

@@ -16,6 +16,7 @@
 #include "bindings.hpp"
 #include "bubblesim/file_watch.hpp"
 #include "bubblesim/runner.hpp"
+#include "guarded.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -103,11 +104,21 @@ py::object call_and_wait(const py::object& self, py::function function) {
   return outcome->value;
 }
 
-std::unique_ptr<Runner> make_runner(Simulation& simulation, double speed) {
-  if (!(speed > 0)) throw InvalidInput("the speed of a runner must be positive, or math.inf for as fast as possible");
+/// Ends a runner that still runs without the GIL, for which the functions of its thread may wait.
+struct EndWithoutGil {
+  void operator()(Runner* runner) const {
+    const py::gil_scoped_release others_may_run;
+    std::default_delete<Runner>()(runner);
+  }
+};
+using RunnerPtr = std::unique_ptr<Runner, EndWithoutGil>;
+
+RunnerPtr make_runner(Simulation& simulation, double speed) {
   RunnerOptions options;
   options.speed = speed;
-  return std::make_unique<Runner>(simulation, std::move(options));
+  simulation.world().access().check_can_be_claimed();
+  const HoldWithGil hold(simulation.world().access());
+  return RunnerPtr(std::make_unique<Runner>(simulation, std::move(options)).release());
 }
 
 /// Makes a Python function callable without the GIL; destroyed with the GIL, wherever the last copy is.
@@ -201,7 +212,7 @@ void bind_runner(py::module_& module) {
            "Have the function called even if the descriptor is not readable: for sockets whose descriptor signals "
            "edges.");
 
-  py::class_<Runner>(module, "Runner", R"(Runs a simulation on a thread of its own.
+  py::class_<Runner, RunnerPtr>(module, "Runner", R"(Runs a simulation on a thread of its own.
 
 >>> with bubblesim.Runner(bubblesim.Simulation("tricycle")) as runner:
 ...     runner.step(20)
@@ -212,7 +223,8 @@ It begins paused. Its functions may be called in any thread; until the end of th
 itself refuses other threads. Commands are carried out between steps, in their order.
 
 :param simulation: the Simulation.
-:param speed: simulated seconds per second; math.inf is as fast as possible.)")
+:param speed: simulated seconds per second; math.inf is as fast as possible.
+:raises ValueError: if the speed is not above 0, or another Runner runs the simulation: also in `__enter__`.)")
       .def(py::init(&make_runner), py::arg("simulation"), py::kw_only(), py::arg("speed") = 1.0, py::keep_alive<1, 2>())
       .def("__enter__",
            [](const py::object& self) {
@@ -248,15 +260,17 @@ itself refuses other threads. Commands are carried out between steps, in their o
            "Set the simulated seconds per second; math.inf is as fast as possible.")
       .def("add_gate", &add_gate, py::arg("is_open"), py::arg("why_closed"),
            "Make each step wait until `is_open()` is true; `why_closed()` returns the reason of a timeout. Return a\n"
-           "number for `remove_gate`. While the runner runs, call both in its thread only.")
+           "number for `remove_gate`.\n\n"
+           ":raises RuntimeError: in another thread than the runner's while it runs; `remove_gate`, too.")
       .def("remove_gate", &Runner::remove_gate, py::arg("gate"))
       .def(
           "watch", &watch, py::arg("descriptor"), py::arg("serve"), py::keep_alive<0, 1>(),
           "Call `serve()` between two steps when a file descriptor is readable, and again as long as it returns true.\n"
-          "Return an object whose close() ends this. While the runner runs, use it in the runner's thread only.")
+          "Return an object whose close() ends this.\n\n"
+          ":raises RuntimeError: in another thread than the runner's while it runs; close(), too.")
       .def("share_frames", &Runner::share_frames, py::return_value_policy::reference_internal,
-           "Return the FrameMemory in which other processes find the frames from now on. Call it in the runner's\n"
-           "thread, or while it does not run.")
+           "Return the FrameMemory in which other processes find the frames from now on.\n\n"
+           ":raises RuntimeError: in another thread than the runner's while it runs.")
       .def_property_readonly(
           "simulation", [](Runner& runner) -> Simulation& { return runner.simulation(); },
           py::return_value_policy::reference_internal)

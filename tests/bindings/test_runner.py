@@ -2,9 +2,11 @@
 """A simulation that runs in the background: commands, answers, frames."""
 
 import math
+import subprocess
+import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -75,6 +77,57 @@ def test_other_threads_are_refused_until_the_end() -> None:
     assert simulation.time == pytest.approx(0.05)
     with pytest.raises(RuntimeError, match="does not run"):
         runner.step()
+
+
+def run_program(code: str) -> "subprocess.CompletedProcess[str]":
+    """Run a Python program of its own, which the core may end."""
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+
+
+@pytest.mark.parametrize("second", ["second", "bubblesim.Runner(simulation)"], ids=["made before", "made later"])
+def test_a_second_runner_of_a_simulation_is_refused(second: str) -> None:
+    run = run_program(f"""
+import bubblesim
+simulation = bubblesim.Simulation("ball")
+first, second = bubblesim.Runner(simulation), bubblesim.Runner(simulation)
+with first:
+    first.step()
+    with {second}:
+        print("both run")
+""")
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "ValueError: a Runner runs this simulation already, in thread " in run.stderr
+    assert "close that Runner first" in run.stderr
+
+
+def test_a_runner_that_is_dropped_while_it_runs_ends_its_thread() -> None:
+    run = run_program("""
+import bubblesim, math, time
+simulation = bubblesim.Simulation("ball")
+for _ in range(20):  # most of the times, the thread waits for Python at that moment
+    runner = bubblesim.Runner(simulation, speed=math.inf)
+    runner.add_gate(lambda: True, lambda: "")
+    runner.__enter__()
+    runner.start()
+    time.sleep(0.01)
+    del runner
+print(simulation.time > 0)
+""")
+    assert (run.returncode, run.stdout, run.stderr) == (0, "True\n", "")
+
+
+def test_what_has_no_lock_is_refused_in_other_threads(runner: bubblesim.Runner) -> None:
+    uses: list[Callable[[], object]] = [
+        lambda: runner.add_gate(lambda: True, lambda: ""),
+        lambda: runner.remove_gate(1),
+        lambda: runner.watch(0, lambda: False),
+        runner.share_frames,
+    ]
+    for use in uses:
+        with pytest.raises(RuntimeError, match="of a running Runner can be used in its own thread only"):
+            use()
+    assert runner.call(lambda _: runner.add_gate(lambda: True, lambda: "")) == 0
+    runner.call(lambda _: runner.share_frames())
 
 
 def test_a_frame_is_a_picture_of_one_time(runner: bubblesim.Runner) -> None:

@@ -48,6 +48,22 @@ def test_bytes_that_are_no_state_are_refused() -> None:
     assert simulation.state_hash() == before
 
 
+def test_a_refused_state_leaves_the_models_that_were_added() -> None:
+    simulation = driving()
+    saved = simulation.save()
+    other = bubblesim.Simulation("tricycle")
+    other.add_model("<sdf version='1.9'><model name='Added'><link name='link'/></model></sdf>", position=[0, 0, 3])
+    other.step(3)
+    before = other.save()
+    for size in range(0, len(saved), 101):
+        with pytest.raises(ValueError, match="state"):
+            other.restore(saved[:size])
+    assert other.save() == before
+    assert other.object("/Added").position[2] > 0
+    other.restore(saved)
+    assert other.state_hash() == simulation.state_hash()
+
+
 class Generator:
     """Has what a plugin may have."""
 

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Nodes that use another type for a topic or a service: reported in one line, however often they try."""
 
+import socket
+import struct
 import subprocess
+import xmlrpc.client
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from bridge_probe import Probe
-from ros_support import RosCore, start, stop, wait_until
+from node_support import NAME
+from ros_support import DEADLINE, RosCore, start, stop, wait_until
 
 FLOAT = "std_msgs/Float32 (md5 73fcbf46b49191e672908e50842a83d4)"
 STRING = "std_msgs/String (md5 992ce8a1687cec8c8bd883ec73ca41d1)"
@@ -48,6 +53,32 @@ def test_subscriber_of_another_type_is_reported_once(roscore: RosCore, tmp_path:
     assert reported(probe) == [
         f"plugin 'ROSInterface': topic '/speed': node /peer subscribes to {STRING}, but this node publishes "
         f"{FLOAT}, so no messages are sent to it; use the same type in both"
+    ]
+
+
+def subscribe(node: tuple[str, int], caller: str) -> None:
+    """Ask a node for /speed with another type, as roscpp does, and return when it has refused."""
+    fields = [f"callerid={caller}", "topic=/speed", "type=std_msgs/String", f"md5sum={STRING[-33:-1]}"]
+    header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    with socket.create_connection(node, timeout=DEADLINE) as connection:
+        connection.sendall(struct.pack("<I", len(header)) + header)
+        while connection.recv(1000):
+            pass
+
+
+def test_a_hundred_subscribers_are_reported_and_no_more(roscore: RosCore) -> None:
+    with Probe(roscore.env) as probe:
+        probe.ask("advertise", "/speed", "float")
+        wait_until(lambda: "/speed" in roscore.state()["publishers"], "the publisher")
+        master: Any = xmlrpc.client.ServerProxy(roscore.env["ROS_MASTER_URI"])
+        node: Any = xmlrpc.client.ServerProxy(master.lookupNode("/test", NAME)[2])
+        _, host, port = node.requestTopic("/test", "/speed", [["TCPROS"]])[2]
+        for number in range(110):
+            subscribe((host, port), f"/peer{number}")
+        probe.wait_for(lambda: len(reported(probe)) >= 101, "the lines")
+    assert [f"node /peer{n} subscribes" in line for n, line in enumerate(reported(probe)[:100])] == [True] * 100
+    assert reported(probe)[100:] == [
+        "plugin 'ROSInterface': nodes that use other types were reported 100 times; further ones are not reported"
     ]
 
 

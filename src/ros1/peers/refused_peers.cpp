@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <regex>
+#include <string>
 
 #include "peers/type_version.hpp"
 #include "status/say.hpp"
@@ -76,8 +77,14 @@ bool RefusedPeers::take(const std::string& line) {
   std::optional<std::string> text = subscriber_refused(line);
   if (!text) text = client_refused(line);
   if (!text) return false;
+  constexpr std::size_t kMostReported = 100;  // peers choose their names
   const std::lock_guard lock(mutex_);
-  if (told_.insert(*text).second) say(*text);
+  if (reported_.size() == kMostReported || !reported_.insert(*text).second) return true;
+  say(*text);
+  if (reported_.size() == kMostReported) {
+    say("nodes that use other types were reported " + std::to_string(kMostReported) +
+        " times; further ones are not reported");
+  }
   return true;
 }
 

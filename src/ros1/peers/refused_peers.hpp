@@ -8,8 +8,8 @@
 namespace bubblesim {
 
 /// Reports once, in one line, each node that tried to subscribe to a topic or call a service of this node with another
-/// type. roscpp refuses them and only logs it, at each attempt: removes those lines from the console output (not from
-/// /rosout).
+/// type, up to a hundred of them. roscpp refuses them and only logs it, at each attempt: removes those lines from the
+/// console output (not from /rosout).
 class RefusedPeers {
  public:
   /// At most one may exist; call it after ros::init().
@@ -24,7 +24,7 @@ class RefusedPeers {
 
  private:
   std::mutex mutex_;
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
 };
 
 }  // namespace bubblesim

@@ -51,8 +51,8 @@ bool is_ball(const Ellipsoid& ellipsoid) {
   return radii.x() == radii.y() && radii.y() == radii.z();
 }
 
-std::shared_ptr<const PreparedModel> prepare_model(std::shared_ptr<const ModelDescription> description,
-                                                   std::vector<Problem>* warnings) {
+std::shared_ptr<PreparedModel> prepare_model(std::shared_ptr<const ModelDescription> description,
+                                             std::vector<Problem>* warnings) {
   ode::prepare_this_thread();
   auto prepared = std::make_shared<PreparedModel>();
   prepared->is_prop = is_prop(*description);

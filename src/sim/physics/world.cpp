@@ -13,6 +13,7 @@
 #include "physics/world_state.hpp"
 #include "run/prepared.hpp"
 #include "scene/fnv1a.hpp"
+#include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
 
 namespace bubblesim {
@@ -120,6 +121,7 @@ ObjectId World::add_model(ModelDescription model, std::vector<Problem>* warnings
   make_rotations_unit(model);
   const bool is_static = model.is_static;
   const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
+  prepared->added_hash = hash_of(*prepared->description);
   // The scene and its other simulations keep their tree.
   auto tree = std::make_shared<SceneTree>(*state_->shared_tree);
   const ObjectId id = enter_model(*tree, *prepared->description);

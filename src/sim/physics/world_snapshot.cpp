@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Saves and restores the state of a world: see docs/adr/0030.
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
+#include <typeinfo>
+#include <vector>
 
 #include "bubblesim/device.hpp"
 #include "bubblesim/error.hpp"
 #include "check/checks.hpp"
 #include "physics/body_state.hpp"
 #include "physics/world_state.hpp"
+#include "scene/fnv1a.hpp"
 
 namespace bubblesim {
 namespace {
@@ -87,6 +92,23 @@ void transfer_model(StateArchive& archive, const World::State& state, PlacedMode
   transfer_planar_motor(archive, state, model);
 }
 
+/// Those of `models` and of the world, in their order.
+std::vector<DeviceSlot*> devices_of(World::State& state, const std::vector<ObjectId>& models) {
+  std::vector<DeviceSlot*> devices;
+  for (DeviceSlot& slot : state.devices) {
+    if (slot.model == kNoObject || std::find(models.begin(), models.end(), slot.model) != models.end()) {
+      devices.push_back(&slot);
+    }
+  }
+  return devices;
+}
+
+std::uint64_t kind_of(const Device& device) {
+  Fnv1a hash;
+  hash.add(std::string_view(typeid(device).name()));
+  return hash.value();
+}
+
 }  // namespace
 
 void transfer(StateArchive& archive, Wrench& wrench) { archive(wrench.force, wrench.torque); }
@@ -97,7 +119,7 @@ void transfer_physics(StateArchive& archive, World::State& state) {
     state.found.clear();
     state.history.clear();
     state.lost_models.clear();
-    state.diverged = false;
+    state.diverged = true;  // until all of it is restored
   }
   archive.require(state.moving.size(), "number of moving models");
   archive.require(state.colliders.size(), "number of collision shapes");
@@ -112,15 +134,26 @@ void transfer_physics(StateArchive& archive, World::State& state) {
   transfer_memory(archive, state, state.memory);
   transfer_touches(archive, state);
   archive(state.wrenches, state.last_duration, state.steps, state.bottom, state.age);
+  if (archive.restores()) state.diverged = false;
 }
 
-void transfer_devices(StateArchive& archive, World::State& state) {
-  archive.require(state.devices.size(),
-                  "number of devices (add those of plugins and programs before the state is restored)");
-  for (DeviceSlot& slot : state.devices) {
-    archive.require(static_cast<std::uint32_t>(slot.model), "model of a device");
-    archive(slot.substeps, slot.ahead, slot.wrenches);
-    slot.device->transfer(archive);
+void World::transfer_layout(StateArchive& archive, const std::vector<ObjectId>& models) const {
+  if (state_->interrupted) throw Diverged("the physics diverged; reset the world, then a state can be restored");
+  for (const ObjectId model : models) {
+    archive.require(state_->model_of(model).prepared->added_hash, "description of a model that was added");
+  }
+  const std::vector<DeviceSlot*> devices = devices_of(*state_, models);
+  archive.require(devices.size(), "number of devices (add those of plugins and programs before the state is restored)");
+  for (const DeviceSlot* slot : devices) {
+    archive.require(static_cast<std::uint32_t>(slot->model), "model of a device");
+    archive.require(kind_of(*slot->device), "kind of a device");
+  }
+}
+
+void World::transfer_devices(StateArchive& archive, const std::vector<ObjectId>& models) {
+  for (DeviceSlot* slot : devices_of(*state_, models)) {
+    archive(slot->substeps, slot->ahead, slot->wrenches);
+    slot->device->transfer(archive);
   }
 }
 
@@ -131,7 +164,6 @@ void World::transfer(StateArchive& archive) {
   ode::prepare_this_thread();
   transfer_physics(archive, *state_);
   archive(state_->seed, state_->random);
-  transfer_devices(archive, *state_);
 }
 
 }  // namespace bubblesim

@@ -317,8 +317,6 @@ void reset_devices(World& world, std::vector<DeviceSlot> devices, World::State& 
 void remove_devices(World::State& state, ObjectId model);
 /// Saves or restores the physics without devices, seed and random numbers.
 void transfer_physics(StateArchive& archive, World::State& state);
-/// Saves or restores the devices and their schedules.
-void transfer_devices(StateArchive& archive, World::State& state);
 
 /// Creates the motor that holds the planar velocity of a model.
 PlanarMotor make_planar_motor(const World::State& state, const PlacedModel& model);

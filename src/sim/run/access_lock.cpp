@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/access_lock.hpp"
 
+#include <sstream>
 #include <stdexcept>
 
+#include "bubblesim/error.hpp"
+
 namespace bubblesim {
+namespace {
+
+[[noreturn]] void refuse_second_claim(std::thread::id owner) {
+  std::ostringstream why;
+  why << "a Runner runs this simulation already, in thread " << owner
+      << ": close that Runner first (in Python by leaving its 'with' statement, in C++ with finish())";
+  throw InvalidInput(why.str());
+}
+
+}  // namespace
 
 void AccessLock::check_not_claimed() const {
   const std::thread::id claimed_by = claimed_by_;
@@ -13,8 +26,22 @@ void AccessLock::check_not_claimed() const {
       "first");
 }
 
+void AccessLock::check_can_be_claimed() const {
+  const std::thread::id claimed_by = claimed_by_;
+  if (claimed_by != std::thread::id()) refuse_second_claim(claimed_by);
+}
+
+void AccessLock::claim() {
+  std::thread::id claimed_by;
+  if (!claimed_by_.compare_exchange_strong(claimed_by, std::this_thread::get_id())) refuse_second_claim(claimed_by);
+}
+
 void AccessLock::take() {
   check_not_claimed();
+  wait_for_turn();
+}
+
+void AccessLock::wait_for_turn() noexcept {
   const std::uint64_t number = next_++;
   if (served_ != number) {
     std::unique_lock lock(mutex_);
@@ -31,7 +58,7 @@ bool AccessLock::try_take() {
   return true;
 }
 
-void AccessLock::release() {
+void AccessLock::release() noexcept {
   owner_ = std::thread::id();
   const std::uint64_t number = ++served_;
   if (next_ == number) return;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/pacer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bubblesim {
 namespace {
 
-constexpr std::chrono::duration<double> kMostBehind{0.2};
+using Seconds = std::chrono::duration<double>;
+
+constexpr Seconds kMostBehind{0.2};
+constexpr Seconds kMostAhead{1e9};  // 30 years: a very slow step would be due after the end of the clock
 
 }  // namespace
 
@@ -18,7 +22,7 @@ Pacer::Clock::time_point Pacer::due(double simulated, Clock::time_point now) {
     simulated_at_start_ = simulated;
   }
   // A point in time: the sum of many waits for a duration drifts.
-  const std::chrono::duration<double> since_start((simulated - simulated_at_start_) / speed_);
+  const Seconds since_start = std::min(Seconds((simulated - simulated_at_start_) / speed_), kMostAhead);
   const Clock::time_point due = start_ + std::chrono::duration_cast<Clock::duration>(since_start);
   if (now - due > kMostBehind) {
     start_ = now;

@@ -2,14 +2,34 @@
 #include "bubblesim/runner.hpp"
 
 #include <atomic>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "run/run_loop.hpp"
 
 namespace bubblesim {
+namespace {
+
+void check_speed(double speed) {
+  if (!(speed > 0)) {
+    throw InvalidInput("the speed of a runner must be positive, or infinity for as fast as possible");
+  }
+}
+
+/// The loop of a new runner makes its first frame at once, which another runner would disturb.
+Simulation& unclaimed(Simulation& simulation) {
+  simulation.world().access().check_can_be_claimed();
+  return simulation;
+}
+
+}  // namespace
 
 struct Runner::Impl {
-  Impl(Simulation& simulation, const RunnerOptions& options) : loop(simulation, options) {}
+  Impl(Simulation& simulation, const RunnerOptions& options) : loop(unclaimed(simulation), options) {
+    check_speed(options.speed);
+  }
 
   template <class Action>
   auto command(Command::Kind kind, Action action) {
@@ -22,6 +42,15 @@ struct Runner::Impl {
     auto refuse = [answer](const std::exception_ptr& why) { answer->set_exception(why); };
     loop.inbox().put({kind, std::move(carry_out), std::move(refuse)});
     return answer->get_future();
+  }
+
+  /// The loop uses `what` without a lock. Throws std::logic_error when another thread is in the loop.
+  void check_thread(const char* what) const {
+    const std::thread::id running = runs_in;
+    if (running == std::thread::id() || running == std::this_thread::get_id()) return;
+    throw std::logic_error(std::string("the ") + what +
+                           " of a running Runner can be used in its own thread only: do it before the run, or in a "
+                           "function that the runner calls, such as that of call()");
   }
 
   RunLoop loop;
@@ -70,7 +99,7 @@ void Runner::request_steps(std::uint64_t count) {
 }
 
 std::future<void> Runner::set_speed(double speed) {
-  if (!(speed > 0)) throw InvalidInput("the speed of a runner must be positive, or infinity for as fast as possible");
+  check_speed(speed);
   return call([this, speed] { impl_->loop.set_speed(speed); });
 }
 
@@ -106,7 +135,10 @@ void Runner::wake() { impl_->loop.inbox().wake(); }
 
 std::shared_ptr<const Frame> Runner::frame() const { return impl_->loop.frame(); }
 
-FrameMemory& Runner::share_frames() { return impl_->loop.share_frames(); }
+FrameMemory& Runner::share_frames() {
+  impl_->check_thread("frame memory");
+  return impl_->loop.share_frames();
+}
 
 RunReport Runner::take_report() { return impl_->loop.meter().take(); }
 
@@ -114,15 +146,30 @@ std::string Runner::summary() { return impl_->loop.meter().summary(); }
 
 void Runner::report_failure(const std::string& why) { impl_->loop.meter().fail(why); }
 
-GateId Runner::add_gate(StepGate gate) { return impl_->loop.add_gate(std::move(gate)); }
+GateId Runner::add_gate(StepGate gate) {
+  impl_->check_thread("gates");
+  return impl_->loop.add_gate(std::move(gate));
+}
 
-void Runner::remove_gate(GateId gate) { impl_->loop.remove_gate(gate); }
+void Runner::remove_gate(GateId gate) {
+  impl_->check_thread("gates");
+  impl_->loop.remove_gate(gate);
+}
 
-void Runner::remove_gates() { impl_->loop.remove_gates(); }
+void Runner::remove_gates() {
+  impl_->check_thread("gates");
+  impl_->loop.remove_gates();
+}
 
-void Runner::add_file(std::shared_ptr<WatchedFile> file) { impl_->loop.files().add(std::move(file)); }
+void Runner::add_file(std::shared_ptr<WatchedFile> file) {
+  impl_->check_thread("watched files");
+  impl_->loop.files().add(std::move(file));
+}
 
-void Runner::remove_file(const WatchedFile& file) { impl_->loop.files().remove(file); }
+void Runner::remove_file(const WatchedFile& file) {
+  impl_->check_thread("watched files");
+  impl_->loop.files().remove(file);
+}
 
 void Runner::run() {
   /// Knows the thread, and lets no command wait for ever.
@@ -149,7 +196,14 @@ void Runner::run_in_background() {
   std::promise<void> claimed;
   std::future<void> ready = claimed.get_future();
   impl_->background = std::thread([this, claimed = std::move(claimed)]() mutable {
-    const AccessLock::Claim alone(simulation_.world().access());
+    std::optional<AccessLock::Claim> alone;
+    try {
+      alone.emplace(simulation_.world().access());
+      simulation_.check_may_change();  // a step that lets others use the simulation, and then goes on
+    } catch (...) {
+      claimed.set_exception(std::current_exception());
+      return;
+    }
     impl_->runs_in = std::this_thread::get_id();
     claimed.set_value();
     try {
@@ -158,7 +212,13 @@ void Runner::run_in_background() {
       impl_->error = std::current_exception();
     }
   });
-  ready.wait();
+  try {
+    ready.get();
+  } catch (...) {
+    impl_->background.join();
+    impl_->loop.inbox().close();
+    throw;
+  }
 }
 
 void Runner::finish() {

@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The physics of a step, and the handling of divergence and of fallen models.
-#include <unistd.h>
-
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
 #include "rays/ray_scene.hpp"
+#include "run/last_states_file.hpp"
 
 namespace bubblesim {
 namespace {
-
-/// Writes the last states to a file. Returns a note with the file name, or an empty string when it cannot be written.
-std::string dump(const World& world) {
-  std::error_code failed;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(failed);
-  if (failed) return "";
-  const std::filesystem::path file = folder / ("bubblesim_diverged_" + std::to_string(::getpid()) + ".csv");
-  std::ofstream out(file);
-  world.write_last_states(out);
-  return out.flush() ? "; the last states are in " + file.string() : "";
-}
 
 void warn(const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.c_str()); }
 
@@ -43,7 +29,11 @@ void Simulation::advance_physics(double substep) {
 }
 
 void Simulation::handle(const Diverged& divergence) {
-  const std::string what = divergence.what() + dump(world_);
+  std::string what = divergence.what();
+  if (writes_last_states_) {
+    const std::string file = write_last_states(world_);
+    if (!file.empty()) what += "; the last states are in " + file;
+  }
   const std::vector<ObjectId> lost = world_.diverged_models();
   if (scene().on_divergence == OnDivergence::kReset) {
     warn(what + "; world reset");

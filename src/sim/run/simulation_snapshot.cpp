@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view kMagic = "bubblesim state\n";
 /// Increase it when what is saved changes: tests/sim/run/test_snapshot.cpp has the sizes.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 struct Header {
   std::uint32_t version = kVersion;
@@ -73,25 +73,32 @@ std::string System::state_name() const { return ""; }
 std::string System::save_state() { return ""; }
 void System::restore_state(std::string_view) {}
 
-/// Saves the states of the systems that have one, by name, or hands them back.
-void Simulation::transfer_systems(StateArchive& archive) {
+/// What restore() puts back when it fails.
+struct Simulation::Backup {
+  std::vector<ObjectId> models;
+  std::map<std::string, std::string> systems;
+  std::string state;  // empty after a divergence, which cannot be saved
+};
+
+/// The states of the systems that have one, by name.
+std::map<std::string, std::string> Simulation::system_states() {
   std::map<std::string, std::string> states;
-  if (!archive.restores()) {
-    for (System* system : systems_) {
-      std::string state = system->state_name().empty() ? "" : system->save_state();
-      if (!state.empty()) states[system->state_name()] = std::move(state);
-    }
+  for (System* system : systems_) {
+    std::string state = system->state_name().empty() ? "" : system->save_state();
+    if (!state.empty()) states[system->state_name()] = std::move(state);
   }
-  archive(states);
-  if (!archive.restores()) return;
-  for (const auto& [name, state] : states) {
-    const auto is_it = [&name = name](const System* system) { return system->state_name() == name; };
-    const auto found = std::find_if(systems_.begin(), systems_.end(), is_it);
-    if (found == systems_.end()) {
-      throw InvalidInput("the state was saved with " + name + ", which this simulation does not have");
-    }
-    (*found)->restore_state(state);
+  return states;
+}
+
+System& Simulation::system_named(const std::string& name) {
+  for (System* system : systems_) {
+    if (system->state_name() == name) return *system;
   }
+  throw InvalidInput("the state was saved with " + name + ", which this simulation does not have");
+}
+
+void Simulation::restore_systems(const std::map<std::string, std::string>& states) {
+  for (const auto& [name, state] : states) system_named(name).restore_state(state);
 }
 
 void Simulation::transfer(StateArchive& archive) {
@@ -102,7 +109,6 @@ void Simulation::transfer(StateArchive& archive) {
     archive(slot.due, slot.time, slot.wanted, slot.measured, slot.shows, slot.noise_scale);
     if (slot.measured || slot.shows) archive(*slot.sensor);
   }
-  transfer_systems(archive);
 }
 
 std::string Simulation::save() {
@@ -117,8 +123,11 @@ void Simulation::save(std::string& bytes) {
   bytes.assign(kMagic);
   bytes.resize(kHeaderSize);
   std::vector<ObjectId> models = world_.tree().models();
+  std::map<std::string, std::string> systems = system_states();
   StateArchive archive(bytes);
-  archive(models);
+  archive(models, systems);
+  world_.transfer_layout(archive, models);
+  world_.transfer_devices(archive, models);
   transfer(archive);
   Header header;
   header.scene = scene_->hash();
@@ -135,21 +144,61 @@ void Simulation::restore(std::string_view bytes) {
   check_may_change();
   StateArchive archive(checked(bytes, scene_->hash()));
   std::vector<ObjectId> models;
-  archive(models);
-  remove_models_except(models);
-  transfer(archive);
-  if (archive.left().empty()) return;
-  throw InvalidInput("the saved state has " + std::to_string(archive.left().size()) + " bytes too many");
+  std::map<std::string, std::string> systems;
+  archive(models, systems);
+  check_models(models);
+  for (const auto& [name, state] : systems) system_named(name);  // throws
+  world_.transfer_layout(archive, models);
+  const Backup before = make_backup();
+  try {
+    world_.transfer_devices(archive, models);  // before models are removed, which cannot be undone
+    remove_models_except(models);
+    transfer(archive);
+    if (!archive.left().empty()) {
+      throw InvalidInput("the saved state has " + std::to_string(archive.left().size()) + " bytes too many");
+    }
+    restore_systems(systems);
+  } catch (...) {
+    put_back(before);
+    throw;
+  }
 }
 
-void Simulation::remove_models_except(const std::vector<ObjectId>& saved) {
-  const std::vector<ObjectId> present = world_.tree().models();
+Simulation::Backup Simulation::make_backup() {
+  Backup backup{world_.tree().models(), system_states(), ""};
+  try {
+    StateArchive archive(backup.state);
+    world_.transfer_devices(archive, backup.models);
+    transfer(archive);
+  } catch (const Diverged&) {
+    backup.state.clear();
+  }
+  return backup;
+}
+
+void Simulation::put_back(const Backup& backup) {
+  if (backup.state.empty() || world_.tree().models() != backup.models) return;
+  StateArchive archive(std::string_view{backup.state});
+  world_.transfer_devices(archive, backup.models);
+  transfer(archive);
+  restore_systems(backup.systems);
+}
+
+void Simulation::check_models(const std::vector<ObjectId>& saved) const {
+  const std::vector<ObjectId>& present = world_.tree().models();
   for (const ObjectId model : saved) {
     if (std::find(present.begin(), present.end(), model) != present.end()) continue;
     throw InvalidInput(
         "a model of the saved state is not in this simulation: it was removed since, or is one that was added while "
         "the simulation ran; restore the state in a new simulation, or add the model first");
   }
+  for (const ObjectId model : present) {
+    if (std::find(saved.begin(), saved.end(), model) == saved.end()) world_.check_removable(model);
+  }
+}
+
+void Simulation::remove_models_except(const std::vector<ObjectId>& saved) {
+  const std::vector<ObjectId> present = world_.tree().models();
   for (const ObjectId model : present) {
     if (std::find(saved.begin(), saved.end(), model) == saved.end()) remove_model_now(model);
   }

@@ -152,4 +152,10 @@ std::uint64_t hash_of(const SceneDescription& scene) {
   return hash.value();
 }
 
+std::uint64_t hash_of(const ModelDescription& model) {
+  DescriptionHash hash;
+  hash(model);
+  return hash.value();
+}
+
 }  // namespace bubblesim

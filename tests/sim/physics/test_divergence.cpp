@@ -2,6 +2,7 @@
 // Divergence handling, and models that fall below the scene.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -51,6 +52,33 @@ TEST(Divergence, ThrowsAndTellsWhereTheLastStatesAre) {
   std::ifstream in(file);
   std::string text((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(text.find("/Ball/link,999999,"), std::string::npos) << text;
+}
+
+std::string file_of(OnDivergence policy) {
+  Leaving leaving(policy);
+  try {
+    leaving.simulation.step();
+  } catch (const Diverged& error) {
+    const std::string what = error.what();
+    return what.substr(what.rfind(' ') + 1);
+  }
+  return "";
+}
+
+TEST(Divergence, WritesOneFileThatOnlyItsUserCanRead) {
+  const std::filesystem::path file = file_of(OnDivergence::kPause);
+  EXPECT_EQ(std::filesystem::status(file).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(file_of(OnDivergence::kPause), file) << "each divergence of a process replaces the last one";
+  const std::filesystem::path other = file.parent_path() / "bubblesim_test_divergence_other";
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink(other, file);
+  const std::filesystem::path next = file_of(OnDivergence::kPause);
+  EXPECT_NE(next, file);
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(next)));
+  EXPECT_FALSE(std::filesystem::exists(other)) << "a link in its place is not followed";
+  std::filesystem::remove(file);
+  std::filesystem::remove(next);
 }
 
 TEST(Divergence, ResetsTheWorldWhenTheSceneSaysSo) {

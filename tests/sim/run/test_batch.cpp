@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -98,6 +100,25 @@ TEST(Batch, ResetsWorldsThatLoseAModel) {
   batch.step(nullptr, 1, observed.data());
   EXPECT_EQ(batch.failed(), (std::vector<std::uint8_t>{0, 0, 0}));
   EXPECT_LT(observed[5], 3);
+}
+
+TEST(Batch, WritesNoFileWhenAWorldDiverges) {
+  char folder[] = "/tmp/bubblesim_test_batch_XXXXXX";
+  ASSERT_NE(::mkdtemp(folder), nullptr);
+  const char* before = std::getenv("TMPDIR");
+  const std::string restored = before == nullptr ? "/tmp" : before;
+  ::setenv("TMPDIR", folder, 1);
+  BatchOptions made;
+  made.worlds = 2;
+  made.actions = {"/Ball.position"};
+  made.numbers = NumberType::kFloat64;
+  Batch batch(std::make_shared<const Scene>(scene({model("Ball", link_with(Sphere{0.5}))})), made);
+  const std::vector<double> actions{0, 0, 3, 0, 0, -999999.999};
+  batch.step(actions.data(), 1, nullptr);
+  ::setenv("TMPDIR", restored.c_str(), 1);
+  EXPECT_EQ(batch.failed(), (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  std::filesystem::remove_all(folder);
 }
 
 std::string error_of(const std::vector<std::string>& actions, const std::vector<std::string>& observations) {

@@ -82,6 +82,7 @@ TEST_F(Run, AClosedGateHoldsBackStepsUntilInputOpensIt) {
   while (runner->frame()->time == 0) std::this_thread::yield();
   let_it_go_round();
   EXPECT_DOUBLE_EQ(runner->frame()->time, kStep);
+  runner->finish();  // before the variables of the gate are gone
 }
 
 TEST_F(Run, AStepWaitsForAllGates) {
@@ -99,6 +100,7 @@ TEST_F(Run, AStepWaitsForAllGates) {
   EXPECT_EQ(runner->frame()->time, 0);
   runner->call([&] { runner->remove_gate(other); }).get();
   while (runner->frame()->time == 0) std::this_thread::yield();
+  runner->finish();  // before the variables of the gates are gone
 }
 
 TEST_F(Run, KeepsToItsSpeed) {
@@ -111,6 +113,20 @@ TEST_F(Run, KeepsToItsSpeed) {
   runner->run();
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(220))
       << "the last step begins at 0.45 s";
+}
+
+TEST_F(Run, KeepsToASpeedAtWhichTheNextStepIsDueAfterTheEndOfTheClock) {
+  for (const double speed : {1e-12, 1e-300}) {
+    RunnerOptions options;
+    options.speed = speed;
+    options.initial = RunState::kRunning;
+    Simulation slow{falling_ball(), 1};
+    Runner slow_runner(slow, options);
+    slow_runner.run_in_background();
+    while (slow_runner.frame()->time == 0) std::this_thread::yield();
+    for (int i = 0; i < 5; ++i) slow_runner.call([] {}).get();
+    EXPECT_DOUBLE_EQ(slow_runner.frame()->time, kStep) << speed;
+  }
 }
 
 /// A ball that is about to leave the finite world.

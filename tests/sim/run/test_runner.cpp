@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands to a runner and their answers, also from several threads.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bubblesim/file_watch.hpp"
 #include "bubblesim/runner.hpp"
 #include "runs.hpp"
 #include "scenes.hpp"
@@ -145,6 +147,59 @@ TEST_F(Run, TheSimulationRefusesOtherThreadsMeanwhile) {
   EXPECT_THROW(runner->start().get(), NotCarriedOut);
   runner->run_in_background();
   EXPECT_DOUBLE_EQ(runner->step().get(), 2 * kStep) << "it may run again";
+}
+
+std::string refusal_of(Runner& runner) {
+  try {
+    runner.run_in_background();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST_F(Run, ASecondRunnerIsRefusedUntilTheFirstIsClosed) {
+  make(fast());
+  Runner second(simulation, fast());
+  runner->run_in_background();
+  EXPECT_NE(refusal_of(second).find("a Runner runs this simulation already"), std::string::npos);
+  EXPECT_THROW(Runner(simulation, fast()), InvalidInput);
+  EXPECT_NE(reason(second.step()), "carried out") << "nothing waits for a run that was refused";
+  EXPECT_DOUBLE_EQ(runner->step().get(), kStep) << "the first is not disturbed";
+  runner->finish();
+  EXPECT_EQ(refusal_of(second), "not refused");
+  EXPECT_DOUBLE_EQ(second.step().get(), 2 * kStep);
+  second.finish();
+}
+
+TEST_F(Run, AThreadThatLetTheRunnerInGetsTheLockBack) {
+  make(fast());
+  AccessLock& access = simulation.world().access();
+  {
+    const AccessLock::Hold hold(access);
+    const AccessLock::Pause others_may_use_it(access);
+    runner->run_in_background();
+  }
+  EXPECT_DOUBLE_EQ(runner->step().get(), kStep);
+}
+
+TEST_F(Run, ItsGatesFilesAndFrameMemoryRefuseOtherThreadsWhileItRuns) {
+  make(fast());
+  const StepGate open{[] { return true; }, [] { return ""; }};
+  const GateId gate = runner->add_gate(open);
+  auto file = std::make_unique<FileWatch>(*runner, STDIN_FILENO, [] { return false; });
+  runner->run_in_background();
+  EXPECT_THROW(runner->add_gate(open), std::logic_error);
+  EXPECT_THROW(runner->remove_gate(gate), std::logic_error);
+  EXPECT_THROW(runner->remove_gates(), std::logic_error);
+  EXPECT_THROW(FileWatch(*runner, STDIN_FILENO, [] { return false; }), std::logic_error);
+  EXPECT_THROW(file->close(), std::logic_error);
+  EXPECT_THROW(runner->share_frames(), std::logic_error);
+  file.reset();  // leaves its end to the runner's thread
+  runner->call([&] { runner->remove_gate(runner->add_gate(open)); }).get();
+  EXPECT_NO_THROW(runner->call([&] { runner->share_frames(); }).get());
+  runner->finish();
+  EXPECT_NO_THROW(runner->share_frames());
 }
 
 TEST_F(Run, ThreadsCommandAndReadWhileItSteps) {
