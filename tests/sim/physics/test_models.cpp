@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <thread>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
@@ -259,6 +260,9 @@ struct Watcher : System {
   void actuate(World&, double) override {
     if (on_actuate) on_actuate();
   }
+  void sense(const World&, double) override {
+    if (on_sense) on_sense();
+  }
   void model_added(World& world, ObjectId model) override { reported.push_back("+" + world.tree().path(model)); }
   void model_removing(World& world, ObjectId model) override {
     reported.push_back("-" + world.tree().path(model));
@@ -268,6 +272,7 @@ struct Watcher : System {
   Simulation& simulation;
   std::function<void()> on_drain;
   std::function<void()> on_actuate;
+  std::function<void()> on_sense;
   std::vector<std::string> reported;
 };
 
@@ -280,17 +285,39 @@ TEST(Systems, AreToldOfModelsThatComeAndGo) {
   EXPECT_EQ(watcher.reported, (std::vector<std::string>{"+/Robot", "-/Robot"}));
 }
 
-TEST(Models, ComeAndGoWhileDrainingButNotInTheMiddleOfAPass) {
+TEST(Models, ComeAndGoBeforeThePhysicsOfAStepButNotAfter) {
   Simulation simulation(scene(heap()));
   Watcher watcher(simulation);
-  ObjectId added = kNoObject;
-  watcher.on_drain = [&] { added = simulation.add_model(robot({})); };
+  ObjectId drained = kNoObject;
+  ObjectId actuated = kNoObject;
+  watcher.on_drain = [&] { drained = simulation.add_model(robot({})); };
   watcher.on_actuate = [&] {
-    EXPECT_THROW(simulation.add_model(box("Other", {})), std::logic_error);
-    EXPECT_THROW(simulation.remove_model(added), std::logic_error);
+    actuated = simulation.add_model(box("Other", {}));
+    simulation.remove_model(drained);
+    EXPECT_THROW(simulation.reset(), std::logic_error);
+  };
+  watcher.on_sense = [&] {
+    EXPECT_THROW(simulation.add_model(box("Third", {})), std::logic_error);
+    EXPECT_THROW(simulation.remove_model(actuated), std::logic_error);
   };
   simulation.step();
-  EXPECT_EQ(simulation.world().tree().path(added), "/Robot");
+  EXPECT_EQ(simulation.world().tree().path(actuated), "/Other");
+  EXPECT_EQ(watcher.reported, (std::vector<std::string>{"+/Robot", "+/Other", "-/Robot"}));
+}
+
+TEST(Models, ComeAndGoInTheThreadThatStandsInForTheSteppingOne) {
+  Simulation simulation(scene(heap()));
+  Watcher watcher(simulation);
+  watcher.on_actuate = [&] {
+    const AccessLock::Pause others_may_look(simulation.world().access());  // as around a call of Python
+    std::thread([&] {
+      EXPECT_THROW(simulation.add_model(robot({})), std::logic_error);
+      const Simulation::StandIn stand_in(simulation);
+      EXPECT_NO_THROW(simulation.add_model(robot({})));
+    }).join();
+  };
+  simulation.step();
+  EXPECT_EQ(watcher.reported, (std::vector<std::string>{"+/Robot"}));
 }
 
 }  // namespace
