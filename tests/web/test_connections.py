@@ -53,7 +53,8 @@ def test_a_thousand_connections_leave_room_for_pages(server: Server) -> None:
                         assert await page.call("server.recording") == {"runs": False, "file": ""}
                 return most
 
-    assert asyncio.run(crowd()) - before < 200
+    at_once = 128  # aiohttp's backlog: so many are accepted before the first one is closed
+    assert asyncio.run(crowd()) - before < 120 + at_once + 20
     assert len(server.output.splitlines()) < 5
 
 

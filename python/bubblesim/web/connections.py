@@ -11,7 +11,7 @@ import asyncio
 from typing import cast
 
 _MOST_PAGES = 40  # with the token; each has up to 17 descriptors
-_MOST_OTHERS = 160
+_MOST_OTHERS = 120  # and for a moment 128 more: asyncio accepts all that wait before it closes one
 _MOST_BYTES = 64 * 1024  # from a connection without the token
 _FIRST_REQUEST = 5.0  # s until the headers of a request are there
 _LONGEST = 60.0  # s after that, for the files of the page and the token
