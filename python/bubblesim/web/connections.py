@@ -10,8 +10,9 @@ from __future__ import annotations
 import asyncio
 from typing import cast
 
+MOST_WAITING = 64  # connections that nobody has accepted yet
 _MOST_PAGES = 40  # with the token; each has up to 17 descriptors
-_MOST_OTHERS = 120  # and for a moment 128 more: asyncio accepts all that wait before it closes one
+_MOST_OTHERS = 120  # and for a moment twice MOST_WAITING more: asyncio accepts all that wait before it closes one
 _MOST_BYTES = 64 * 1024  # from a connection without the token
 _FIRST_REQUEST = 5.0  # s until the headers of a request are there
 _LONGEST = 60.0  # s after that, for the files of the page and the token
