@@ -9,8 +9,8 @@ import pytest
 from bubblesim._core import add_copy, copy_model
 
 from bubblesim import Simulation
-from bubblesim.scripting.saved_scene import scene_text, write_scene
-from bubblesim.scripting.scene_edits import SceneEdits
+from bubblesim.scene_state.saved_scene import scene_text, write_scene
+from bubblesim.scene_state.scene_edits import SceneEdits
 from door_support import Door, refusal
 from node_support import write
 

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from bubblesim.remote import protocol
+from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.allowed_programs import is_allowed
-from bubblesim.scripting.caller import Hook, SharedData
+from bubblesim.scripting.caller import Hook
 
 _MOST_CALLBACKS = 1000
 _MOST_CALLBACK_BYTES = 16 * 1024 * 1024

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from bubblesim.scripting.saved_scene import write_scene
+from bubblesim.scene_state.saved_scene import write_scene
 from bubblesim.web.threads import in_thread
 
 _SUFFIXES = (".sdf", ".world")

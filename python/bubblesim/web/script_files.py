@@ -15,13 +15,13 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from bubblesim.scene_state.problems import of_source
 from bubblesim.scripting.api import reference
 from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.host.callback_names import HOOKS
 from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
-from bubblesim.scripting.problems import of_source
 from bubblesim.web.threads import in_thread
 
 _CHECKED = "checked_script"  # name of the module that a script has during a check

@@ -13,7 +13,7 @@ from typing import Any
 
 from bubblesim._core import MotorMode, PointSpring, add_copy, copy_model, scene_folders
 from bubblesim.remote.window.window import Kept, Source, Window
-from bubblesim.scripting import set_numbers
+from bubblesim.scene_state import set_numbers
 
 _SPRING = "spring"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim.remote.window.window import Window
-from bubblesim.scripting.saved_scene import scene_text
+from bubblesim.scene_state.saved_scene import scene_text
 
 
 def get_scene_text(window: Window, folder: str) -> str:

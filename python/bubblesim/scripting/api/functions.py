@@ -16,7 +16,8 @@ from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from typing import Any, SupportsIndex, TypeVar, cast
 
-from bubblesim.scripting.api.kinds import HANDLE, PLAIN, HandleError, Kind, MismatchError, shown
+from bubblesim.scene_state.handle_error import HandleError
+from bubblesim.scripting.api.kinds import HANDLE, PLAIN, Kind, MismatchError, shown
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.threads.script_thread import by_ident, current
 

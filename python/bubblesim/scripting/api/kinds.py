@@ -23,16 +23,6 @@ class MismatchError(ValueError):
     """States the found value itself, when the whole value would not show the problem."""
 
 
-class HandleError(ValueError):
-    """A number that is not a handle of an object."""
-
-    def __init__(self, handle: int, where: str = "") -> None:
-        """:param where: beginning of the text."""
-        none = "; sim.getObject with noError returns it for a missing object" if handle == -1 else ""
-        super().__init__(f"{where}{handle} is not a handle of an object{none}")
-        self.handle = handle
-
-
 def _number(value: Any) -> float:
     if isinstance(value, str | bytes | bytearray):  # float('1') and float(b'1') would accept it
         raise TypeError

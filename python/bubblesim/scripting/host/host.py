@@ -13,10 +13,13 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.output import write_line
+from bubblesim.scene_state.log import Log
+from bubblesim.scene_state.problems import Problem
+from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
-from bubblesim.scripting.caller import Caller, SharedData
+from bubblesim.scripting.caller import Caller
 from bubblesim.scripting.host import interruption, process_calls
 from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.known_problems import KnownProblems
@@ -25,8 +28,6 @@ from bubblesim.scripting.host.started_programs import end_programs
 from bubblesim.scripting.host.watchdog import Watchdog
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.source import read_text
-from bubblesim.scripting.log import Log
-from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets, script_thread
 
 _CHECK_INTERVAL = 0.25  # s

@@ -13,7 +13,7 @@ from types import FrameType
 from typing import Any, TextIO
 
 from bubblesim.output import encodable, write_line
-from bubblesim.scripting import log
+from bubblesim.scene_state import log
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from array import array
 from typing import Any
 
 from bubblesim._core import RunState
+from bubblesim.scene_state.graphs import CAPACITY, CUMULATIVE, INVISIBLE, SCATTERED, WITHOUT_LABEL, Curve, Graph, Stream
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.graphs import CAPACITY, CUMULATIVE, INVISIBLE, SCATTERED, WITHOUT_LABEL, Curve, Graph, Stream
 
 _RED = [1.0, 0.0, 0.0]
 _YELLOW = [1.0, 1.0, 0.0]

@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 from bubblesim.output import write_line
-from bubblesim.scripting import log
+from bubblesim.scene_state import log
 from bubblesim.scripting.api.sim.context import ApiContext
 
 _FLAGS = 0x3F000  # of a level: undecorated, onlyterminal, once

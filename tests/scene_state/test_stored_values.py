@@ -3,7 +3,7 @@
 
 import pytest
 
-from bubblesim.scripting.stored_values import MOST_BYTES, MOST_VALUES, StoredValues
+from bubblesim.scene_state.stored_values import MOST_BYTES, MOST_VALUES, StoredValues
 
 
 @pytest.fixture

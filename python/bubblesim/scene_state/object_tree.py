@@ -10,9 +10,9 @@ from typing import Any
 
 from bubblesim._core import ObjectFrames
 from bubblesim.geometry import poses
-from bubblesim.scripting.api.kinds import HandleError
-from bubblesim.scripting.dummies import FIRST_HANDLE, Dummies, Dummy
-from bubblesim.scripting.scene_edits import SceneEdits, relative
+from bubblesim.scene_state.dummies import FIRST_HANDLE, Dummies, Dummy
+from bubblesim.scene_state.handle_error import HandleError
+from bubblesim.scene_state.scene_edits import SceneEdits, relative
 
 _INDEXED = re.compile(r"(.*?)(?:\[(\d+)\])?")
 

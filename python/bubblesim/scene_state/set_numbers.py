@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bubblesim._core import WrongObject
-from bubblesim.scripting.set_colours import links_of
+from bubblesim.scene_state.set_colours import links_of
 
 NAMES = ("mass", "friction")
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from bubblesim.scripting.primitive_shapes import PrimitiveShape
-from bubblesim.scripting.set_colours import SetColours
-from bubblesim.scripting.set_numbers import SetNumbers
+from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scene_state.set_colours import SetColours
+from bubblesim.scene_state.set_numbers import SetNumbers
 
 
 @dataclass

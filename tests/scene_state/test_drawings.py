@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bubblesim.scripting.drawings import Drawings, Style
+from bubblesim.scene_state.drawings import Drawings, Style
 from node_support import run_script
 
 HEADER = """

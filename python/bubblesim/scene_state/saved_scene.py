@@ -13,7 +13,7 @@ from xml.dom.minidom import Document, Element
 
 from bubblesim._core import Scene, SceneView, Simulation
 from bubblesim.geometry import rotations
-from bubblesim.scripting.scene_edits import SceneEdits
+from bubblesim.scene_state.scene_edits import SceneEdits
 
 _READABLE = (".sdf", ".world")
 # Of a model without a world, and of the empty scene: see the loader.
