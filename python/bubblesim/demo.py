@@ -15,7 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from bubblesim.program import run_program
+from bubblesim.program.run import run_program
 from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.remote.remote_client import Door, Line, RemoteClient
 from bubblesim.remote.remote_sim import RemoteSim
 from bubblesim.scripting.host.started_programs import end_programs

@@ -8,8 +8,8 @@ import sys
 
 import zmq
 
-from bubblesim.addresses import is_loopback
-from bubblesim.output import write_line
+from bubblesim.program.addresses import is_loopback
+from bubblesim.program.output import write_line
 from bubblesim.remote import protocol
 
 

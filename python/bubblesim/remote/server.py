@@ -18,7 +18,7 @@ import zmq
 from zmq.utils.monitor import recv_monitor_message
 
 from bubblesim._core import scene_folders
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.remote import protocol
 from bubblesim.remote.clients import Clients
 from bubblesim.remote.control_lane import ControlLane

@@ -11,7 +11,7 @@ from urllib.parse import quote, urlsplit
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from bubblesim.addresses import is_loopback
+from bubblesim.program.addresses import is_loopback
 from bubblesim.web.connections import Connections
 
 # sim.check... measures, which changes the reading of a sensor and its noise.

@@ -13,7 +13,7 @@ from typing import Any
 import zmq.asyncio
 
 from bubblesim._core import FrameReader
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.remote.control_lane import path_of
 from bubblesim.remote.token import read
 from bubblesim.web.door_line import DoorClient, NoAnswerError

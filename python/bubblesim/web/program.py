@@ -16,8 +16,8 @@ from pathlib import Path
 
 from aiohttp import web
 
-from bubblesim.addresses import is_loopback
-from bubblesim.output import write_line
+from bubblesim.program.addresses import is_loopback
+from bubblesim.program.output import write_line
 from bubblesim.running.places import page_folder
 from bubblesim.web.access import Access
 from bubblesim.web.address_file import write_address

@@ -11,7 +11,7 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.messages.names import did_you_mean
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.scene_state import log, problems
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData

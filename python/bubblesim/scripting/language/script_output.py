@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import Any, TextIO
 
-from bubblesim.output import encodable, write_line
+from bubblesim.program.output import encodable, write_line
 from bubblesim.scene_state import log
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.scene_state import log
 from bubblesim.scripting.api.sim.context import ApiContext
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bubblesim import Distribution
-from bubblesim.delayed_rows import DelayedRows
+from bubblesim.learning.delayed_rows import DelayedRows
 
 
 def rows(call: int) -> np.ndarray:

@@ -3,27 +3,28 @@
 
 import pytest
 
-from bubblesim.controllers.keyboard_teleop import STANDING, KeyboardTeleop, Velocity
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
+from bubblesim.teleop.keyboard_teleop import KeyboardTeleop
 
 
 @pytest.mark.parametrize(
     ("key", "velocity"),
     [
-        ("i", Velocity(0.5, 0, 0)),
-        (",", Velocity(-0.5, 0, 0)),
-        ("j", Velocity(0, 0, 1)),
-        ("l", Velocity(0, 0, -1)),
-        ("u", Velocity(0.5, 0, 1)),
-        ("o", Velocity(0.5, 0, -1)),
-        ("m", Velocity(-0.5, 0, -1)),
-        (".", Velocity(-0.5, 0, 1)),
-        ("J", Velocity(0, 0.5, 0)),
-        (">", Velocity(-0.5, -0.5, 0)),
+        ("i", BaseVelocity(0.5, 0, 0)),
+        (",", BaseVelocity(-0.5, 0, 0)),
+        ("j", BaseVelocity(0, 0, 1)),
+        ("l", BaseVelocity(0, 0, -1)),
+        ("u", BaseVelocity(0.5, 0, 1)),
+        ("o", BaseVelocity(0.5, 0, -1)),
+        ("m", BaseVelocity(-0.5, 0, -1)),
+        (".", BaseVelocity(-0.5, 0, 1)),
+        ("J", BaseVelocity(0, 0.5, 0)),
+        (">", BaseVelocity(-0.5, -0.5, 0)),
         ("k", STANDING),
         ("#", STANDING),
     ],
 )
-def test_a_key_has_its_direction(key: str, velocity: Velocity) -> None:
+def test_a_key_has_its_direction(key: str, velocity: BaseVelocity) -> None:
     teleop = KeyboardTeleop(speed=0.5, turn=1.0)
     teleop.press("i", now=0.0)
     teleop.press(key, now=0.0)
@@ -51,7 +52,7 @@ def test_speed_keys_change_by_ten_per_cent_and_keep_the_direction(key: str, spee
     teleop = KeyboardTeleop(speed=1.0, turn=1.0)
     teleop.press("u", now=0.0)
     assert teleop.press(key, now=0.0)
-    assert teleop.velocity(now=0.0) == Velocity(pytest.approx(speed), 0, pytest.approx(turn))
+    assert teleop.velocity(now=0.0) == BaseVelocity(pytest.approx(speed), 0, pytest.approx(turn))
 
 
 def test_speeds_stay_below_their_limits() -> None:

@@ -4,7 +4,7 @@
 import math
 from dataclasses import dataclass
 
-from bubblesim.controllers.keyboard_teleop import Velocity
+from bubblesim.controllers.base_velocity import BaseVelocity
 
 
 @dataclass(frozen=True)
@@ -20,9 +20,9 @@ class StickTeleop:
         if not (math.isfinite(self.speed) and math.isfinite(self.turn) and 0.0 <= self.dead_zone < 1.0):
             raise ValueError("speed and turn must be finite, and dead_zone at least 0 and less than 1")
 
-    def velocity(self, forward: float, left: float) -> Velocity:
+    def velocity(self, forward: float, left: float) -> BaseVelocity:
         """Return the velocity for a stick position, each axis from -1 to 1; values beyond are clamped."""
-        return Velocity(forward=self.speed * self._share(forward), turning=self.turn * self._share(left))
+        return BaseVelocity(forward=self.speed * self._share(forward), turning=self.turn * self._share(left))
 
     def _share(self, way: float) -> float:
         beyond = max(0.0, min(abs(way), 1.0) - self.dead_zone) / (1.0 - self.dead_zone)

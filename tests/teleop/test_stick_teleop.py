@@ -3,9 +3,9 @@ import math
 
 import pytest
 
-from bubblesim.controllers.joystick import EVENT, Joystick
-from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
-from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
+from bubblesim.teleop.joystick import EVENT, Joystick
+from bubblesim.teleop.stick_teleop import StickTeleop
 
 AXIS, BUTTON, INITIAL = 2, 1, 0x80
 
@@ -15,13 +15,13 @@ AXIS, BUTTON, INITIAL = 2, 1, 0x80
     [
         (0.0, 0.0, STANDING),
         (0.2, -0.2, STANDING),  # in the dead zone
-        (1.0, 0.0, Velocity(forward=2.0)),
-        (-1.0, 1.0, Velocity(forward=-2.0, turning=3.0)),
-        (0.6, -0.6, Velocity(forward=1.0, turning=-1.5)),  # half of the range outside the dead zone
-        (9.0, -9.0, Velocity(forward=2.0, turning=-3.0)),
+        (1.0, 0.0, BaseVelocity(forward=2.0)),
+        (-1.0, 1.0, BaseVelocity(forward=-2.0, turning=3.0)),
+        (0.6, -0.6, BaseVelocity(forward=1.0, turning=-1.5)),  # half of the range outside the dead zone
+        (9.0, -9.0, BaseVelocity(forward=2.0, turning=-3.0)),
     ],
 )
-def test_a_stick_means_a_velocity(forward: float, left: float, expected: Velocity) -> None:
+def test_a_stick_means_a_velocity(forward: float, left: float, expected: BaseVelocity) -> None:
     velocity = StickTeleop(speed=2.0, turn=3.0, dead_zone=0.2).velocity(forward, left)
     assert (velocity.forward, velocity.turning) == pytest.approx((expected.forward, expected.turning))
 

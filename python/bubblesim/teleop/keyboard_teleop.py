@@ -3,6 +3,8 @@
 
 from dataclasses import dataclass
 
+from bubblesim.controllers.base_velocity import BaseVelocity
+
 STEP = 1.1  # of a speed key: ten per cent
 
 # Forward, left and turning left, as fractions of the speeds.
@@ -34,18 +36,6 @@ Any other key stops. Ctrl-C ends.
 """
 
 
-@dataclass(frozen=True)
-class Velocity:
-    """Velocity of the robot's base, REP 103."""
-
-    forward: float = 0.0  # m/s
-    left: float = 0.0  # m/s
-    turning: float = 0.0  # rad/s, to the left
-
-
-STANDING = Velocity()
-
-
 @dataclass
 class KeyboardTeleop:
     """Keeps the speeds and the time of the last key. Times are in seconds, of any monotonic clock."""
@@ -73,9 +63,9 @@ class KeyboardTeleop:
         self._direction = DIRECTIONS.get(key, (0, 0, 0))
         return False
 
-    def velocity(self, now: float) -> Velocity:
+    def velocity(self, now: float) -> BaseVelocity:
         """Return the velocity to drive at."""
         if self.timeout is not None and now - self._pressed_at > self.timeout:
             self._direction = (0, 0, 0)
         forward, left, turning = self._direction
-        return Velocity(forward * self.speed, left * self.speed, turning * self.turn)
+        return BaseVelocity(forward * self.speed, left * self.speed, turning * self.turn)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bubblesim.checking import main, problems_of
+from bubblesim.scene_files.check import main, problems_of
 from ros_support import REPOSITORY
 
 BAD = """\

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the reference page of the elements of scene files: ``python -m bubblesim.scene_elements``."""
+"""Writes the reference page of the elements of scene files: ``python -m bubblesim.scene_files.elements``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bubblesim._core import SceneElement, scene_elements
 _INTRODUCTION = """\
 # Elements of scene files
 
-<!-- Generated from the table of elements by `python -m bubblesim.scene_elements`. -->
+<!-- Generated from the table of elements by `python -m bubblesim.scene_files.elements`. -->
 
 All elements of [SDFormat](http://sdformat.org/spec) 1.0 to 1.12 and those of bubblesim, with types and defaults. Files
 of older versions are read by the rules of the specification for newer ones. What several elements have in common, such
@@ -58,7 +58,7 @@ def _table(head: tuple[str, ...], rows: Iterable[list[str]]) -> str:
 def main() -> int:
     """Print the page."""
     if len(sys.argv) != 1:
-        print("usage: python -m bubblesim.scene_elements", file=sys.stderr)
+        print("usage: python -m bubblesim.scene_files.elements", file=sys.stderr)
         return 2
     print(page(), end="")
     return 0

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bubblesim.controllers.joystick import AXIS, BUTTON, EVENT, INITIAL
+from bubblesim.teleop.joystick import AXIS, BUTTON, EVENT, INITIAL
 from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 from velocities import Velocities
 

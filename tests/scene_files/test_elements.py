@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bubblesim.scene_elements import page
+from bubblesim.scene_files.elements import page
 
 PAGE = Path(__file__).parents[2] / "docs/worlds/elements.md"
 
 
 def test_the_page_is_that_of_the_table() -> None:
-    assert PAGE.read_text() == page(), "renew it: python -m bubblesim.scene_elements > docs/worlds/elements.md"
+    assert PAGE.read_text() == page(), "renew it: python -m bubblesim.scene_files.elements > docs/worlds/elements.md"
