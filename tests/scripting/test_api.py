@@ -11,14 +11,8 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from bubblesim.scripting.api import kinds
-from bubblesim.scripting.api.functions import (
-    MODULES,
-    ArgumentError,
-    checked_on_failure,
-    functions,
-    script_module,
-    value_first,
-)
+from bubblesim.scripting.api.checked_calls import ArgumentError, checked_on_failure, value_first
+from bubblesim.scripting.api.functions import MODULES, functions, script_module
 from bubblesim.scripting.api.reference import page
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
