@@ -224,7 +224,7 @@ class RemoteServer:
 
     def _look_again(self) -> None:
         if self._watch is not None:
-            self._watch.look_again()
+            self._watch.serve_again()
 
     def _serve(self) -> bool:
         """Handle requests for a while; return whether there are more."""

@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "advertised_address.hpp"
-#include "interrupt.hpp"
+#include "console/log_line.hpp"
+#include "master/interrupt.hpp"
 #include "master/quiet_thread.hpp"
-#include "status/say.hpp"
 
 namespace bubblesim {
 namespace {
@@ -95,7 +95,7 @@ void MasterThread::Shared::set_refused(std::unique_lock<std::mutex>& lock, std::
   set_state(State::kAbsent);
   if (!is_news) return;
   lock.unlock();
-  say("not registered: " + refusal);
+  log_line("not registered: " + refusal);
   lock.lock();
 }
 

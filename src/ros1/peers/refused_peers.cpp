@@ -10,8 +10,8 @@
 #include <regex>
 #include <string>
 
+#include "console/log_line.hpp"
 #include "peers/type_version.hpp"
-#include "status/say.hpp"
 
 namespace bubblesim {
 namespace {
@@ -80,10 +80,10 @@ bool RefusedPeers::take(const std::string& line) {
   constexpr std::size_t kMostReported = 100;  // peers choose their names
   const std::lock_guard lock(mutex_);
   if (reported_.size() == kMostReported || !reported_.insert(*text).second) return true;
-  say(*text);
+  log_line(*text);
   if (reported_.size() == kMostReported) {
-    say("nodes that use other types were reported " + std::to_string(kMostReported) +
-        " times; further ones are not reported");
+    log_line("nodes that use other types were reported " + std::to_string(kMostReported) +
+             " times; further ones are not reported");
   }
   return true;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "peers/timed_socket.hpp"
+#include "master/timed_socket.hpp"
 
 #include <netdb.h>
 #include <netinet/in.h>
@@ -33,7 +33,7 @@ Addresses look_up(const std::string& host, std::uint32_t port) {
 }  // namespace
 
 TimedSocket::TimedSocket(const std::string& host, std::uint32_t port, Deadline deadline)
-    : patience_(std::move(deadline)) {
+    : deadline_(std::move(deadline)) {
   const Addresses addresses = look_up(host, port);
   int error = ENOTCONN;
   // `localhost` may have two addresses, and the server listens on one of them.
@@ -65,9 +65,9 @@ TimedSocket::~TimedSocket() { close(descriptor_); }
 
 void TimedSocket::wait_for(short event) {
   for (;;) {
-    if (patience_.over()) throw TimedOut();
+    if (deadline_.over()) throw TimedOut();
     pollfd waiting{descriptor_, event, 0};
-    const int ready = poll(&waiting, 1, static_cast<int>(patience_.slice().count()));
+    const int ready = poll(&waiting, 1, static_cast<int>(deadline_.slice().count()));
     if (ready > 0) return;
     if (ready < 0 && errno != EINTR) throw failure(errno);
   }

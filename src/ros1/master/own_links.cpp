@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "peers/own_links.hpp"
+#include "master/own_links.hpp"
 
 #include "master/master_call.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The door for programs outside, as a system of a simulation.
+// The remote API server, as a system of a simulation.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace bubblesim {
 
-struct RemoteDoorOptions {
+struct RemoteApiOptions {
   std::string address = "127.0.0.1";
   std::optional<int> port;       ///< TCP; 0: a free one, null: none
   std::filesystem::path socket;  ///< Unix domain, in a folder that only this user may enter; empty: none
-  std::filesystem::path token;   ///< file with the text that clients must know; empty: none
+  std::filesystem::path token;   ///< file with the secret that clients must know; empty: none
   bool trusted = false;          ///< clients may do what Python child scripts may do: start all programs, use all files
   /// Why clients cannot load another scene; empty if they can.
   std::string fixed_scene;
@@ -26,13 +26,13 @@ struct RemoteDoorOptions {
 /// simulation after the other systems, so that a client whose step is done finds all results of the step.
 ///
 /// It listens from its creation on, and outlasts the simulations of the scenes that its clients load.
-class RemoteDoor final : public PythonSystem {
+class RemoteApiServer final : public PythonSystem {
  public:
   /// Throws std::runtime_error when it cannot listen.
-  RemoteDoor(PythonEngine& engine, const RemoteDoorOptions& options);
-  ~RemoteDoor() override;
-  RemoteDoor(const RemoteDoor&) = delete;
-  RemoteDoor& operator=(const RemoteDoor&) = delete;
+  RemoteApiServer(PythonEngine& engine, const RemoteApiOptions& options);
+  ~RemoteApiServer() override;
+  RemoteApiServer(const RemoteApiServer&) = delete;
+  RemoteApiServer& operator=(const RemoteApiServer&) = delete;
 
   /// Serves the simulation of these scripts, which must outlive this until detach(). `failure`: why the scene that a
   /// client asked for is not the one that runs now.

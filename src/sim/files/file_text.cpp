@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "load/file_text.hpp"
+#include "files/file_text.hpp"
 
 #include <fstream>
 #include <sstream>

@@ -12,19 +12,19 @@
 #include <stdexcept>
 #include <thread>
 
-#include "bubblesim/file_watch.hpp"
+#include "bubblesim/descriptor_watch.hpp"
 #include "bubblesim/runner.hpp"
 #include "scenes.hpp"
 
-namespace bubblesim::test::test_file_watch {
+namespace bubblesim::test::test_descriptor_watch {
 namespace {
 
 /// A counter that is readable above 0.
-struct FileWatchTest : testing::Test {
-  FileWatchTest() : runner(simulation) {}
-  ~FileWatchTest() override { ::close(counter); }
-  FileWatchTest(const FileWatchTest&) = delete;
-  FileWatchTest& operator=(const FileWatchTest&) = delete;
+struct DescriptorWatchTest : testing::Test {
+  DescriptorWatchTest() : runner(simulation) {}
+  ~DescriptorWatchTest() override { ::close(counter); }
+  DescriptorWatchTest(const DescriptorWatchTest&) = delete;
+  DescriptorWatchTest& operator=(const DescriptorWatchTest&) = delete;
 
   void add(std::uint64_t count) const { ASSERT_EQ(write(counter, &count, sizeof count), sizeof count); }
   std::uint64_t take() const {
@@ -42,10 +42,10 @@ struct FileWatchTest : testing::Test {
   Runner runner;
 };
 
-TEST_F(FileWatchTest, CallsOnTheRunnersThreadWhenTheFileIsReadable) {
+TEST_F(DescriptorWatchTest, CallsOnTheRunnersThreadWhenTheFileIsReadable) {
   std::atomic<std::uint64_t> served{0};
   std::atomic<bool> elsewhere{false};
-  FileWatch watch(runner, counter, [&] {
+  DescriptorWatch watch(runner, counter, [&] {
     if (!runner.is_this_thread()) elsewhere = true;
     served += take();
     return false;
@@ -59,10 +59,10 @@ TEST_F(FileWatchTest, CallsOnTheRunnersThreadWhenTheFileIsReadable) {
   runner.finish();
 }
 
-TEST_F(FileWatchTest, CallsAgainWhileThereIsMore) {
+TEST_F(DescriptorWatchTest, CallsAgainWhileThereIsMore) {
   std::atomic<std::uint64_t> calls{0};
   add(1);
-  FileWatch watch(runner, counter, [&] {
+  DescriptorWatch watch(runner, counter, [&] {
     take();
     return ++calls < 5;
   });
@@ -72,16 +72,16 @@ TEST_F(FileWatchTest, CallsAgainWhileThereIsMore) {
   EXPECT_EQ(calls, 5);
 }
 
-TEST_F(FileWatchTest, StepsComeBetweenItsCalls) {
-  FileWatch watch(runner, counter, [] { return true; });
+TEST_F(DescriptorWatchTest, StepsComeBetweenItsCalls) {
+  DescriptorWatch watch(runner, counter, [] { return true; });
   runner.run_in_background();
   EXPECT_DOUBLE_EQ(runner.step(20).get(), 1.0);
   runner.finish();
 }
 
-TEST_F(FileWatchTest, EndsOnTheRunnersThreadWhileACallIsPending) {
+TEST_F(DescriptorWatchTest, EndsOnTheRunnersThreadWhileACallIsPending) {
   std::atomic<std::uint64_t> calls{0};
-  auto watch = std::make_unique<FileWatch>(runner, counter, [&] {
+  auto watch = std::make_unique<DescriptorWatch>(runner, counter, [&] {
     ++calls;
     return true;
   });
@@ -99,14 +99,14 @@ TEST_F(FileWatchTest, EndsOnTheRunnersThreadWhileACallIsPending) {
   runner.finish();
 }
 
-TEST_F(FileWatchTest, IsServedWhileTheRunnerWaitsForRealTimeAndWhileItDoesNotWait) {
+TEST_F(DescriptorWatchTest, IsServedWhileTheRunnerWaitsForRealTimeAndWhileItDoesNotWait) {
   for (const double speed : {0.01, std::numeric_limits<double>::infinity()}) {  // a step takes 5 s, or no time
     RunnerOptions options;
     options.speed = speed;
     options.initial = RunState::kRunning;
     Runner fast_or_slow(simulation, options);
     std::atomic<std::uint64_t> served{0};
-    FileWatch watch(fast_or_slow, counter, [&] {
+    DescriptorWatch watch(fast_or_slow, counter, [&] {
       served += take();
       return false;
     });
@@ -119,25 +119,25 @@ TEST_F(FileWatchTest, IsServedWhileTheRunnerWaitsForRealTimeAndWhileItDoesNotWai
   }
 }
 
-TEST_F(FileWatchTest, LooksAgainWhenAsked) {
+TEST_F(DescriptorWatchTest, LooksAgainWhenAsked) {
   std::atomic<std::uint64_t> calls{0};
-  FileWatch watch(runner, counter, [&] {
+  DescriptorWatch watch(runner, counter, [&] {
     ++calls;
     return false;
   });
   runner.run_in_background();
   wait_until(calls, 1);
   for (std::uint64_t round = 2; round <= 5; ++round) {
-    runner.call([&] { watch.look_again(); }).get();
+    runner.call([&] { watch.serve_again(); }).get();
     wait_until(calls, round);
   }
   runner.finish();
   EXPECT_EQ(calls, 5);
 }
 
-TEST_F(FileWatchTest, AnExceptionEndsItAndNotTheRun) {
+TEST_F(DescriptorWatchTest, AnExceptionEndsItAndNotTheRun) {
   std::atomic<std::uint64_t> calls{0};
-  FileWatch watch(runner, counter, [&]() -> bool {
+  DescriptorWatch watch(runner, counter, [&]() -> bool {
     ++calls;
     throw std::runtime_error("a test");
   });
@@ -148,14 +148,14 @@ TEST_F(FileWatchTest, AnExceptionEndsItAndNotTheRun) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST_F(FileWatchTest, OneWatchMayEndAnother) {
+TEST_F(DescriptorWatchTest, OneWatchMayEndAnother) {
   std::atomic<std::uint64_t> calls{0};
-  std::unique_ptr<FileWatch> second;
-  FileWatch first(runner, counter, [&] {
+  std::unique_ptr<DescriptorWatch> second;
+  DescriptorWatch first(runner, counter, [&] {
     second.reset();
     return false;
   });
-  second = std::make_unique<FileWatch>(runner, counter, [&] {
+  second = std::make_unique<DescriptorWatch>(runner, counter, [&] {
     ++calls;
     return false;
   });
@@ -166,10 +166,10 @@ TEST_F(FileWatchTest, OneWatchMayEndAnother) {
   EXPECT_EQ(calls, 0);
 }
 
-TEST_F(FileWatchTest, EndsWithoutARun) {
-  FileWatch watch(runner, counter, [] { return false; });
+TEST_F(DescriptorWatchTest, EndsWithoutARun) {
+  DescriptorWatch watch(runner, counter, [] { return false; });
   watch.close();
 }
 
 }  // namespace
-}  // namespace bubblesim::test::test_file_watch
+}  // namespace bubblesim::test::test_descriptor_watch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "load/find/library_folder.hpp"
+#include "files/library_folder.hpp"
 
 #include <dlfcn.h>
 

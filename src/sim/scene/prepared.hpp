@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "bubblesim/prepared_scene.hpp"
-#include "physics/prepared_model.hpp"
-#include "rays/prepared_rays.hpp"
 
 namespace bubblesim {
+
+struct PreparedModel;  // see physics/prepared_model.hpp
+namespace rays {
+struct PreparedRays;  // see rays/prepared_rays.hpp
+}
 
 struct Scene::Prepared {
   std::vector<std::shared_ptr<const PreparedModel>> models;  // in the order of the description
@@ -25,7 +28,7 @@ struct Scene::Prepared {
 
  private:
   mutable std::once_flag rays_made_;
-  mutable rays::PreparedRays rays_;
+  mutable std::shared_ptr<const rays::PreparedRays> rays_;
   mutable std::once_flag hash_made_;
   mutable std::uint64_t hash_ = 0;
   mutable std::once_flag start_made_;

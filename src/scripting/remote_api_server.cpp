@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bubblesim/remote_door.hpp"
+#include "bubblesim/remote_api_server.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -11,8 +11,8 @@ namespace bubblesim {
 
 namespace py = pybind11;
 
-RemoteDoor::RemoteDoor(PythonEngine& engine, const RemoteDoorOptions& options)
-    : PythonSystem(engine, "the door for remote clients") {
+RemoteApiServer::RemoteApiServer(PythonEngine& engine, const RemoteApiOptions& options)
+    : PythonSystem(engine, "the remote API server") {
   with_python([&] {
     const py::object server = py::module_::import("bubblesim.remote.server").attr("RemoteServer");
     const py::cpp_function note_clients([this](bool any) { has_clients_ = any; });
@@ -22,7 +22,7 @@ RemoteDoor::RemoteDoor(PythonEngine& engine, const RemoteDoorOptions& options)
   });
 }
 
-RemoteDoor::~RemoteDoor() {
+RemoteApiServer::~RemoteApiServer() {
   try {
     close();
   } catch (const std::exception& error) {
@@ -30,25 +30,25 @@ RemoteDoor::~RemoteDoor() {
   }
 }
 
-void RemoteDoor::publish(const World& world, double time) {
+void RemoteApiServer::publish(const World& world, double time) {
   if (has_clients_) PythonSystem::publish(world, time);
 }
 
-void RemoteDoor::attach(const ChildScripts& scripts, const std::string& failure) {
+void RemoteApiServer::attach(const ChildScripts& scripts, const std::string& failure) {
   with_python([&] { methods_->self.attr("attach")(scripts.methods_->self, failure); });
 }
 
-void RemoteDoor::detach() {
+void RemoteApiServer::detach() {
   with_python([&] { methods_->self.attr("detach")(); });
 }
 
-std::shared_ptr<const Scene> RemoteDoor::take_next_scene() {
+std::shared_ptr<const Scene> RemoteApiServer::take_next_scene() {
   std::shared_ptr<const Scene> next;
   with_python([&] { next = methods_->self.attr("take_next_scene")().cast<std::shared_ptr<Scene>>(); });
   return next;
 }
 
-void RemoteDoor::close() {
+void RemoteApiServer::close() {
   if (std::exchange(closed_, true)) return;
   with_python([&] { methods_->self.attr("close")(); });
 }

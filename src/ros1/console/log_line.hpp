@@ -7,6 +7,6 @@
 namespace bubblesim {
 
 /// Writes a line about ROS to the node's log, whole even if other threads write.
-inline void say(const std::string& text) { std::fputs(("plugin 'ROSInterface': " + text + "\n").c_str(), stderr); }
+inline void log_line(const std::string& text) { std::fputs(("plugin 'ROSInterface': " + text + "\n").c_str(), stderr); }
 
 }  // namespace bubblesim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "interrupt.hpp"
+#include "master/interrupt.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

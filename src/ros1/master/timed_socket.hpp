@@ -30,7 +30,7 @@ class TimedSocket {
  private:
   void wait_for(short event);
 
-  const Deadline patience_;
+  const Deadline deadline_;
   int descriptor_ = -1;
 };
 
