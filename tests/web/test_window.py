@@ -36,7 +36,7 @@ def test_a_click_selects_and_properties_follow(tmp_path: Path, show: Show) -> No
     with Node(tmp_path, "tricycle") as node:
         page = show(node)
         page.look_at("/Tricycle")
-        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
+        page.wait("bubblesim.view.picker.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
         page.page.mouse.click(*page.middle())
         page.wait("bubblesim.selection.object?.path === '/Tricycle'")
         page.wait("document.querySelector('.properties h2').textContent === 'Tricycle'")

@@ -35,7 +35,7 @@ class NoRosError(RuntimeError):
 def _started() -> Any:
     import rospy
 
-    # Without /rosout: a page that may only look makes this a node, too, and must not publish.
+    # Without /rosout: a read-only page makes this a node, too, and must not publish.
     rospy.init_node("bubblesim_window", anonymous=True, disable_signals=True, disable_rosout=True)
     return rospy
 

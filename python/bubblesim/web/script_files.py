@@ -48,7 +48,7 @@ async def save(page: Any, handle: int, text: str, version: str) -> dict[str, Any
     if version and _version(read_text(file)) != version:
         raise FileExistsError(f"{file} was changed by another program since it was opened here")
     await in_thread(_replace, file, text)
-    running = await page.door.call("sim.initScript", handle)
+    running = await page.node.call("sim.initScript", handle)
     return {"version": _version(text), "running": bool(running)}
 
 
@@ -114,7 +114,7 @@ def _member(name: str) -> Any:
 
 
 async def _find(page: Any, handle: int) -> dict[str, Any]:
-    for script in await page.door.call("sim.getScripts"):
+    for script in await page.node.call("sim.getScripts"):
         if script["handle"] == handle:
             return dict(script)
     raise ValueError(f"the object {handle} has no child script")
