@@ -167,7 +167,7 @@ def test_a_finalizer_that_comes_later_is_never_called(tmp_path: Path) -> None:
 
 def test_the_text_of_an_error_object_is_made_without_its_metatable(tmp_path: Path) -> None:
     reported = failure(tmp_path, "error(setmetatable({}, {__tostring = function() while true do end end}))")
-    assert "an error that is not a text: a table" in reported
+    assert "an error that is not a string: a table" in reported
 
 
 def test_texts_keep_their_metatable(tmp_path: Path) -> None:
