@@ -73,7 +73,7 @@ class Node:
 
 
 _IS_LOOKED_AT = """((object) => {
-  const { camera, controls } = bubblesim.view;
+  const { camera, controls } = bubblesim.view.viewpoint;
   const { centre, radius } = bubblesim.view.extent(object);
   const distance = camera.position.distanceTo(controls.target) / Math.max(2.6 * radius, 0.3);
   return controls.target.distanceTo(centre) < 1e-3 && Math.abs(distance - 1) < 1e-3;
