@@ -14,6 +14,7 @@ import zmq
 
 import bubblesim
 from door_support import Door, refusal
+from node_support import write
 from ros_support import DEADLINE, wait_until
 
 ZMTP_1 = b"\x01\x00"  # greeting: no identity
@@ -243,6 +244,23 @@ def test_replies_that_are_not_read_fill_no_memory(door: Door) -> None:
     assert grown < len(greedy) * 4 * large, f"{grown} MiB"
     for peer in greedy:
         peer.close()
+
+
+def test_errors_of_messages_fill_no_log(tmp_path: Path) -> None:
+    """No message is known that makes the server fail: a script breaks it from within."""
+    code = """
+        from bubblesim.remote import clients
+        def fail(*arguments): raise ZeroDivisionError('broken')
+        def sysCall_init(): clients.Clients.client_of = fail
+    """
+    script = write(tmp_path / "script.py", code)
+    with Door(tmp_path, "--start", "--child-script", f"/Tricycle={script}") as door:
+        peer = door.raw()
+        wait_until(lambda: "broken" in str(call(peer, "sim.getSimulationTime")), "the script to break it")
+        for _ in range(30):
+            assert call(peer, "sim.getSimulationTime")["err"] == "broken"
+        assert door.output.count("error: a message of a remote client: ZeroDivisionError: broken") == 20
+        assert door.output.count("further ones are not reported") == 1
 
 
 def test_the_graphs_of_a_scene_have_a_limit(door: Door) -> None:
