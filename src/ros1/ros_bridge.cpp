@@ -98,6 +98,13 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                          "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
                          "as a master appears");
               },
+              [](bool had_master) {
+                log_line(had_master
+                             ? "the ROS master at " + ros::master::getURI() +
+                                   " does not answer -- the simulation continues; connected nodes stay connected, new "
+                                   "ones find this node when the master is back"
+                             : "still no ROS master at " + ros::master::getURI() + "; start one with 'roscore'");
+              },
               [this] { on_connected(); },
               [this] {
                 publisher_check.look();

@@ -14,6 +14,7 @@ import zmq
 
 import bubblesim
 from door_support import Door, refusal
+from node_support import write
 from ros_support import DEADLINE, wait_until
 
 ZMTP_1 = b"\x01\x00"  # greeting: no identity
@@ -189,17 +190,103 @@ def test_what_a_reader_of_frames_sends_does_not_stop_them(door: Door) -> None:
         frames = simulator.frames()
         next(frames)
         simulator.sim.startSimulation()
-        rogue = zmq.Context.instance().socket(zmq.XSUB)
+        rogue = zmq.Context.instance().socket(zmq.DEALER)
         rogue.setsockopt(zmq.LINGER, 0)
-        rogue.connect(f"tcp://127.0.0.1:{simulator.call('frames.open')}")
+        rogue.connect(f"tcp://127.0.0.1:{simulator.call('frames.open')[0]}")
         sent = time.monotonic()
         while time.monotonic() < sent + 1.0:
-            rogue.send(b"x")
+            rogue.send_multipart([b"x"] * 3)
+            rogue.send(b"")
             time.sleep(0.01)
         now = next(frames).time
         later = next(frame.time for frame in frames if frame.time > now)
         assert later > now
+        assert not rogue.poll(0)
         rogue.close()
+
+
+def test_frames_are_for_those_whom_the_door_let_in(door: Door) -> None:
+    with bubblesim.connect(door.port) as simulator:
+        frames = simulator.frames()
+        next(frames)
+        simulator.sim.startSimulation()
+        port, secret = simulator.call("frames.open")
+        answered = {}
+        for words in (b"", secret[:-1], bytes(len(secret)), secret):
+            for kind in (zmq.REQ, zmq.SUB):
+                reader = zmq.Context.instance().socket(kind)
+                reader.setsockopt(zmq.LINGER, 0)
+                reader.connect(f"tcp://127.0.0.1:{port}")
+                if kind == zmq.REQ:
+                    reader.send(words + bytes(8))
+                else:
+                    reader.setsockopt(zmq.SUBSCRIBE, words)
+                answered[words, kind] = bool(reader.poll(1500))
+                reader.close()
+        assert [key for key, found in answered.items() if found] == [(secret, zmq.REQ)]
+
+
+def test_replies_that_are_not_read_fill_no_memory(door: Door) -> None:
+    large = 16  # MiB
+    assert call(door.raw(), "sim.setStringSignal", "large", bytes(large << 20))["ret"] == []
+    before = status(door, "VmRSS")
+    greedy = [zmq.Context.instance().socket(zmq.DEALER) for _ in range(4)]
+    for peer in greedy:
+        peer.setsockopt(zmq.LINGER, 0)
+        peer.setsockopt(zmq.RCVHWM, 1)
+        peer.connect(f"tcp://127.0.0.1:{door.port}")
+        for _ in range(30):
+            request = {"func": "sim.getStringSignal", "args": ["large"], "uuid": f"greedy {id(peer)}"}
+            peer.send_multipart([b"", cbor2.dumps(request)])
+    time.sleep(2.0)
+    assert call(door.raw(), "sim.getSimulationTime", uuid="modest")["ret"] == [0.0]
+    grown = (status(door, "VmRSS") - before) / 1024
+    assert grown < len(greedy) * 4 * large, f"{grown} MiB"
+    for peer in greedy:
+        peer.close()
+
+
+def test_errors_of_messages_fill_no_log(tmp_path: Path) -> None:
+    """No message is known that makes the server fail: a script breaks it from within."""
+    code = """
+        from bubblesim.remote import clients
+        def fail(*arguments): raise ZeroDivisionError('broken')
+        def sysCall_init(): clients.Clients.client_of = fail
+    """
+    script = write(tmp_path / "script.py", code)
+    with Door(tmp_path, "--start", "--child-script", f"/Tricycle={script}") as door:
+        peer = door.raw()
+        wait_until(lambda: "broken" in str(call(peer, "sim.getSimulationTime")), "the script to break it")
+        for _ in range(30):
+            assert call(peer, "sim.getSimulationTime")["err"] == "broken"
+        assert door.output.count("error: a message of a remote client: ZeroDivisionError: broken") == 20
+        assert door.output.count("further ones are not reported") == 1
+
+
+def test_the_graphs_of_a_scene_have_a_limit(door: Door) -> None:
+    sim = door.sim()
+    graphs = [sim.createDummy(0.01) for _ in range(3)]
+    for graph in graphs[:2]:
+        for number in range(500):
+            sim.addGraphStream(graph, f"stream {number}")
+    assert "at most 1000 streams" in refusal(sim.addGraphStream, graphs[2], "one more")
+    assert "at most 1000 streams" in refusal(sim.addGraphCurve, graphs[0], "curve", 2, [0, 1])
+    assert sim.addGraphStream(graphs[0], "stream 7", "m") == 7  # a change
+    assert "at most 1000" in refusal(sim.addGraphStream, graphs[0], "x" * 1001)
+
+
+def test_of_removed_models_the_last_hundred_can_be_brought_back(door: Door) -> None:
+    with bubblesim.connect(door.port) as simulator:
+        model = simulator.call("window.add_model", "PioneerP3DX", [3.0, 0.0, 0.5])
+        numbers = []
+        for _ in range(102):
+            numbers.append(simulator.call("window.remove", model))
+            model = simulator.call("window.restore", numbers[-1])
+        assert len(set(numbers)) == 102
+        for gone in numbers[:2]:
+            with pytest.raises(RuntimeError, match="only the last 100 models"):
+                simulator.call("window.restore", gone)
+        assert simulator.call("window.restore", numbers[2]) >= 0
 
 
 def test_a_connection_that_breaks_at_any_place_is_forgotten(door: Door) -> None:

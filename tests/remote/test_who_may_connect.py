@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Who reaches the simulator from outside: the owner alone by the window, and with a token by --remote."""
 
+import os
 import re
 import stat
+import subprocess
+import textwrap
 from pathlib import Path
 
 import cbor2
@@ -109,3 +112,44 @@ def test_a_client_cannot_start_the_simulator(door: Door) -> None:
     sim = door.sim()
     for program in ("sim", "bubblesim", "/usr/lib/rosbag/record"):
         assert re.search("remote client 1 must not start /", refusal(sim.launchExecutable, program, "ball"))
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be another user")
+def test_another_user_reaches_the_open_port_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for folder in (tmp_path, *tmp_path.parents):
+        if folder.stat().st_uid == os.geteuid() and folder != Path("/"):
+            folder.chmod(folder.stat().st_mode | 0o755)  # so that only the node's own modes protect
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    token = tmp_path / "token"
+    options = ("--web", f"--remote-token={token}")
+    environment = ros_environment(free_port(), tmp_path) | {"XDG_RUNTIME_DIR": str(tmp_path)}
+    port = free_port()
+    with Node(environment, tmp_path / "log", "ball", "--no-ros", f"--remote={port}", *options) as node:
+        node.wait_for_output("the window is at")
+        sockets = [path for path in tmp_path.rglob("*") if stat.S_ISSOCK(path.stat().st_mode)]
+        pages = list(tmp_path.glob("bubblesim/*.html"))
+        assert sockets
+        assert pages
+        code = """
+            import socket, sys
+            for kind, *places in (line.split() for line in sys.stdin):
+                for place in places:
+                    try:
+                        if kind == 'socket':
+                            socket.socket(socket.AF_UNIX).connect(place)
+                        elif kind == 'port':
+                            socket.create_connection(('127.0.0.1', int(place)))
+                        else:
+                            open(place).close()
+                        print(kind)
+                    except PermissionError:
+                        pass
+        """
+        places = [("socket", *sockets), ("file", token, *pages), ("port", port)]
+        lines = "".join(" ".join(map(str, line)) + "\n" for line in places)
+        run = subprocess.run(
+            ["/usr/bin/python3", "-c", textwrap.dedent(code)],
+            input=lines, user=65534, group=65534, extra_groups=[], capture_output=True, text=True, check=True,
+        )  # fmt: skip
+        assert run.stdout == "port\n"
+        assert WANTS in refusal(bubblesim.connect, port)

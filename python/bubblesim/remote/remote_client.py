@@ -96,8 +96,8 @@ class Door(Protocol):
     def change_scene(self, scene: Any) -> None:
         """Let the node go on with another ``bubblesim.Scene``."""
 
-    def publish_frames(self) -> int:
-        """Publish frames from now on, and return the port."""
+    def publish_frames(self) -> tuple[int, bytes]:
+        """Publish frames from now on; return the port, and the secret that readers must know."""
 
     def stepping_changed(self) -> None:
         """A client has changed its level of stepping."""

@@ -29,6 +29,7 @@ from bubblesim.remote.remote_client import Line, Pending, RemoteClient
 from bubblesim.remote.router import NO_DESCRIPTOR, Router
 from bubblesim.remote.token import is_same, make_or_read
 from bubblesim.remote.waiting_calls import WaitingCalls
+from bubblesim.remote.waiting_stops import WaitingStops
 
 _SLICE = 0.005  # s of requests between two looks at other commands
 _MOST_NESTED = 50  # calls in callbacks in calls
@@ -86,6 +87,7 @@ class RemoteServer:
         self._frames: FramePublisher | None = None
         self._socket = listen(self._context, address, port, socket, wants_token=bool(token))
         self._router = Router(self._socket)
+        self._stops = WaitingStops(self._router, self._lines, self._constant_reply, self._is_let_in_by)
         self._control = ControlLane(self._context, socket) if socket else None
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
         self._reported = 0
@@ -120,6 +122,7 @@ class RemoteServer:
         self._watch = self._runner.watch(self._socket.getsockopt(zmq.FD), self._serve)
         self._watch_of_monitor = self._runner.watch(self._monitor.getsockopt(zmq.FD), self._serve_monitor)
         self._clients.begin_scene(host)
+        host.stops_elsewhere.append(self._stop_waits)
         if self._control is not None:
             self._control.show(host.runner)
         if self._frames is not None:
@@ -184,21 +187,20 @@ class RemoteServer:
             self._frames.close()
         if self._control is not None:
             self._control.close()
-        self._socket.disable_monitor()
+        self._router.close()
         self._monitor.close(0)
-        self._socket.close()
         self._context.term()
 
     # For clients
 
-    def publish_frames(self) -> int:
-        """Publish frames from now on, and return the port."""
+    def publish_frames(self) -> tuple[int, bytes]:
+        """Publish frames from now on; return the port, and the secret that readers must know."""
         if not self._address:
             raise RuntimeError("frames are published on TCP: start the node with --remote")
         if self._frames is None:
             self._frames = FramePublisher(self._context, self._address)
             self._frames.show(self.scenes, self._runner)
-        return self._frames.port
+        return self._frames.port, self._frames.secret
 
     def stepping_changed(self) -> None:
         """Hold back steps if a client is in stepping mode."""
@@ -219,6 +221,30 @@ class RemoteServer:
             if client.callbacks and line.is_open and not line.calls_back:
                 self._pump(line)
         self._look_again()
+
+    # While a script does not return
+
+    def _stop_waits(self) -> bool:
+        """Return whether a client's stop waits for the thread that serves the clients; for the watchdog's thread."""
+        runner = self._runner
+        try:
+            if runner is not None and self._stops.look():
+                runner.post(self._handle_ahead)
+        except Exception as error:  # the watchdog goes on
+            self._report("a message of a remote client", error)
+        return self._stops.found()
+
+    def _handle_ahead(self) -> None:
+        self._stops.forget()
+        self._look_again()
+
+    def _constant_reply(self, request: protocol.Request) -> bytes | None:
+        """Return the reply that depends on nothing but the request; None for other requests."""
+        if request.function == "bubblesim.token":
+            return protocol.result(None)
+        if request.arguments != ["sim"]:
+            return None
+        return {"zmqRemoteApi.require": protocol.result(None), "zmqRemoteApi.info": self._info}.get(request.function)
 
     # Messages
 
@@ -243,7 +269,7 @@ class RemoteServer:
         received = self._router.receive(self._lines)
         if received is None:
             return
-        identity, data, descriptor = received
+        identity, data, descriptor, is_answered = received
         if descriptor == NO_DESCRIPTOR:
             self._router.send(identity, protocol.error(_TOO_OLD))
             return
@@ -255,7 +281,10 @@ class RemoteServer:
             self._send(line, protocol.error("expected a request of one part: use a REQ socket"))
             return
         try:
-            self._handle(line, protocol.decode(data))
+            if is_answered:
+                self._register(line, protocol.decode(data))
+            else:
+                self._handle(line, protocol.decode(data))
         except protocol.RequestError as error:
             self._send(line, protocol.error(str(error)))
         except Exception as error:
@@ -267,7 +296,7 @@ class RemoteServer:
         if not request.uuid:
             self._send(line, protocol.encode({"success": False, "error": "the request has no uuid"}))
             return
-        if self._token and not self._has_token(line, request):
+        if not self._has_token(line, request):
             self._send(line, protocol.error(_NEEDS_TOKEN))
             return
         if request.function == "bubblesim.token":
@@ -286,11 +315,22 @@ class RemoteServer:
                 line.begin_inner()
             self._call(line, request, client)
 
+    def _register(self, line: Line, request: protocol.Request) -> None:
+        """Note who has sent a request that is answered already."""
+        self._has_token(line, request)
+        if request.function != "bubblesim.token":
+            self._clients.client_of(line, request.uuid, request.timeout)
+
     def _has_token(self, line: Line, request: protocol.Request) -> bool:
         """Return whether a request or an earlier one of its line has the token."""
-        sent = request.arguments[0] if request.function == "bubblesim.token" and request.arguments else request.token
-        line.has_token = line.has_token or (isinstance(sent, str) and is_same(sent, self._token))
+        line.has_token = line.has_token or self._is_let_in_by(request)
         return line.has_token
+
+    def _is_let_in_by(self, request: protocol.Request) -> bool:
+        if not self._token:
+            return True
+        sent = request.arguments[0] if request.function == "bubblesim.token" and request.arguments else request.token
+        return isinstance(sent, str) and is_same(sent, self._token)
 
     def _call(self, line: Line, request: protocol.Request, client: RemoteClient) -> None:
         if self._ending:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from array import array
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 Colour = tuple[float, float, float]
@@ -16,7 +17,7 @@ CAPACITY = 10_000
 """Samples of a graph; the oldest ones are replaced."""
 INVISIBLE, WITHOUT_LABEL, SCATTERED = 1, 2, 4  # options of streams and curves
 RAW, DERIVATIVE, INTEGRAL, CUMULATIVE = range(4)
-_MOST_STREAMS = 1000  # of one graph
+_MOST_STREAMS = 1000  # and curves, of a scene
 
 
 @dataclass
@@ -118,8 +119,12 @@ class Curve:
 class Graph:
     """Streams and curves of one object."""
 
-    def __init__(self) -> None:
-        """Create it without streams."""
+    def __init__(self, require_room: Callable[[], None]) -> None:
+        """Create it without streams.
+
+        :param require_room: called before a stream or curve is added; raises ValueError if there are too many.
+        """
+        self._require_room = require_room
         self.times = array("d")
         """s of simulated time."""
         self.first = 0
@@ -130,9 +135,8 @@ class Graph:
         self._created = 0
 
     def next_id(self) -> int:
-        """Return the id of the next stream or curve."""
-        if len(self.streams) + len(self.curves) >= _MOST_STREAMS:
-            raise ValueError(f"a graph has at most {_MOST_STREAMS} streams and curves")
+        """Return the id of the next stream or curve; raise ValueError if the scene has too many."""
+        self._require_room()
         self._created += 1
         return self._created - 1
 
@@ -197,6 +201,14 @@ class Graphs:
         self.by_handle: dict[int, Graph] = {}
         self.revision = 0
         """Rises when a stream or curve is added, changed or removed, not with each sample."""
+
+    def of(self, handle: int) -> Graph:
+        """Return the graph of an object, which is made if there is none."""
+        return self.by_handle.setdefault(handle, Graph(self._require_room))
+
+    def _require_room(self) -> None:
+        if sum(len(each.streams) + len(each.curves) for each in self.by_handle.values()) >= _MOST_STREAMS:
+            raise ValueError(f"the graphs of a scene have at most {_MOST_STREAMS} streams and curves")
 
     def record(self, time: float) -> None:
         """Append a sample to all graphs that have streams."""

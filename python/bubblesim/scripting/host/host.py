@@ -7,7 +7,7 @@ import gc
 import math
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +68,8 @@ class ScriptHost:
         self.disabled = 0  # number of loaded scripts that have failed
         self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
+        self.stops_elsewhere: list[Callable[[], bool]] = []
+        """Return whether a stop waits that neither the bridge nor the runner knows; called in the watchdog's thread."""
         self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
         self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
         self._problems = KnownProblems(self.simulation.scene.warnings)
@@ -273,6 +275,8 @@ class ScriptHost:
     def stop_waits(self) -> bool:
         """Return whether a stop or a reset waits for the running script; thread-safe."""
         if self.bridge is not None and self.bridge.urgent_waits():
+            return True
+        if any(waits() for waits in self.stops_elsewhere):
             return True
         script = self.running_script  # sysCall_cleanup is part of a stop, and is not interrupted
         return script is not None and script.activity != "sysCall_cleanup" and bool(self.runner.stop_is_due)
