@@ -112,10 +112,10 @@ def request_of(secret: bytes, number: int) -> bytes:
 
 def layout(client: RemoteClient) -> dict[str, Any]:
     """Return what the numbers of the frames belong to: paths of links, and paths and axes of joints."""
-    runner = client.door.host.runner
+    runner = client.server.host.runner
     frame, path = runner.frame, runner.simulation.world.path
     return {
-        "scene": client.door.scenes,
+        "scene": client.server.scenes,
         "revision": frame.revision,
         "links": [path(link) for link in frame.links],
         "joints": [[path(joint), axis] for joint, axis in frame.axes],

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from bubblesim.remote import protocol
-from bubblesim.remote.remote_client import Line
+from bubblesim.remote.remote_client import ClientConnection
 from bubblesim.remote.router import NO_DESCRIPTOR, Received, Router
 
 _STOPS = ("sim.stopSimulation", "sim.quitSimulator")
@@ -24,7 +24,7 @@ class WaitingStops:
     def __init__(
         self,
         router: Router,
-        lines: Mapping[bytes, Line],
+        connections: Mapping[bytes, ClientConnection],
         answer: Callable[[protocol.Request], bytes | None],
         knows_token: Callable[[protocol.Request], bool],
     ) -> None:
@@ -34,7 +34,7 @@ class WaitingStops:
         :param knows_token: returns whether a request has the token that clients must know, if they must.
         """
         self._router = router
-        self._lines = lines
+        self._connections = connections
         self._answer = answer
         self._knows_token = knows_token
         self._let_in: set[bytes] = set()  # identities of those that have sent the token meanwhile
@@ -43,7 +43,7 @@ class WaitingStops:
 
     def look(self) -> bool:
         """Receive ahead what waits; return whether there was anything."""
-        return self._router.receive_ahead(self._lines, self._look_at)
+        return self._router.receive_ahead(self._connections, self._look_at)
 
     def found(self) -> bool:
         """Return whether a stop waits."""
@@ -57,21 +57,23 @@ class WaitingStops:
 
     def _look_at(self, received: Received) -> bool:
         """Note a stop; return whether the message was answered."""
-        identity, line = received.identity, self._lines.get(received.identity)
-        is_first = identity not in self._unanswered and (line is None or not line.is_open or line.calls_back)
+        identity, connection = received.identity, self._connections.get(received.identity)
+        is_first = identity not in self._unanswered and (
+            connection is None or not connection.is_open or connection.calls_back
+        )
         request = _read(received) if is_first else None
-        if request is not None and self._may_call(identity, line, request):
-            reply = None if line is not None and line.calls_back else self._answer(request)
+        if request is not None and self._may_call(identity, connection, request):
+            reply = None if connection is not None and connection.calls_back else self._answer(request)
             if reply is not None and self._router.send(identity, reply):
                 return True
             self._found = self._found or request.function in _STOPS
         self._unanswered.add(identity)
         return False
 
-    def _may_call(self, identity: bytes, line: Line | None, request: protocol.Request) -> bool:
+    def _may_call(self, identity: bytes, connection: ClientConnection | None, request: protocol.Request) -> bool:
         if self._knows_token(request):
             self._let_in.add(identity)
-        return identity in self._let_in or (line is not None and line.has_token)
+        return identity in self._let_in or (connection is not None and connection.has_token)
 
 
 def _read(received: Received) -> protocol.Request | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scene as the text of a file. The server of the window writes it: clients of the door need no right to files."""
+"""The scene as the text of a file. The server of the window writes it: remote clients need no right to files."""
 
 from __future__ import annotations
 

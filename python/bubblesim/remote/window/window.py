@@ -73,7 +73,7 @@ class Window:
     def emit(self, name: str, data: Any) -> None:
         """Send an event to all pages.
 
-        :param data: plain values: numbers, texts, bytes, lists, maps.
+        :param data: plain values: numbers, strings, bytes, lists, maps.
         """
         self._events.append((self.next_event, name, data))
         self.next_event += 1
