@@ -13,8 +13,8 @@ import zmq
 
 import bubblesim
 from bubblesim.remote import token
-from door_support import Door, refusal
 from node_support import write
+from remote_support import RemoteNode, refusal
 
 ENDLESS = {
     "script.py": "def sysCall_init(): pass\ndef sysCall_actuation():\n    while True: pass\n",
@@ -24,7 +24,7 @@ ENDLESS = {
 WITHIN = 2.0  # s
 
 
-class StuckDoor(Door):
+class StuckNode(RemoteNode):
     """A node whose script runs and does not return."""
 
     def __init__(self, folder: Path, *options: object, name: str = "script.py") -> None:
@@ -32,7 +32,7 @@ class StuckDoor(Door):
         super().__init__(folder, "--child-script", f"/Ball={script}", *options, scene="ball")
 
 
-def stuck_again(node: Door, start: Callable[[], object]) -> None:
+def stuck_again(node: RemoteNode, start: Callable[[], object]) -> None:
     """Start the simulation, and wait until the script is reported."""
     before = node.output.count("has not returned from sysCall_actuation")
     start()
@@ -47,7 +47,7 @@ def duration(call: Callable[[], object]) -> float:
 
 @pytest.mark.parametrize("name", ENDLESS)
 def test_a_stop_of_coppeliasims_client_reaches_it(tmp_path: Path, name: str) -> None:
-    with StuckDoor(tmp_path, name=name) as node:
+    with StuckNode(tmp_path, name=name) as node:
         sim = node.sim()
         stuck_again(node, sim.startSimulation)
         times = [duration(sim.stopSimulation)]
@@ -59,7 +59,7 @@ def test_a_stop_of_coppeliasims_client_reaches_it(tmp_path: Path, name: str) -> 
 
 
 def test_a_client_that_connects_meanwhile_can_stop_it(tmp_path: Path) -> None:
-    with StuckDoor(tmp_path) as node:
+    with StuckNode(tmp_path) as node:
         stuck_again(node, node.sim().startSimulation)
         late = node.sim()  # asks for the functions of sim
         late.stopSimulation()
@@ -68,7 +68,7 @@ def test_a_client_that_connects_meanwhile_can_stop_it(tmp_path: Path) -> None:
         assert late.setStepping(True) == 1
 
 
-def _request(node: Door, function: str, *arguments: Any) -> "zmq.Socket[bytes]":
+def _request(node: RemoteNode, function: str, *arguments: Any) -> "zmq.Socket[bytes]":
     socket = node.raw()
     socket.send(cbor2.dumps({"func": function, "args": list(arguments), "uuid": f"{id(socket)}"}))
     time.sleep(0.05)  # for the order between connections
@@ -82,7 +82,7 @@ def _result(socket: "zmq.Socket[bytes]") -> Any:
 
 
 def test_what_is_no_stop_is_answered_later_in_its_order(tmp_path: Path) -> None:
-    with StuckDoor(tmp_path) as node:
+    with StuckNode(tmp_path) as node:
         first = node.sim()
         stuck_again(node, first.startSimulation)
         before = [_request(node, "sim.createDummy", 0.01) for _ in range(5)]
@@ -97,7 +97,7 @@ def test_what_is_no_stop_is_answered_later_in_its_order(tmp_path: Path) -> None:
 
 
 def test_a_stop_behind_a_call_of_the_same_client_waits_for_it(tmp_path: Path) -> None:
-    with StuckDoor(tmp_path) as node:
+    with StuckNode(tmp_path) as node:
         stuck_again(node, node.sim().startSimulation)
         socket = node.raw(zmq.DEALER)
         for function in ("sim.getSimulationTime", "sim.stopSimulation"):
@@ -110,7 +110,7 @@ def test_a_stop_behind_a_call_of_the_same_client_waits_for_it(tmp_path: Path) ->
 
 def test_a_stop_without_the_token_interrupts_nothing(tmp_path: Path) -> None:
     secret = tmp_path / "token"
-    with StuckDoor(tmp_path, f"--remote-token={secret}") as node:
+    with StuckNode(tmp_path, f"--remote-token={secret}") as node:
         owner = bubblesim.connect(node.port, token=secret, timeout=20)
         stuck_again(node, owner.sim.startSimulation)
         stranger = _request(node, "sim.stopSimulation")
@@ -128,7 +128,7 @@ def test_a_stop_without_the_token_interrupts_nothing(tmp_path: Path) -> None:
 
 def test_a_script_that_another_client_calls_is_interrupted_for_a_stop(tmp_path: Path) -> None:
     script = write(tmp_path / "called.py", "def sysCall_init(): pass\ndef spin():\n    while True: pass\n")
-    with Door(tmp_path, "--child-script", f"/Ball={script}", scene="ball") as node:
+    with RemoteNode(tmp_path, "--child-script", f"/Ball={script}", scene="ball") as node:
         sim = node.sim()
         sim.startSimulation()
         handle = sim.getScript(sim.scripttype_childscript, sim.getObject("/Ball"))

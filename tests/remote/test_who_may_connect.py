@@ -12,8 +12,8 @@ import cbor2
 import pytest
 
 import bubblesim
-from door_support import Door, refusal
 from node_support import Node, run_sim
+from remote_support import RemoteNode, refusal
 from ros_support import free_port, ros_environment
 
 WANTS = "this node wants a token"
@@ -30,9 +30,9 @@ def listening_ports(pid: int) -> list[int]:
 
 
 @pytest.fixture
-def guarded(tmp_path: Path) -> Door:
-    with Door(tmp_path, "--remote-token", tmp_path / "token") as door:
-        yield door
+def guarded(tmp_path: Path) -> RemoteNode:
+    with RemoteNode(tmp_path, "--remote-token", tmp_path / "token") as node:
+        yield node
 
 
 @pytest.mark.parametrize("edit", ["true", "false"])
@@ -54,7 +54,7 @@ def test_a_window_that_may_only_look_is_not_joined_by_an_open_port() -> None:
     assert "with --remote it needs --remote-token" in run.stderr
 
 
-def test_a_token_lets_clients_in(guarded: Door, tmp_path: Path) -> None:
+def test_a_token_lets_clients_in(guarded: RemoteNode, tmp_path: Path) -> None:
     token = tmp_path / "token"
     assert stat.S_IMODE(token.stat().st_mode) == 0o600
     with bubblesim.connect(guarded.port, token=token) as simulator:
@@ -64,7 +64,7 @@ def test_a_token_lets_clients_in(guarded: Door, tmp_path: Path) -> None:
     assert client.require("sim").getSimulationTime() == 0
 
 
-def test_without_the_token_no_function_is_called(guarded: Door, tmp_path: Path) -> None:
+def test_without_the_token_no_function_is_called(guarded: RemoteNode, tmp_path: Path) -> None:
     assert WANTS in refusal(bubblesim.connect, guarded.port)
     client = guarded.client()
     assert WANTS in refusal(client.require, "sim")
@@ -78,7 +78,7 @@ def test_without_the_token_no_function_is_called(guarded: Door, tmp_path: Path) 
         assert simulator.sim.getSimulationState() == simulator.sim.simulation_stopped
 
 
-def test_a_known_uuid_does_not_replace_the_token(guarded: Door, tmp_path: Path) -> None:
+def test_a_known_uuid_does_not_replace_the_token(guarded: RemoteNode, tmp_path: Path) -> None:
     socket = guarded.raw()
     token = (tmp_path / "token").read_text().strip()
     for extra, answer in (({"token": token}, "ret"), ({}, "ret")):  # a line that has sent it keeps it
@@ -104,12 +104,12 @@ def test_a_token_that_does_not_protect_is_refused(tmp_path: Path, text: str, mod
     assert why in run.stderr
 
 
-def test_an_open_door_says_that_all_users_may_connect(door: Door) -> None:
-    assert "so can all users of this machine; --remote-token=FILE refuses them" in door.output
+def test_an_open_port_is_reported_with_who_may_connect(node: RemoteNode) -> None:
+    assert "so can all users of this machine; --remote-token=FILE refuses them" in node.output
 
 
-def test_a_client_cannot_start_the_simulator(door: Door) -> None:
-    sim = door.sim()
+def test_a_client_cannot_start_the_simulator(node: RemoteNode) -> None:
+    sim = node.sim()
     for program in ("sim", "bubblesim", "/usr/lib/rosbag/record"):
         assert re.search("remote client 1 must not start /", refusal(sim.launchExecutable, program, "ball"))
 

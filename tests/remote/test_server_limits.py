@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Strange messages, floods and many clients at the door."""
+"""Strange messages, floods and many clients."""
 
 import time
 from typing import Any
@@ -8,12 +8,12 @@ import cbor2
 import pytest
 import zmq
 
-from door_support import Door
+from remote_support import RemoteNode
 from ros_support import DEADLINE
 
 
-def test_strange_messages_get_an_error(door: Door) -> None:
-    socket = door.raw()
+def test_strange_messages_get_an_error(node: RemoteNode) -> None:
+    socket = node.raw()
 
     def answer(data: bytes) -> Any:
         socket.send(data)
@@ -32,20 +32,20 @@ def test_strange_messages_get_an_error(door: Door) -> None:
         nested = [nested]
     assert "nested" in answer(cbor2.dumps({"func": "sim.packTable", "args": [nested], "uuid": "u"}))["err"]
     socket.close()
-    parts = door.raw(zmq.DEALER)
+    parts = node.raw(zmq.DEALER)
     for message in ([b"x"], [b"", b"a", b"b"], [b"\x00" * 10, b""], [b""]):
         parts.send_multipart(message)
-    too_large = door.raw()
+    too_large = node.raw()
     too_large.send(bytes(70_000_000))
-    assert door.sim().getSimulationState() == 0
+    assert node.sim().getSimulationState() == 0
     parts.close()
     too_large.close()
 
 
-def test_a_flood_stops_neither_steps_nor_other_clients(door: Door) -> None:
-    sim = door.sim()
+def test_a_flood_stops_neither_steps_nor_other_clients(node: RemoteNode) -> None:
+    sim = node.sim()
     sim.startSimulation()
-    flood = door.raw(zmq.DEALER)
+    flood = node.raw(zmq.DEALER)
     request = cbor2.dumps({"func": "sim.getSimulationTime", "args": [], "uuid": "flood"})
     sent = 0
     begin = now = sim.getSimulationTime()
@@ -64,11 +64,11 @@ def test_a_flood_stops_neither_steps_nor_other_clients(door: Door) -> None:
     flood.close()
 
 
-def test_many_idle_clients_do_no_harm(door: Door) -> None:
-    sim = door.sim()
+def test_many_idle_clients_do_no_harm(node: RemoteNode) -> None:
+    sim = node.sim()
     idle = []
     for number in range(200):
-        socket = door.raw()
+        socket = node.raw()
         socket.send(cbor2.dumps({"func": "sim.getSimulationTime", "args": [], "uuid": f"idle {number}"}))
         assert cbor2.loads(socket.recv()) == {"ret": [0.0]}
         idle.append(socket)
@@ -81,10 +81,10 @@ def test_many_idle_clients_do_no_harm(door: Door) -> None:
         socket.close()
 
 
-def test_no_function_falls_over_odd_arguments(door: Door) -> None:
+def test_no_function_falls_over_odd_arguments(node: RemoteNode) -> None:
     odd = [None, -5, 2**64 - 1, float("nan"), "text", b"bytes", [], [1, 2, 3], {"a": 1}, "f@func", "_*NIL*_"]
     others = {"quitSimulator", "wait", "step", "switchThread", "stopSimulation", "pauseSimulation", "closeScene"}
-    socket = door.raw()
+    socket = node.raw()
 
     def call(function: str, *arguments: object) -> Any:
         socket.send(cbor2.dumps({"func": function, "args": list(arguments), "uuid": "odd"}))

@@ -15,14 +15,14 @@ GOOD = "def sysCall_init(): print('one')\ndef sysCall_sensing(): pass\n"
 
 
 class Open(Node):
-    """A node with a door whose /Ball has a script in tmp_path, and a connection."""
+    """A node that serves remote clients, whose /Ball has a script in tmp_path, and a connection."""
 
     def __init__(self, folder: Path, code: str, *options: object, name: str = "script.py", start: bool = True) -> None:
         self.script = write(folder / name, code)
         self.port = free_port()
         how = ["--no-ros", f"--remote={self.port}", "--child-script", f"/Ball={self.script}", *options]
         super().__init__(ros_environment(free_port(), folder), folder / "log", "ball", *how)
-        wait_until(lambda: "remote clients can connect" in self.output, "the door")
+        wait_until(lambda: "remote clients can connect" in self.output, "the remote API")
         self.connection = bubblesim.connect(self.port)
         self.sim: Any = self.connection.sim
         if start:
@@ -113,7 +113,7 @@ def test_warnings_of_the_scene_are_problems_too(tmp_path: Path) -> None:
     )
     port = free_port()
     with Node(ros_environment(free_port(), tmp_path), tmp_path / "log", scene, "--no-ros", f"--remote={port}") as node:
-        wait_until(lambda: "remote clients can connect" in node.output, "the door")
+        wait_until(lambda: "remote clients can connect" in node.output, "the remote API")
         with bubblesim.connect(port) as simulator:
             found = simulator.sim.getProblems()["problems"]
         assert found, node.output

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A node with a door for programs outside, and their clients."""
+"""A node that serves remote clients, and such clients."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -15,8 +15,8 @@ from ros_support import free_port, ros_environment, wait_until
 TIMEOUT = 20_000  # ms for a reply
 
 
-class Door(Node):
-    """A node with a door, and its port."""
+class RemoteNode(Node):
+    """A node that serves remote clients, and its port."""
 
     def __init__(
         self, folder: Path, *options: object, scene: str = "tricycle", environment: dict[str, str] | None = None
@@ -27,7 +27,7 @@ class Door(Node):
         ros = [] if environment else ["--no-ros"]
         environment = environment or ros_environment(free_port(), folder)
         super().__init__(environment, log, scene, *ros, f"--remote={self.port}", *options)
-        wait_until(lambda: "remote clients can connect" in self.output, "the door")
+        wait_until(lambda: "remote clients can connect" in self.output, "the remote API")
 
     def client(self) -> RemoteAPIClient:
         client = RemoteAPIClient(port=self.port)
