@@ -82,7 +82,7 @@ def test_core_builds_alone(tmp_path: Path) -> None:
 
 # The imports that each Python package may use of the others; nothing imports `cli`, `demo` and `testing`.
 PYTHON_LAYERS = [
-    {"program", "output", "addresses", "geometry", "messages", "delayed_rows", "scene_elements"},
+    {"program", "output", "addresses", "users_packages", "geometry", "messages", "delayed_rows", "scene_elements"},
     {"controllers"},
     {"ros_messages", "navigation", "nodes"},
     {"running"},
