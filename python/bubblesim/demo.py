@@ -7,6 +7,10 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while modules are loaded
 
+from bubblesim.program import users_packages
+
+users_packages.leave_out()
+
 import argparse
 import os
 import re
