@@ -155,3 +155,28 @@ def test_two_thousand_boxes_are_drawn_from_small_frames(tmp_path: Path, show: Sh
         assert page.js("bubblesim.view.renderer.info.render.calls") < 40
         page.call("window.set_pose", page.js("bubblesim.scene.byPath('/box_7').handle"), [0, -3, 4, 0, 0, 0, 1])
         page.wait("bubblesim.view.poseOf(bubblesim.scene.byPath('/box_7'))[2] > 3.9")
+
+
+def test_the_first_error_of_what_is_asked_again_and_again_is_shown(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball") as node:
+        page = show(node)
+        page.page.evaluate(
+            """() => {
+            const { link } = bubblesim;
+            const call = link.call.bind(link);
+            bubblesim.test = { fails: true, failed: 0, answered: 0, shown: [] };
+            bubblesim.notify = (text, level) => bubblesim.test.shown.push([text, level]);
+            link.call = async (name, ...rest) => {
+                if (name !== "sim.getProblems") return call(name, ...rest);
+                if (bubblesim.test.fails) { bubblesim.test.failed++; throw new Error("out of order"); }
+                bubblesim.test.answered++;
+                return call(name, ...rest);
+            };
+            }"""
+        )
+        page.wait("bubblesim.test.failed >= 3")
+        assert page.js("bubblesim.test.shown") == [["out of order", "error"]]
+        page.js("bubblesim.test.fails = false")
+        page.wait("bubblesim.test.answered >= 2")
+        page.js("bubblesim.test.fails = true")
+        page.wait("bubblesim.test.shown.length === 2")
