@@ -7,6 +7,10 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while modules are loaded
 
+from bubblesim.program import users_packages
+
+users_packages.leave_out()
+
 import argparse
 import os
 import re
@@ -15,7 +19,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from bubblesim.program import run_program
+from bubblesim.program.run import run_program
 from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError

@@ -36,7 +36,7 @@ def test_a_click_selects_and_properties_follow(tmp_path: Path, show: Show) -> No
     with Node(tmp_path, "tricycle") as node:
         page = show(node)
         page.look_at("/Tricycle")
-        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
+        page.wait("bubblesim.view.picker.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
         page.page.mouse.click(*page.middle())
         page.wait("bubblesim.selection.object?.path === '/Tricycle'")
         page.wait("document.querySelector('.properties h2').textContent === 'Tricycle'")
@@ -63,8 +63,8 @@ def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -
 
 def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle", "--remote=0") as node:
-        door, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
-        command = ["bubblesim", "view", "--door", door, "--port", str(port)]
+        remote_port, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
+        command = ["bubblesim", "view", "--door", remote_port, "--port", str(port)]
 
         def start_server() -> "subprocess.Popen[str]":
             with (tmp_path / "view.err").open("w") as log:

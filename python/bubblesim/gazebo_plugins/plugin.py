@@ -13,7 +13,7 @@ from bubblesim import _core
 from bubblesim.gazebo_plugins.parameters import Parameters
 from bubblesim.gazebo_plugins.transforms import Transforms, is_needed
 from bubblesim.messages.names import did_you_mean, nearest_names
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 Message = dict[str, Any]
 FASTEST = 1e6  # rad/s or m/s: limit of the physics

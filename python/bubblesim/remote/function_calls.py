@@ -26,7 +26,7 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
             raise ImportError(f"module '{wanted}' not found: remote clients have the module sim")
         return None if name == "require" else info()
     if request.function == "frames.open":
-        return client.door.publish_frames()
+        return client.server.publish_frames()
     if request.function == "frames.layout":
         return layout(client)
     if module == "window":

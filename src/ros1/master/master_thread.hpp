@@ -27,6 +27,8 @@ class MasterThread {
     /// Called once a master answers, before roscpp starts: why this node must not register there, or empty.
     std::function<std::string()> refusal;
     Job on_absent;     ///< once, if the first try fails or takes too long
+    /// Without an answer for 5 s, if there was a master, and then every 10 s. Called on another thread.
+    std::function<void(bool had_master)> on_silence;
     Job on_connected;  ///< once after roscpp is started, before any job
     Job on_idle;       ///< while connected, after each successful check
     Job on_leaving;    ///< before roscpp is shut down, if connected and the master answered the last check

@@ -36,6 +36,6 @@ def call(client: RemoteClient, name: str, arguments: list[Any]) -> Any:
     function = FUNCTIONS.get(name)
     if function is None:
         raise AttributeError(f"there is no function 'window.{name}'")
-    window = window_of(client.door.host)
+    window = window_of(client.server.host)
     window.client = client
     return function(window, *arguments)

@@ -11,6 +11,8 @@ from typing import Any
 from bubblesim._core import SceneView
 
 _MOST_EVENTS = 10_000
+MOST_REMOVED = 100
+"""Models that were removed and can be brought back."""
 
 
 @dataclass(frozen=True)
@@ -53,17 +55,25 @@ class Window:
         """With which clients pull at links, by client."""
         self.edits = host.shared.edits
         self.edits.colours.changed = self._recolour
-        self.removed: list[Kept] = []
-        """Models that pages have removed."""
+        self.removed: dict[int, Kept] = {}
+        """The last models that pages have removed, by number."""
+        self._removals = 0
         self._events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
         self.next_event = 0
         """Number of the next event."""
         self._recoloured: set[int] = set()
 
+    def keep_removed(self, kept: Kept) -> int:
+        """Keep a model that is removed, and return its number; the oldest are forgotten."""
+        number, self._removals = self._removals, self._removals + 1
+        self.removed[number] = kept
+        self.removed.pop(number - MOST_REMOVED, None)
+        return number
+
     def emit(self, name: str, data: Any) -> None:
         """Send an event to all pages.
 
-        :param data: plain values: numbers, texts, bytes, lists, maps.
+        :param data: plain values: numbers, strings, bytes, lists, maps.
         """
         self._events.append((self.next_event, name, data))
         self.next_event += 1

@@ -119,12 +119,4 @@ Vector3 axis_direction(const JointDescription& description, int axis, const Join
 /// Creates the joint in ODE. Throws InvalidInput for an unknown type.
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site);
 
-/// The kinds of make_joint(), with their number of axes.
-struct JointKind {
-  const char* type;
-  int axes;
-  std::unique_ptr<Joint> (*make)(dWorldID, const JointDescription&, const JointSite&);
-};
-const std::vector<JointKind>& joint_kinds();
-
 }  // namespace bubblesim
