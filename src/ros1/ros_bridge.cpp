@@ -98,10 +98,11 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                     "as a master appears");
               },
               [](bool had_master) {
-                say(had_master ? "the ROS master at " + ros::master::getURI() +
-                                     " does not answer -- the simulation continues; connected nodes stay connected, new "
-                                     "ones find this node when the master is back"
-                               : "still no ROS master at " + ros::master::getURI() + "; start one with 'roscore'");
+                say(had_master
+                        ? "the ROS master at " + ros::master::getURI() +
+                              " does not answer -- the simulation continues; connected nodes stay connected, new "
+                              "ones find this node when the master is back"
+                        : "still no ROS master at " + ros::master::getURI() + "; start one with 'roscore'");
               },
               [this] { on_connected(); },
               [this] {
