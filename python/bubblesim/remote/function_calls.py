@@ -30,7 +30,7 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
     if request.function == "frames.layout":
         return layout(client)
     if module == "window":
-        return window_functions.call(client, name, request.arguments)
+        return window_functions.call(client.server.host, client, name, request.arguments)
     if module != "sim" or name.startswith("_"):
         raise AttributeError(f"there is no function '{request.function}': remote clients have those of sim")
     function = getattr(sim, name)

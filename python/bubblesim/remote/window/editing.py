@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim._core import MotorMode, PointSpring, add_copy, copy_model, scene_folders
-from bubblesim.remote.window.window import MOST_REMOVED, Kept, Source, Window
+from bubblesim.remote.window.window import MOST_REMOVED, Kept, Source, Window, WindowClient
 from bubblesim.scene_state import set_numbers
 
 _SPRING = "spring"
@@ -123,7 +123,7 @@ def let_go(window: Window) -> None:
     _release(window, window.client)
 
 
-def _release(window: Window, client: Any) -> None:
+def _release(window: Window, client: WindowClient) -> None:
     spring = window.springs.pop(client, None)
     if spring is not None:
         spring.remove()

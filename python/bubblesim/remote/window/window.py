@@ -5,14 +5,22 @@ from __future__ import annotations
 
 import weakref
 from collections import deque
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from bubblesim._core import SceneView
 
 _MOST_EVENTS = 10_000
 MOST_REMOVED = 100
 """Models that were removed and can be brought back."""
+
+
+class WindowClient(Protocol):
+    """Who calls functions of the window, such as a page."""
+
+    at_leave: dict[Hashable, Callable[[], None]]
+    """What it holds is released by these when it leaves."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +57,8 @@ class Window:
         self.simulation = host.simulation
         self.view = SceneView()
         self.memory = self.runner.share_frames()
-        self.client: Any = None
-        """Who calls the function that is carried out."""
+        self.client: WindowClient
+        """Who calls the function that is carried out; set before each call."""
         self.springs: dict[Any, Any] = {}
         """With which clients pull at links, by client."""
         self.edits = host.shared.edits
