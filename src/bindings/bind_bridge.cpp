@@ -15,6 +15,7 @@
 #include "bubblesim/messages/bridge.hpp"
 #include "message_codec.hpp"
 #include "message_lookup.hpp"
+#include "reading_message.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -23,21 +24,29 @@ namespace py = pybind11;
 using messages::Bridge;
 using messages::EndpointId;
 
-py::object publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
-  if (!bridge.wants_messages(publisher)) return py::none();
+std::vector<Truncation> send(Bridge& bridge, EndpointId publisher, const py::object& message) {
+  const messages::MessageType& type = bridge.message_type(publisher);
   messages::WireBuffer bytes;
-  const std::vector<Truncation> truncations = encode(bridge.message_type(publisher), message.ptr(), bytes);
-  {
+  if (const messages::FieldReader* reading = reading_message(message)) {
     const py::gil_scoped_release release;
+    messages::encode(type, *reading, bytes);
     bridge.publish(publisher, std::move(bytes));
+    return {};
   }
-  return to_python(truncations);
+  std::vector<Truncation> truncations = encode(type, message.ptr(), bytes);
+  const py::gil_scoped_release release;
+  bridge.publish(publisher, std::move(bytes));
+  return truncations;
+}
+
+py::object publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
+  return bridge.wants_messages(publisher) ? to_python(send(bridge, publisher, message)) : py::none();
 }
 
 /// Throws what publish() would throw with a subscriber.
 py::object check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
   messages::WireBuffer bytes;
-  return to_python(encode(bridge.message_type(publisher), message.ptr(), bytes));
+  return to_python(encode_any(bridge.message_type(publisher), message, bytes));
 }
 
 EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, std::uint32_t queue_size,
@@ -150,10 +159,10 @@ void bind_bridge(py::module_& core) {
            py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
            "Subscribe; `callback` gets each message as a dict.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
-           "Convert and send a dict; do nothing without subscribers. Return None, or [(field, value)] of the floats "
-           "that lost more than a thousandth in integer fields.")
+           "Convert and send a dict or a ReadingMessage; do nothing without subscribers. Return None, or [(field, "
+           "value)] of the floats of a dict that lost more than a thousandth in integer fields.")
       .def("check", &check, py::arg("publisher"), py::arg("message"),
-           "Convert a dict without sending it; return what publish() returns.")
+           "Convert a message without sending it; return what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
            "Return whether publish() would send anything: the topic has subscribers or is latched.")
       .def("yield_topic", &Bridge::yield_topic, py::arg("endpoint"), without_gil,

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bubblesim import _core
+from bubblesim._core.reading_messages import Header
 from bubblesim.gazebo_plugins.parameters import Parameters
 from bubblesim.gazebo_plugins.transforms import Transforms, is_needed
 from bubblesim.messages.names import did_you_mean, nearest_names
@@ -25,12 +26,11 @@ class StepTime:
     def __init__(self, bridge: Any) -> None:
         """Read the time from this bridge."""
         self._bridge = bridge
-        self.stamp: Message = {}
+        self.stamp = 0, 0  # s, ns
 
     def begin_step(self) -> None:
         """Set the stamp to the current time."""
-        secs, nsecs = self._bridge.now()
-        self.stamp = {"secs": secs, "nsecs": nsecs}
+        self.stamp = self._bridge.now()
 
 
 @dataclass(frozen=True)
@@ -138,9 +138,9 @@ class Plugin:
         """Return whether the topic has subscribers or is recorded to a bag."""
         return is_needed(self.bridge, publisher)
 
-    def header(self, frame: str) -> Message:
-        """Return a std_msgs/Header of this step."""
-        return {"stamp": self.context.step_time.stamp, "frame_id": frame}
+    def header(self, frame: str) -> Any:
+        """Return the Header of a message of this step, for the functions of ``_core.reading_messages``."""
+        return Header(*self.context.step_time.stamp, frame)
 
     def joint(self, parameter: str, default: str) -> int:
         """Return the handle of the joint named by a parameter."""
