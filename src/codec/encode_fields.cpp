@@ -3,7 +3,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "bubblesim/messages/fields.hpp"
 #include "ros1_layout.hpp"
@@ -28,9 +27,7 @@ std::size_t numbers_per_element(const Field& field, FieldKind kind) {
 
 }  // namespace
 
-void Fields::add(std::string_view name, Value&& value) {
-  nodes_.push_back({name, std::move(value), nodes_.size() + 1});
-}
+void Fields::add(std::string_view name, const Value& value) { nodes_.push_back({name, value, nodes_.size() + 1}); }
 
 /// A Layout writes single values, like Ros1Layout.
 template <class Layout>
@@ -96,8 +93,8 @@ class FieldEncoder {
       throw_unfit(type, field, "a number with a fraction");
     }
   }
-  void put(const MessageType& type, const Field& field, std::size_t at, const std::shared_ptr<const bool>& flag) {
-    put(type, field, at, std::int64_t{*flag ? 1 : 0});
+  void put(const MessageType& type, const Field& field, std::size_t at, Fields::Flag flag) {
+    put(type, field, at, std::int64_t{*flag.value ? 1 : 0});
   }
   void put(const MessageType& type, const Field& field, std::size_t, std::string_view text) {
     if (field.kind != FieldKind::kString || field.array != ArrayKind::kNone) throw_unfit(type, field, "a string");
@@ -115,18 +112,17 @@ class FieldEncoder {
   }
   void put(const MessageType& type, const Field& field, std::size_t, const Fields::Array& array) {
     std::uint8_t* place = begin_numbers(type, field, array.kind, array.count);
-    if (array.count == 0) return;
-    if (array.values == nullptr) {
-      array.fill(place);
-    } else {
-      std::memcpy(place, array.values, array.count * wire_size(array.kind));
-    }
+    if (array.count != 0) std::memcpy(place, array.values, array.count * wire_size(array.kind));
   }
-  void put(const MessageType& type, const Field& field, std::size_t, const Fields::KeptNumbers& numbers) {
+  void put(const MessageType& type, const Field& field, std::size_t, const Fields::FilledArray& array) {
+    std::uint8_t* place = begin_numbers(type, field, array.kind, array.count);
+    if (array.count != 0) (*array.fill)(place);
+  }
+  void put(const MessageType& type, const Field& field, std::size_t, Fields::KeptNumbers numbers) {
     std::uint8_t* place = begin_numbers(type, field, FieldKind::kFloat64, numbers.count);
     std::memcpy(place, &fields_.numbers_[numbers.first], numbers.count * sizeof(double));
   }
-  void put(const MessageType& type, const Field& field, std::size_t at, const Fields::Nested&) {
+  void put(const MessageType& type, const Field& field, std::size_t at, Fields::Nested) {
     if (field.kind != FieldKind::kMessage) throw_unfit(type, field, "a message");
     const std::size_t end = node(at).end;
     if (field.array == ArrayKind::kNone) {

@@ -11,7 +11,9 @@ from bubblesim._core import reading_messages as make
 import bubblesim
 from message_support import genpy_class
 
-HEADER = make.Header(12, 345, "frame")
+CLOCK = make.Clock()
+CLOCK.set(12, 345)
+HEADER = make.Header(CLOCK, "frame")
 POSE = [1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8]
 LINEAR, ANGULAR = (4.0, 5.0, 6.0), (0.4, 0.5, 0.6)
 
@@ -244,12 +246,27 @@ def test_odometry_has_pose_velocity_and_their_variances() -> None:
 
 
 def test_transforms_have_their_frames() -> None:
-    frames = [make.Transform(HEADER, "a", POSE), make.Transform(make.Header(1, 2, "other"), "b", POSE)]
+    other = make.Clock()
+    other.set(1, 2)
+    frames = [make.Transform(HEADER, "a", POSE), make.Transform(make.Header(other, "other"), "b", POSE)]
     first, second = read("tf2_msgs/TFMessage", make.transforms(frames)).transforms
     assert (first.child_frame_id, second.child_frame_id, second.header.frame_id) == ("a", "b", "other")
     assert (second.header.stamp.secs, second.header.stamp.nsecs) == (1, 2)
     rotation = first.transform.rotation
     assert [*xyz(first.transform.translation), *xyz(rotation), rotation.w] == POSE
+
+
+def test_a_message_keeps_its_time() -> None:
+    clock = make.Clock()
+    header = make.Header(clock, "frame")
+    clock.set(12, 345)
+    message = make.point(header, LINEAR)
+    clock.set(13, 0)
+    assert read("geometry_msgs/PointStamped", message).header.stamp.secs == 12
+    later = messages.decode(
+        "geometry_msgs/PointStamped", messages.encode("geometry_msgs/PointStamped", make.point(header, LINEAR))
+    )
+    assert later["header"]["stamp"] == {"secs": 13, "nsecs": 0}
 
 
 ARM = """\

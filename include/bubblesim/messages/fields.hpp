@@ -52,13 +52,16 @@ class Fields {
   void put(std::string_view name, const char* text) { add(name, std::string_view(text)); }
   void put(std::string_view name, Stamp stamp) { add(name, stamp); }
   /// A flag that is set by the Fill of a field that comes before it in the type.
-  void put(std::string_view name, std::shared_ptr<const bool> flag) { add(name, std::move(flag)); }
+  void put(std::string_view name, std::shared_ptr<const bool> flag) {
+    flags_.push_back(std::move(flag));
+    add(name, Flag{flags_.back().get()});
+  }
   void put(std::string_view name, const std::vector<std::string>& texts) { add(name, &texts); }
 
   /// An array of numbers; also an array of messages that only hold numbers of that kind, such as Point32.
   template <class Number>
   void array(std::string_view name, const Number* values, std::size_t count) {
-    add(name, Array{kind_of_number<Number>(), count, reinterpret_cast<const std::uint8_t*>(values), {}});
+    add(name, Array{kind_of_number<Number>(), count, reinterpret_cast<const std::uint8_t*>(values)});
   }
   template <class Number>
   void array(std::string_view name, const std::vector<Number>& values) {
@@ -72,7 +75,7 @@ class Fields {
   }
   /// An array that is written to its place in the message.
   void array(std::string_view name, FieldKind kind, std::size_t count, Fill fill) {
-    add(name, Array{kind, count, nullptr, std::move(fill)});
+    add(name, FilledArray{kind, count, &fills_.emplace_front(std::move(fill))});
   }
 
   /// A nested message; `put_fields` puts its fields.
@@ -100,19 +103,26 @@ class Fields {
   template <class Layout>
   friend class FieldEncoder;
 
+  struct Flag {
+    const bool* value;
+  };
   struct Array {
     FieldKind kind;
     std::size_t count;
-    const std::uint8_t* values;  // null: `fill` writes them
-    Fill fill;
+    const std::uint8_t* values;
+  };
+  struct FilledArray {
+    FieldKind kind;
+    std::size_t count;
+    const Fill* fill;
   };
   struct KeptNumbers {
     std::size_t first;  // in numbers_
     std::size_t count;
   };
   struct Nested {};  // the nodes up to `end`
-  using Value = std::variant<std::int64_t, double, std::string_view, Stamp, std::shared_ptr<const bool>,
-                             const std::vector<std::string>*, Array, KeptNumbers, Nested>;
+  using Value = std::variant<std::int64_t, double, std::string_view, Stamp, Flag, const std::vector<std::string>*,
+                             Array, FilledArray, KeptNumbers, Nested>;
   struct Node {
     std::string_view name;
     Value value;
@@ -121,11 +131,13 @@ class Fields {
 
   static constexpr std::size_t kUsualCount = 40;
 
-  void add(std::string_view name, Value&& value);
+  void add(std::string_view name, const Value& value);
 
   std::vector<Node> nodes_;  // each before those inside it
   std::vector<double> numbers_;
   std::forward_list<std::string> texts_;
+  std::forward_list<Fill> fills_;
+  std::vector<std::shared_ptr<const bool>> flags_;
 };
 
 /// The source of a message's fields.

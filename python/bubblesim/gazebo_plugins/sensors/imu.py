@@ -27,6 +27,7 @@ class ImuSensor(Plugin):
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._variances = self._noise.variances(3)
         self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
         p.check()
         self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
@@ -40,8 +41,8 @@ class ImuSensor(Plugin):
         """Publish a new reading."""
         if not (self.is_needed(self._publisher) and (reading := self._readings.take())):
             return
-        variances = self._noise.variances(3)
-        message = imu(self.header(self._frame), reading, variances, variances, self._turn, self._noise.draw(6))
+        changes = self._turn, self._noise.draw(6)
+        message = imu(self.header(self._frame), reading, self._variances, self._variances, *changes)
         self.bridge.publish(self._publisher, message)
 
 
