@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,17 +40,6 @@ template <class Value>
 py::array in_pixels(const std::vector<Value>& values, const py::object& image) {
   const auto& held = image.cast<const HeldImage&>();
   return view(values, {held->height, held->width}, image);
-}
-
-bool fill_cloud(const HeldImage& image, py::array_t<float, py::array::c_style>& points, double least, double most,
-                bool optical) {
-  const py::ssize_t floats = py::ssize_t{kCloudFloats};
-  if (points.ndim() != 3 || points.shape(0) != image->height || points.shape(1) != image->width ||
-      points.shape(2) != floats) {
-    throw py::value_error("the points of this image need an array of " + std::to_string(image->height) + " x " +
-                          std::to_string(image->width) + " x " + std::to_string(floats) + " of float32");
-  }
-  return to_point_cloud(*image, least, most, optical ? CloudAxes::kOptical : CloudAxes::kSensor, points.mutable_data());
 }
 
 void bind_proximity(py::module_& module) {
@@ -128,12 +116,6 @@ void bind_image(py::module_& module) {
       .def_property_readonly(
           "objects", [](const py::object& i) { return in_pixels(i.cast<const HeldImage&>()->objects, i); },
           "Handles of the visible links, -1 for none; height x width of int32.")
-      .def(
-          "fill_cloud", &fill_cloud, py::arg("points").noconvert(), py::arg("least"), py::arg("most"),
-          py::arg("optical"),
-          "Write the pixels' points to height x width x 8 of float32: x, y, z, 0, the colour's bytes and zeros, in the "
-          "sensor's axes, or with z forward and x to the right. Points whose depth is not between two depths in metres "
-          "are NaN. Return whether none is.")
       .def_property_readonly(
           "horizontal_fov", [](const HeldImage& i) { return i->horizontal_fov; }, "Radians.")
       .def_property_readonly(
