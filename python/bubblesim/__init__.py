@@ -98,7 +98,7 @@ __path__ = extend_path(__path__, __name__)
 
 def __getattr__(name: str) -> Any:
     """Load the core on first use: some commands of `bubblesim` do not need it, and loading takes 0.1 s."""
-    if name not in __all__:
+    if name not in __all__ and not name.endswith("Reading"):  # kinds of sensors that were added have such classes
         raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     if name == "connect":
         from bubblesim.remote.connection import connect
@@ -106,4 +106,6 @@ def __getattr__(name: str) -> Any:
         return connect
     from bubblesim import _core
 
+    if not hasattr(_core, name):
+        raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     return getattr(_core, name)
