@@ -54,7 +54,7 @@ class Picture {
     Simulation simulation(scene);
     reading_ = simulation.read(simulation.world().tree().find("/Camera"));
   }
-  const CameraImage* operator->() const { return &std::get<CameraImage>(reading_->measurement); }
+  const CameraImage* operator->() const { return &reading_->measurement.get<CameraImage>(); }
   double depth(int column, int row) const { return (*this)->depth.at(index(column, row)); }
   ObjectId object(int column, int row) const { return (*this)->objects.at(index(column, row)); }
   Rgb rgb(int column, int row) const {
@@ -160,7 +160,7 @@ TEST(Picture, TellsTheLinkInEachPixel) {
                                                       thing("Right", colored(Box{{1, 50, 99}}, {}), at(4, -25, 0))});
   Simulation simulation(described);
   const auto reading = simulation.read(simulation.world().tree().find("/Camera"));
-  const auto& objects = std::get<CameraImage>(reading->measurement).objects;
+  const auto& objects = reading->measurement.get<CameraImage>().objects;
   EXPECT_EQ(objects[0], simulation.world().tree().find("/Left/link"));
   EXPECT_EQ(objects[kWidth - 1], simulation.world().tree().find("/Right/link"));
 }

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "rays/ray_scene.hpp"
-#include "sensors/kinds.hpp"
+#include "scene/describe.hpp"
+#include "sensors/define.hpp"
 
 namespace bubblesim {
 namespace {
@@ -112,8 +113,77 @@ class Sonar final : public Sensor {
 
 }  // namespace
 
-std::unique_ptr<Sensor> make_kind(const SonarDescription& description, const SensorSite& site) {
-  return std::make_unique<Sonar>(description, site.id, site.world.tree().outermost_model_of(site.id));
+const MemberTable& SonarDescription::members() {
+  static const MemberTable table = member_table<SonarDescription>(
+      "SonarDescription", "A sensor that measures the distance to the nearest surface in a volume.",
+      {
+          member<&SonarDescription::min_range>("min_range", "m", "nearer surfaces are not detected"),
+          member<&SonarDescription::max_range>("max_range", "m", "length of the volume"),
+          member<&SonarDescription::half_angle>("half_angle", "rad", "between the axis and the volume's side"),
+          member<&SonarDescription::volume>("volume", "", "shape of the volume")
+              .with_choices({"ray", "cone", "pyramid", "disc", "cylinder"}),
+      });
+  return table;
 }
+
+const MemberTable& ProximityReading::members() {
+  static const MemberTable table = member_table<ProximityReading>(
+      "ProximityReading", "Reading of a proximity sensor, in its own frame: it measures along x.",
+      {
+          member<&ProximityReading::detected>("detected", "", "whether there is a surface").with_quantity("detected"),
+          member<&ProximityReading::distance>("distance", "m", "to the nearest surface; 0 if nothing was detected"),
+          member<&ProximityReading::point>("point", "m", "the nearest point"),
+          member<&ProximityReading::normal>("normal", "", "of the surface at that point"),
+          member<&ProximityReading::object>("handle", "", "of the detected link, or -1"),
+      });
+  return table;
+}
+
+class SonarKind final : public SensorDefinitionOf<SonarDescription, ProximityReading> {
+ public:
+  SonarKind() : SensorDefinitionOf("proximity sensor", {"sonar"}) {
+    id = "proximity";
+    reader.clear();  // read_proximity() returns the tuple that scripts get
+    elements = R"(
+  sonar none
+    geometry text cone ~ bubblesim:volume chooses the volume
+    min number 0 required
+    max number 1 required
+    radius number 0.5
+    bubblesim:volume text cone
+)";
+    observe("distance", "m", "to the nearest surface; the maximum range if nothing was detected", Sizes{},
+            [](const ProximityReading& reading, const SonarDescription& sonar, Row& row) {
+              row.put(reading.detected ? reading.distance : sonar.max_range);
+            });
+  }
+
+  std::optional<SonarDescription> read(SensorElement& sensor) const override {
+    if (!sensor.has("sonar")) {
+      sensor.report("", "a sonar needs a <sonar> element with <min>, <max> and <radius>");
+      return std::nullopt;
+    }
+    SonarDescription sonar;
+    sonar.min_range = sensor.number("sonar/min");
+    sonar.max_range = sensor.number("sonar/max");
+    sonar.half_angle = std::atan2(sensor.number("sonar/radius"), sonar.max_range);  // radius at max
+    const auto volume = sensor.choice("sonar/bubblesim:volume", SonarDescription::members().find("volume")->choices);
+    if (!volume) return std::nullopt;
+    sonar.volume = static_cast<ProximityVolume>(*volume);
+    return sonar;
+  }
+
+  void check(SensorCheck& check, const SonarDescription& sonar) const override {
+    check.require_ranges(sonar.min_range, sonar.max_range);
+    check.require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",
+                  text(sonar.half_angle) + " rad", "from 0 to below pi/2");
+  }
+
+  std::unique_ptr<Sensor> make(const SonarDescription& description, const SensorSite& site) const override {
+    return std::make_unique<Sonar>(description, site.id, site.world.tree().outermost_model_of(site.id));
+  }
+};
+
+template std::unique_ptr<SensorDefinition> define<SonarKind>();
 
 }  // namespace bubblesim
