@@ -22,6 +22,7 @@ FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
     "src/codec": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
+    "src/reading_messages": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/(?!fields)|ros_bridge|child_scripts)")],
     "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],
     "src/nodes": [PYTHON, re.compile(r"^bubblesim/")],
     "src/ros1": [PYTHON, re.compile(r"^bubblesim/child_scripts")],

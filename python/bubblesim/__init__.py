@@ -122,7 +122,7 @@ def __getattr__(name: str) -> Any:
             if error.name == "bubblesim._core":
                 raise ImportError(_why_not_loaded()) from None
             raise
-    if name not in __all__:
+    if name not in __all__ and not name.endswith("Reading"):  # kinds of sensors that were added have such classes
         raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     if name == "connect":
         from bubblesim.remote.connection import connect
@@ -130,4 +130,6 @@ def __getattr__(name: str) -> Any:
         return connect
     from bubblesim import _core
 
+    if not hasattr(_core, name):
+        raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     return getattr(_core, name)

@@ -24,6 +24,7 @@ from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.recording import Recording
+from bubblesim.running.ros_home import use_writable_ros_home
 from bubblesim.running.stop import Stop, wait_for
 
 _CONTROLLERS = {"tricycle": "tricycle_avoid.py"}  # the other scenes start their controller or need none
@@ -51,6 +52,7 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     stop = Stop()
     recording = Recording()
     with tempfile.TemporaryDirectory(prefix="bubblesim-demo-") as logs, Programs(Path(logs)) as programs:
+        use_writable_ros_home(Path(logs))
         provide_master(programs, stop)
         if stop.requested:
             return

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,16 @@ from .experiment import Experiment, Tolerance, lowest, product_of
 from .mechanics import rate_of, recorded
 from .scene import (
     GRAVITY,
+    Body,
+    Joint,
+    Model,
     Scene,
+    Shape,
     box,
     box_inertia,
     roller,
     sphere,
+    sphere_inertia,
     tilted,
     turned,
 )
@@ -45,6 +51,35 @@ def bounce(engine: Any, restitution: float, step: float) -> float:
     world = engine(Scene((sphere("ball", 0.1, (0, 0, 1.1), bounce=restitution),), step=step))
     _, speeds = recorded(world, 1.0, step, lambda: world.velocity("ball")[2])
     return max(0.0, *speeds) / -min(speeds)
+
+
+def turntable_theory(table: str, step: float) -> float:
+    """A ball that rolls on a turntable runs in a circle at 2/7 of its rate (E. A. Milne, Vectorial Mechanics, 1948)."""
+    return 2 / 7
+
+
+def turntable(engine: Any, table: str, step: float) -> float:
+    """Return the rate of the ball's circle, in that of the table: 1 rad/s."""
+    size = (2.0, 0.1) if table == "cylinder" else (4.0, 4.0, 0.1)
+    disc = Body("disc", 100.0, (100.0, 100.0, 200.0), (Shape(table, size),))
+    spindle = Joint("spindle", "revolute", "world", "disc", (0, 0, 1), (0, 0, 0), "velocity", 1e4)
+    ball = Model(
+        "ball",
+        (Body("ball", 1.0, sphere_inertia(1.0, 0.1), (Shape("sphere", (0.1,)),), mu=1.0),),
+        position=(0.5, 0, 0.1),
+    )
+    world = engine(Scene((Model("table", (disc,), (spindle,), (0, 0, -0.05)), ball), ground=False, step=step))
+    world.set_target("spindle", 1.0)
+    world.run(0.5)
+    x, y, _ = world.position("ball")
+    world.set_velocity("ball", (0.3, 0, 0), (x / 0.1, (0.3 + y) / 0.1, 0))  # as fast as the table where they touch
+    headings = []
+    for _ in range(31):
+        world.run(0.1)
+        velocity = world.velocity("ball")
+        headings.append(math.atan2(velocity[1], velocity[0]))
+    turns = [math.remainder(after - before, 2 * math.pi) for before, after in pairwise(headings)]
+    return sum(turns) / 3.0
 
 
 def rolling_theory(shape: str, heading: float) -> float:
@@ -165,6 +200,15 @@ EXPERIMENTS = [
         Tolerance("the speed before the impact is that of a whole step: g dt / v = 1 % at 5 ms", relative=0.012),
         product_of(restitution=(0.3, 0.6, 0.9), step=(0.001, 0.005)),
         peers=("PyBullet",),
+    ),
+    Experiment(
+        "turntable",
+        "Ball on a turntable, rate of its circle over that of the table",
+        "",
+        turntable_theory,
+        turntable,
+        Tolerance("the ball falls outwards by v dt / 2 in a substep", relative=1e-3),
+        product_of(table=("box", "cylinder", "mesh"), step=(0.005, 0.001)),
     ),
     Experiment(
         "rolling",
