@@ -21,6 +21,7 @@ PYTHON = re.compile(r"^(pybind11/|Python\.h|numpy/)")
 FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
+    "src/reading_messages": [ROS, PYTHON],
     "src/codec": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
     "src/reading_messages": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/(?!fields)|ros_bridge|child_scripts)")],
     "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],
@@ -91,7 +92,9 @@ def places() -> dict[str, bool]:
 def folder_of(file: Path, listed: Iterable[str]) -> str:
     """Return the innermost folder of the list that has a file."""
     path = file.relative_to(REPOSITORY)
-    return next(str(each) for each in (path, *path.parents) if str(each) in listed)
+    found = next((str(each) for each in (path, *path.parents) if str(each) in listed), None)
+    assert found, f"{path} is in no folder that docs/architecture.md lists"
+    return found
 
 
 def sources() -> list[Path]:
