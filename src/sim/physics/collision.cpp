@@ -117,6 +117,9 @@ void search(World::State& state, double step) {
   for (std::size_t i = 0; i < state.moving.size(); ++i) {
     if (is_jointed(*state.moving[i])) state.islands.set_jointed(static_cast<int>(i));
   }
+  if (std::all_of(state.moving.begin(), state.moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) {
+    return;
+  }
   SearchData data{state, step};
   // Collide models with each other; shapes of one model collide only with self_collide.
   if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &data, touch_spaces);
