@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Eliminates the joints of large mechanisms before ODE's exact solver, whose cost grows with the cube of all rows of an
-// island: see docs/adr/0037.
+// island: see docs/adr/0039.
 //
 // ODE solves A x = b + w with lo <= x <= hi; w is 0 unless x is at a limit. Most rows are those of joints: they have no
 // limits (j), and A is mostly zero among them. With the factors of that part, the rows with limits (l: stops, motors,
