@@ -46,6 +46,10 @@ def test_braking_of_light_wheels_is_the_textbooks(monkeypatch: pytest.MonkeyPatc
     g, mu, ratio = 9.81, 0.5, 0.6  # ratio of height and wheel base
     assert vehicles.braking_theory("rear", 0.0) == pytest.approx(mu * g / 2 / (1 + mu * ratio))
     assert vehicles.braking_theory("front", 0.0) == pytest.approx(mu * g / 2 / (1 - mu * ratio))
+    for mu, ratio in ((1.0, 0.56), (1.5, 0.7)):
+        assert vehicles.load_transfer_theory("rear", "forward", mu, ratio) == pytest.approx(
+            mu * g / 2 / (1 + mu * ratio)
+        )
 
 
 def test_ladder_of_pointed_feet_is_the_textbooks(monkeypatch: pytest.MonkeyPatch) -> None:

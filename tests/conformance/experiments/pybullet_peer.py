@@ -133,17 +133,10 @@ class PyBullet:
         for body in model.bodies:
             link = names[body.name]
             self.links[body.name] = (index, link)
-            api.changeDynamics(
-                index,
-                link,
-                lateralFriction=self.friction(body.mu),
-                restitution=body.bounce,
-                linearDamping=0,
-                angularDamping=0,
-                jointDamping=0,
-                maxJointVelocity=1e6,
-                **self.of,
-            )
+            surface = {"lateralFriction": self.friction(body.mu), "restitution": body.bounce}
+            api.changeDynamics(index, link, jointDamping=0, **surface, **self.of)
+            # A call with these changes the base, whatever the link.
+            api.changeDynamics(index, link, linearDamping=0, angularDamping=0, maxJointVelocity=1e6, **self.of)
 
     def run(self, seconds: float, forces: Mapping[str, Vector] | None = None) -> None:
         """Run for a time; the forces act at the centres of mass meanwhile."""
