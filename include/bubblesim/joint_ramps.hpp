@@ -2,6 +2,7 @@
 // The motors of a drive: targets of joints that follow commands at limited rates.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bubblesim/device.hpp"
@@ -41,6 +42,22 @@ class JointRamps final : public Device {
   std::vector<double> inputs_;
   std::vector<double> targets_;
   bool changing_ = false;
+};
+
+/// The inputs of a drive computed from commands, such as the velocities of a robot.
+struct CommandMix {
+  /// An input: the sum of the commands, each times its factor, divided by `divisor`.
+  struct Row {
+    std::vector<double> factors;
+    double divisor = 1;
+  };
+
+  std::vector<Row> rows;
+  double most = 1e6;  ///< of commands and inputs
+
+  /// Inputs beyond `most` are scaled down together, so that the robot stays on the same curve. Empty for commands that
+  /// are not usable: not finite, beyond `most`, or of another number than the factors.
+  std::optional<std::vector<double>> inputs(const std::vector<double>& commands) const;
 };
 
 }  // namespace bubblesim

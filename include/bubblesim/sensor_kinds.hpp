@@ -134,9 +134,9 @@ enum class CloudAxes { kSensor, kOptical };
 /// green, red and 0, as PCL's PointXYZRGB. The others are 0.
 constexpr std::size_t kCloudFloats = 8;
 
-/// Writes the points of an image's pixels, kCloudFloats floats for each, to `points`. Those whose depth is not between
-/// `least` and `most` (m) are NaN. Returns whether no point is NaN.
-bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, float* points);
+/// Writes the points of an image's pixels, kCloudFloats floats for each, to `points`, which need not be aligned. Those
+/// whose depth is not between `least` and `most` (m) are NaN. Returns whether no point is NaN.
+bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, std::uint8_t* points);
 
 /// An inertial measurement unit; noise along x, y, z.
 struct ImuDescription {

@@ -143,15 +143,6 @@ def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.fl
     }
 
 
-def pinhole(focal: float, x: float, y: float, baseline: float = 0.0) -> Message:
-    """Return the matrices of a sensor_msgs/CameraInfo: focal length and centre in pixels, stereo baseline in m."""
-    return {
-        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
-        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        "P": [focal, 0.0, x, -focal * baseline, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
-    }
-
-
 def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fov: float) -> Message:
     """Return a sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
 
@@ -166,7 +157,9 @@ def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fo
         "height": height,
         "distortion_model": "plumb_bob",
         "D": [0.0] * 5,
-        **pinhole(focal, x, y),
+        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
+        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        "P": [focal, 0.0, x, 0.0, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
     }
 
 

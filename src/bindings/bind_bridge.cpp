@@ -13,8 +13,11 @@
 
 #include "bindings.hpp"
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/messages/number_fields.hpp"
 #include "message_codec.hpp"
 #include "message_lookup.hpp"
+#include "number_target.hpp"
+#include "reading_message.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -25,10 +28,14 @@ using messages::EndpointId;
 
 py::object publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
   if (!bridge.wants_messages(publisher)) return py::none();
+  const messages::MessageType& type = bridge.message_type(publisher);
+  const messages::FieldReader* reading = reading_message(message);
   messages::WireBuffer bytes;
-  const std::vector<Truncation> truncations = encode(bridge.message_type(publisher), message.ptr(), bytes);
+  std::vector<Truncation> truncations;
+  if (reading == nullptr) truncations = encode(type, message.ptr(), bytes);
   {
     const py::gil_scoped_release release;
+    if (reading != nullptr) messages::encode(type, *reading, bytes);
     bridge.publish(publisher, std::move(bytes));
   }
   return to_python(truncations);
@@ -37,7 +44,7 @@ py::object publish(Bridge& bridge, EndpointId publisher, const py::object& messa
 /// Throws what publish() would throw with a subscriber.
 py::object check(const Bridge& bridge, EndpointId publisher, const py::object& message) {
   messages::WireBuffer bytes;
-  return to_python(encode(bridge.message_type(publisher), message.ptr(), bytes));
+  return to_python(encode_any(bridge.message_type(publisher), message, bytes));
 }
 
 EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, std::uint32_t queue_size,
@@ -58,6 +65,11 @@ SharedFunction share(py::function function) {
           }};
 }
 
+/// An error of the sender must not end the script or the simulation.
+void warn_of_dropped(const std::string& topic, const char* why) {
+  std::fputs(("warning: dropped a message on '" + topic + "': " + why + "\n").c_str(), stderr);
+}
+
 EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string& type, py::function callback,
                      std::uint32_t queue_size, TimeForm time, bool tcp_no_delay) {
   const messages::MessageType& listed = listed_message(type);
@@ -67,14 +79,34 @@ EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string
     try {
       message = decode(listed, bytes, {time});
     } catch (const py::error_already_set& error) {
-      // The sender's error: it must not end the script or the simulation.
-      std::fputs(("warning: dropped a message on '" + topic + "': " + error.what() + "\n").c_str(), stderr);
+      warn_of_dropped(topic, error.what());
       return;
     }
     (*function)(message);
   };
   const py::gil_scoped_release release;
   return bridge.subscribe(topic, listed, queue_size, std::move(deliver), tcp_no_delay);
+}
+
+EndpointId subscribe_numbers(Bridge& bridge, const std::string& topic, const std::string& type,
+                             const std::vector<std::string>& fields, const NumberTarget& target, py::function refused,
+                             std::uint32_t queue_size) {
+  const messages::MessageType& listed = listed_message(type);
+  auto deliver = [topic, numbers = messages::NumberFields(listed, fields), take = target.take,
+                  function = share(std::move(refused))](messages::WireView bytes) {
+    std::vector<double> values;
+    try {
+      values = numbers.read(bytes);
+    } catch (const messages::WireError& error) {
+      warn_of_dropped(topic, error.what());
+      return;
+    }
+    if (take(values)) return;
+    const py::gil_scoped_acquire gil;
+    (*function)(values);
+  };
+  const py::gil_scoped_release release;
+  return bridge.subscribe(topic, listed, queue_size, std::move(deliver), true);
 }
 
 messages::WireBuffer default_bytes(const messages::MessageType& type) {
@@ -149,11 +181,15 @@ void bind_bridge(py::module_& core) {
       .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"),
            py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
            "Subscribe; `callback` gets each message as a dict.")
+      .def("subscribe_numbers", &subscribe_numbers, py::arg("topic"), py::arg("message_type"), py::arg("fields"),
+           py::arg("target"), py::arg("refused"), py::arg("queue_size"),
+           "Subscribe; a NumberTarget gets the numbers of these fields, such as 'linear.x', of each message, without "
+           "Python; `refused` gets those that it cannot use.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
-           "Convert and send a dict; do nothing without subscribers. Return None, or [(field, value)] of the floats "
-           "that lost more than a thousandth in integer fields.")
+           "Convert and send a dict or a ReadingMessage; do nothing without subscribers. Return None, or [(field, "
+           "value)] of the floats of a dict that lost more than a thousandth in integer fields.")
       .def("check", &check, py::arg("publisher"), py::arg("message"),
-           "Convert a dict without sending it; return what publish() returns.")
+           "Convert a message without sending it; return what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
            "Return whether publish() would send anything: the topic has subscribers or is latched.")
       .def("yield_topic", &Bridge::yield_topic, py::arg("endpoint"), without_gil,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "attached.hpp"
@@ -12,6 +13,7 @@
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
+#include "number_target.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -47,6 +49,11 @@ void bind_timed_efforts(py::module_& module) {
 }
 
 void bind_joint_ramps(py::module_& module) {
+  py::class_<NumberTarget>(module, "NumberTarget", "Takes the numbers of messages; see Bridge.subscribe_numbers().")
+      .def(
+          "__call__",
+          [](const NumberTarget& target, const std::vector<double>& numbers) { return target.take(numbers); },
+          py::arg("numbers"), "Take numbers; return whether they were usable.");
   using Ramps = Attached<JointRamps>;
   using Output = std::tuple<ObjectId, MotorMode, std::vector<double>>;
   py::class_<Ramps> ramps(module, "JointRamps", "Targets of joints that follow inputs at limited rates.");
@@ -67,6 +74,24 @@ void bind_joint_ramps(py::module_& module) {
       .def(
           "set_targets", [](Ramps& r, std::vector<double> targets) { r.device->set_targets(std::move(targets)); },
           py::arg("targets"), "Set the targets of the inputs.")
+      .def(
+          "commands",
+          [](Ramps& r, const std::vector<std::pair<std::vector<double>, double>>& rows, double most) {
+            CommandMix mix{{}, most};
+            for (const auto& [factors, divisor] : rows) mix.rows.push_back({factors, divisor});
+            return NumberTarget{[&world = r.world, device = r.device, mix = std::move(mix)](const auto& commands) {
+              std::optional<std::vector<double>> targets = mix.inputs(commands);
+              if (!targets) return false;
+              const AccessLock::Hold hold(world.access());
+              device->set_targets(std::move(*targets));
+              return true;
+            }};
+          },
+          py::arg("rows"), py::arg("most"), py::keep_alive<0, 1>(),
+          R"(Return a NumberTarget that sets the targets from commands.
+
+:param rows: for each input the factors of the commands, and a divisor of their sum.
+:param most: larger commands are not usable; larger inputs are scaled down together.)")
       .def(
           "stop", [](Ramps& r) { r.device->stop(); }, "Set inputs and targets to zero, without commanding the joints.")
       .def("remove", &Ramps::remove, "Remove it from the world.");

@@ -10,6 +10,7 @@
 #include "bubblesim/messages/registry.hpp"
 #include "message_codec.hpp"
 #include "message_lookup.hpp"
+#include "reading_message.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -20,13 +21,13 @@ using messages::ServiceType;
 
 py::bytes encode_to_bytes(const std::string& name, const py::object& message) {
   messages::WireBuffer out;
-  encode(listed_message(name), message.ptr(), out);
+  encode_any(listed_message(name), message, out);
   return {reinterpret_cast<const char*>(out.data()), out.size()};
 }
 
 py::object truncations(const std::string& name, const py::object& message) {
   messages::WireBuffer out;
-  return to_python(encode(listed_message(name), message.ptr(), out));
+  return to_python(encode_any(listed_message(name), message, out));
 }
 
 py::object decode_buffer(const std::string& name, const py::buffer& data, TimeForm time) {
@@ -63,22 +64,9 @@ py::dict constants(const std::string& name) {
   return values;
 }
 
-/// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]".
-std::string spelling(const messages::Field& field) {
-  std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
-  switch (field.array) {
-    case messages::ArrayKind::kFixed:
-      return base + "[" + std::to_string(field.fixed_length) + "]";
-    case messages::ArrayKind::kVariable:
-      return base + "[]";
-    default:
-      return base;
-  }
-}
-
 py::dict fields(const std::string& name) {
   py::dict types;
-  for (const auto& field : listed_message(name).fields) types[py::str(field.name)] = spelling(field);
+  for (const auto& field : listed_message(name).fields) types[py::str(field.name)] = type_text(field);
   return types;
 }
 
@@ -95,9 +83,9 @@ void bind_messages(py::module_& core) {
       .value("SEC_NANOSEC", TimeForm::kSecNanosec, "{'sec': int, 'nanosec': int}")
       .value("FLOAT", TimeForm::kFloat, "seconds; a double cannot hold today's date in nanoseconds");
 
-  m.def(
-      "encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
-      "Encode a dict to wire bytes. Missing fields get their default; a value that does not fit raises MessageError.");
+  m.def("encode", &encode_to_bytes, py::arg("type_name"), py::arg("message"),
+        "Encode a dict or a ReadingMessage to wire bytes. Missing fields get their default; a value that does not fit "
+        "raises MessageError.");
   m.def("truncations", &truncations, py::arg("type_name"), py::arg("message"),
         "Like encode(), but return None, or [(field, value)] of the floats that lost more than a thousandth in integer "
         "fields.");

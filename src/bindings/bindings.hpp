@@ -25,6 +25,7 @@ void bind_scene_elements(pybind11::module_& core);
 void bind_scene_view(pybind11::module_& core);
 void bind_devices(pybind11::module_& core);
 void bind_forces(pybind11::module_& core);
+void bind_reading_messages(pybind11::module_& core);
 void bind_readings(pybind11::module_& core);
 void bind_sensors(pybind11::module_& core);
 void bind_sensor_kinds(pybind11::module_& core);

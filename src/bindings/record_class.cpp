@@ -218,9 +218,15 @@ py::object to_python(std::shared_ptr<const Reading> reading) {
   return make_object(*measurement.table(), std::move(reading), measurement.data());
 }
 
-const void* record_of(const py::handle& object, const MemberTable& table) {
+bool is_record_of(const py::handle& object, const MemberTable& table) {
   const py::object type = class_of(table);
-  if (PyObject_TypeCheck(object.ptr(), reinterpret_cast<PyTypeObject*>(type.ptr())) == 0) {
+  return PyObject_TypeCheck(object.ptr(), reinterpret_cast<PyTypeObject*>(type.ptr())) != 0;
+}
+
+std::shared_ptr<const Reading> reading_of(const py::handle& object) { return of(object.ptr()).reading; }
+
+const void* record_of(const py::handle& object, const MemberTable& table) {
+  if (!is_record_of(object, table)) {
     throw py::type_error("this is a " + std::string(Py_TYPE(object.ptr())->tp_name) + ", not a " + table.name);
   }
   return of(object.ptr()).record;

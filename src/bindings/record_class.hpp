@@ -21,6 +21,11 @@ pybind11::object class_of(const MemberTable& table);
 /// A reading as an object of its class. It and its arrays keep the reading unchanged while they exist.
 pybind11::object to_python(std::shared_ptr<const Reading> reading);
 
+bool is_record_of(const pybind11::handle& object, const MemberTable& table);
+
+/// The reading that an object of one of these classes belongs to.
+std::shared_ptr<const Reading> reading_of(const pybind11::handle& object);
+
 /// The struct of an object of its class. Throws TypeError for another object.
 const void* record_of(const pybind11::handle& object, const MemberTable& table);
 

@@ -40,6 +40,18 @@ std::uint32_t wire_size(FieldKind kind) { return kKinds[static_cast<std::size_t>
 
 std::string_view kind_name(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
 
+std::string type_text(const Field& field) {
+  const std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
+  switch (field.array) {
+    case ArrayKind::kFixed:
+      return base + "[" + std::to_string(field.fixed_length) + "]";
+    case ArrayKind::kVariable:
+      return base + "[]";
+    default:
+      return base;
+  }
+}
+
 FieldKind kind_of(std::string_view name) {
   const auto found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindRow& row) { return row.name == name; });
   if (found == kKinds.end()) throw std::invalid_argument("'" + std::string(name) + "' is not a kind of field");

@@ -57,40 +57,6 @@ NumpyKind numpy_kind(FieldKind kind) {
   }
 }
 
-/// Calls `action` with a value of the C++ type for a kind of numbers.
-template <class Action>
-bool with_type(FieldKind kind, Action action) {
-  switch (kind) {
-    case FieldKind::kBool:
-      return action(bool{});
-    case FieldKind::kInt8:
-      return action(std::int8_t{});
-    case FieldKind::kUint8:
-      return action(std::uint8_t{});
-    case FieldKind::kInt16:
-      return action(std::int16_t{});
-    case FieldKind::kUint16:
-      return action(std::uint16_t{});
-    case FieldKind::kInt32:
-      return action(std::int32_t{});
-    case FieldKind::kUint32:
-      return action(std::uint32_t{});
-    case FieldKind::kInt64:
-      return action(std::int64_t{});
-    case FieldKind::kUint64:
-      return action(std::uint64_t{});
-    case FieldKind::kFloat32:
-      return action(float{});
-    default:
-      return action(double{});
-  }
-}
-
-std::string array_name(const Field& field) {
-  return (field.message != nullptr ? field.message->name : std::string(kind_name(field.kind))) + "[" +
-         (field.array == ArrayKind::kFixed ? std::to_string(field.fixed_length) : "") + "]";
-}
-
 bool encode_bytes(const Field& field, std::string_view bytes, WireBuffer& out, ConversionFailure& failure) {
   if (!begin_array(field, bytes.size(), out, failure)) return false;
   out.put_bytes(bytes.data(), bytes.size());
@@ -101,7 +67,7 @@ bool encode_bytes(const Field& field, std::string_view bytes, WireBuffer& out, C
 bool encode_text(const Field& field, PyObject* text, WireBuffer& out, ConversionFailure& failure) {
   const Ref bytes = Ref::steal(PyUnicode_AsLatin1String(text));
   if (!bytes) {
-    return clear_conversion_error() && failure.expected(array_name(field) + " or str of characters below 256", text);
+    return clear_conversion_error() && failure.expected(type_text(field) + " or str of characters below 256", text);
   }
   const auto size = static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.get()));
   return encode_bytes(field, {PyBytes_AS_STRING(bytes.get()), size}, out, failure);
@@ -152,7 +118,7 @@ bool encode_converted(const Field& field, PyArrayObject* array, int wide_type, W
 
 bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, ConversionFailure& failure) {
   PyObject* object = reinterpret_cast<PyObject*>(array);
-  if (PyArray_NDIM(array) == 0) return failure.expected(array_name(field), object);
+  if (PyArray_NDIM(array) == 0) return failure.expected(type_text(field), object);
   const PyArray_Descr* dtype = PyArray_DESCR(array);
   const bool same_type = dtype->kind == numpy_kind(field.kind).kind &&
                          PyArray_ITEMSIZE(array) == static_cast<npy_intp>(wire_size(field.kind)) &&
@@ -166,7 +132,7 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
     out.put_bytes(PyArray_DATA(source), static_cast<std::size_t>(PyArray_NBYTES(source)));
     return true;
   }
-  return with_type(field.kind, [&](auto element) {
+  return messages::with_number(field.kind, [&](auto element) {
     using To = decltype(element);
     switch (dtype->kind) {
       case 'b':
@@ -181,7 +147,7 @@ bool encode_array(const Field& field, PyArrayObject* array, WireBuffer& out, Con
         return items && encode_items<To>(field, items.get(), out, failure);
       }
       default:
-        return failure.set("expected " + array_name(field) + ", found numpy array of dtype kind '" + dtype->kind + "'");
+        return failure.set("expected " + type_text(field) + ", found numpy array of dtype kind '" + dtype->kind + "'");
     }
   });
 }
@@ -220,11 +186,11 @@ Ref as_items(const Field& field, PyObject* value, ConversionFailure& failure) {
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
   const bool is_empty_table = PyDict_Check(value) && PyDict_GET_SIZE(value) == 0;  // from Lua, without lists
   if (is_text || (!PySequence_Check(value) && !is_empty_table)) {
-    failure.expected(array_name(field) + " as a sequence", value);
+    failure.expected(type_text(field) + " as a sequence", value);
     return {};
   }
   PyObject* items = PySequence_Fast(value, "not iterable");
-  if (items == nullptr && clear_conversion_error()) failure.expected(array_name(field) + " as a sequence", value);
+  if (items == nullptr && clear_conversion_error()) failure.expected(type_text(field) + " as a sequence", value);
   return Ref::steal(items);
 }
 
@@ -241,11 +207,11 @@ bool encode_numbers(const Field& field, PyObject* value, WireBuffer& out, Conver
   const bool is_text = PyUnicode_Check(value) || PyBytes_Check(value) || PyByteArray_Check(value);
   if (!is_text && PyObject_CheckBuffer(value)) {
     const Ref array = Ref::steal(PyArray_FROM_O(value));
-    if (!array) return clear_conversion_error() && failure.expected(array_name(field), value);
+    if (!array) return clear_conversion_error() && failure.expected(type_text(field), value);
     return encode_array(field, reinterpret_cast<PyArrayObject*>(array.get()), out, failure);
   }
   const Ref items = as_items(field, value, failure);
-  return items && with_type(field.kind, [&](auto element) {
+  return items && messages::with_number(field.kind, [&](auto element) {
            return encode_items<decltype(element)>(field, items.get(), out, failure);
          });
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "bubblesim/messages/message_type.hpp"
+#include "bubblesim/messages/numbers.hpp"
 #include "bubblesim/messages/wire.hpp"
 #include "conversion_failure.hpp"
 #include "python_ref.hpp"
@@ -15,10 +16,6 @@ namespace bubblesim::bindings {
 
 /// Loads NumPy's C interface. False: an exception is set.
 bool load_numpy();
-
-inline bool is_number(messages::FieldKind kind) {
-  return kind <= messages::FieldKind::kFloat64 && kind != messages::FieldKind::kString;
-}
 
 /// Writes the count of a variable array or checks that of a fixed one. False: `failure` has the reason.
 bool begin_array(const messages::Field& field, std::size_t count, messages::WireBuffer& out,

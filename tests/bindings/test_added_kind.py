@@ -25,7 +25,7 @@ import numpy as np
 
 import bubblesim
 from bubblesim import _core
-from bubblesim.sensor_kinds import page
+from bubblesim.scene_files.sensor_kinds import page
 from message_support import codec
 
 library, scene = sys.argv[1:]

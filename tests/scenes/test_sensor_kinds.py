@@ -8,13 +8,13 @@ from pathlib import Path
 from bubblesim._core import sensor_kinds
 
 import bubblesim
-from bubblesim.sensor_kinds import page
+from bubblesim.scene_files.sensor_kinds import page
 
 PAGE = Path(__file__).parents[2] / "docs/sensor_kinds.md"
 
 
 def test_the_page_is_that_of_the_kinds() -> None:
-    assert PAGE.read_text() == page(), "renew it: python -m bubblesim.sensor_kinds > docs/sensor_kinds.md"
+    assert PAGE.read_text() == page(), "renew it: python -m bubblesim.scene_files.sensor_kinds > docs/sensor_kinds.md"
 
 
 def test_each_kind_has_a_class_in_the_package() -> None:

@@ -83,6 +83,9 @@ std::size_t default_element_size(const Field& field);
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);
 
+/// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]", "string[]".
+std::string type_text(const Field& field);
+
 /// The kind with that spelling; std::invalid_argument for an unknown spelling.
 FieldKind kind_of(std::string_view name);
 

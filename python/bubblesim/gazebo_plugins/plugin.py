@@ -10,10 +10,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bubblesim import _core
+from bubblesim._core.reading_messages import Clock, Header
 from bubblesim.gazebo_plugins.parameters import Parameters
 from bubblesim.gazebo_plugins.transforms import Transforms, is_needed
 from bubblesim.messages.names import did_you_mean, nearest_names
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 Message = dict[str, Any]
 FASTEST = 1e6  # rad/s or m/s: limit of the physics
@@ -25,12 +26,11 @@ class StepTime:
     def __init__(self, bridge: Any) -> None:
         """Read the time from this bridge."""
         self._bridge = bridge
-        self.stamp: Message = {}
+        self.clock = Clock()
 
     def begin_step(self) -> None:
         """Set the stamp to the current time."""
-        secs, nsecs = self._bridge.now()
-        self.stamp = {"secs": secs, "nsecs": nsecs}
+        self.clock.set(*self._bridge.now())
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,7 @@ class Plugin:
         self.bridge = context.bridge
         self.namespace = ""
         self._warned = False
+        self._headers: dict[str, Any] = {}  # by frame
 
     def actuate(self) -> None:
         """Command joints, before the physics."""
@@ -129,6 +130,19 @@ class Plugin:
         subscriber = self.bridge.subscribe(name, message_type, deliver, 1, _core.messages.TimeForm.FLOAT)
         self.context.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
 
+    def subscribe_numbers(self, topic: str, message_type: str, fields: Sequence[str], target: Any) -> None:
+        """Subscribe until the plugin is closed; ``target`` gets numbers of the newest message of each step.
+
+        :param fields: such as ``linear.x``.
+        :param target: a NumberTarget; what it cannot use is ignored with a warning.
+        """
+        if self.bridge is None:
+            return
+        what = message_type.rpartition("/")[2]
+        arguments = self.topic(topic), message_type, fields, target, lambda numbers: self.usable(what, numbers), 1
+        subscriber = self.bridge.subscribe_numbers(*arguments)
+        self.context.endpoints.append(lambda: self.bridge.shutdown_subscriber(subscriber))
+
     def advertise_service(self, service: str, service_type: str, answer: Callable[[Message], Message | None]) -> None:
         """Advertise a service by its full name until the plugin is closed."""
         server = self.bridge.advertise_service(service, service_type, answer, _core.messages.TimeForm.FLOAT)
@@ -138,9 +152,12 @@ class Plugin:
         """Return whether the topic has subscribers or is recorded to a bag."""
         return is_needed(self.bridge, publisher)
 
-    def header(self, frame: str) -> Message:
-        """Return a std_msgs/Header of this step."""
-        return {"stamp": self.context.step_time.stamp, "frame_id": frame}
+    def header(self, frame: str) -> Any:
+        """Return the Header of a message of this step, for the functions of ``_core.reading_messages``."""
+        found = self._headers.get(frame)
+        if found is None:
+            found = self._headers[frame] = Header(self.context.step_time.clock, frame)
+        return found
 
     def joint(self, parameter: str, default: str) -> int:
         """Return the handle of the joint named by a parameter."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from bubblesim.ros_messages import transform
+from bubblesim._core.reading_messages import Transform, transforms
 
 _QUEUE_SIZE = 100
 
@@ -23,18 +23,17 @@ class Transforms:
         """Use this bridge."""
         self._bridge = bridge
         self._publisher: int | None = None
-        self._waiting: list[dict[str, Any]] = []
+        self._waiting: list[Any] = []
 
-    def add(self, header: dict[str, Any], child: str, pose: Sequence[float]) -> None:
+    def add(self, header: Any, child: str, pose: Sequence[float]) -> None:
         """Add the pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
         if self._publisher is None:
             self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
-        if not is_needed(self._bridge, self._publisher):
-            return
-        self._waiting.append(transform(header["stamp"], header["frame_id"], child, pose))
+        if is_needed(self._bridge, self._publisher):
+            self._waiting.append(Transform(header, child, pose))
 
     def publish(self) -> None:
         """Publish the transforms of this step."""
         if self._waiting:
-            self._bridge.publish(self._publisher, {"transforms": self._waiting})
+            self._bridge.publish(self._publisher, transforms(self._waiting))
             self._waiting = []

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import reduce
+from operator import getitem
 from typing import Any, Protocol
 
+from bubblesim._core.messages import TimeForm
 from bubblesim.observers.lock_step import LockStep
 
 
@@ -89,3 +92,21 @@ class ObservedBridge:
         for observer in self.observers:
             observer.subscribed(topic, subscriber)
         return subscriber
+
+    def subscribe_numbers(
+        self,
+        topic: str,
+        message_type: str,
+        fields: Sequence[str],
+        target: Callable[[list[float]], bool],
+        refused: Callable[[list[float]], object],
+        queue_size: int,
+    ) -> int:
+        """Subscribe, and notify the observers of whole messages."""
+
+        def take(message: Any) -> None:
+            numbers = [float(reduce(getitem, field.split("."), message)) for field in fields]
+            if not target(numbers):
+                refused(numbers)
+
+        return self.subscribe(topic, message_type, take, queue_size, TimeForm.FLOAT)

@@ -17,8 +17,8 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "status/counting_queue.hpp"
-#include "topics/callback_guard.hpp"
+#include "callbacks/callback_guard.hpp"
+#include "callbacks/counting_queue.hpp"
 
 namespace bubblesim {
 
@@ -30,7 +30,9 @@ class PublisherEndpoint {
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
-  bool wants_messages() const { return latch_ || has_subscribers(); }
+  bool wants_messages() const { return !aside_ && (latch_ || has_subscribers()); }
+  /// While it is aside, it publishes nothing.
+  void set_aside(bool aside) { aside_ = aside; }
   /// Number of connected subscribers, including one of this node itself.
   std::size_t subscribers() const;
   void publish(messages::WireBuffer message);
@@ -50,6 +52,7 @@ class PublisherEndpoint {
   const std::string topic_;
   const messages::MessageType& type_;
   const std::uint32_t queue_size_;
+  bool aside_ = false;
   const std::shared_ptr<Latch> latch_;  // null if not latched; shared with roscpp's network thread
   ros::SubscriberCallbacksPtr callbacks_;
   ros::PublicationPtr publication_;  // set by the master thread, then announced by registered_
@@ -67,6 +70,8 @@ class SubscriberEndpoint {
   const messages::MessageType& type() const { return type_; }
   /// Number of pending messages.
   WaitingCount waiting() const;
+  /// While it is aside, it delivers nothing.
+  void set_aside(bool aside);
   /// Stops calls of the callback and destroys it, at once or when a running call returns.
   void silence();
 

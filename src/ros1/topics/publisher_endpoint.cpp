@@ -52,7 +52,9 @@ PublisherEndpoint::PublisherEndpoint(std::string topic, const MessageType& type,
       latch_(latch ? std::make_shared<Latch>() : nullptr) {}
 
 std::shared_ptr<PublisherEndpoint> PublisherEndpoint::unregistered_copy() const {
-  return std::make_shared<PublisherEndpoint>(topic_, type_, queue_size_, latch_ != nullptr);
+  auto copy = std::make_shared<PublisherEndpoint>(topic_, type_, queue_size_, latch_ != nullptr);
+  copy->set_aside(aside_);
+  return copy;
 }
 
 bool PublisherEndpoint::has_subscribers() const {

@@ -33,12 +33,13 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
 
   // Callbacks of scripts must be destroyed on the simulation thread, while roscpp may release this object on any other.
   void silence() { callback_.reset(); }
+  void set_aside(bool aside) { aside_ = aside; }
 
   /// Passes the bytes in roscpp's buffer, which exists during this call: avoids a copy of large messages. It runs where
   /// roscpp would call the callback just after.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
     const std::shared_ptr<messages::MessageCallback> callback = callback_;  // the callback may call silence()
-    if (callback) guard_.run([&] { (*callback)(messages::WireView(params.buffer, params.length)); });
+    if (callback && !aside_) guard_.run([&] { (*callback)(messages::WireView(params.buffer, params.length)); });
     return nullptr;
   }
 
@@ -53,6 +54,7 @@ class SubscriberEndpoint::Receiver final : public ros::SubscriptionCallbackHelpe
 
  private:
   std::shared_ptr<messages::MessageCallback> callback_;
+  bool aside_ = false;
   const bool has_header_;
   CallbackGuard& guard_;
   const OwnType type_;
@@ -68,6 +70,8 @@ SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::Messag
       receiver_(boost::make_shared<Receiver>(std::move(callback), type.has_header, queue, guard)) {}
 
 WaitingCount SubscriberEndpoint::waiting() const { return receiver_->queue.waiting(); }
+
+void SubscriberEndpoint::set_aside(bool aside) { receiver_->set_aside(aside); }
 
 void SubscriberEndpoint::silence() { receiver_->silence(); }
 

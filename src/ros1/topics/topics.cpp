@@ -35,7 +35,7 @@ void check_same_type(const std::string& topic, const MessageType& type, const ch
 void Topics::check_type_on(const std::string& topic, const MessageType& type) const {
   const auto check = [&](const auto& endpoints, const char* done) {
     for (const auto& [id, other] : endpoints) {
-      if (other->topic() == topic && giving_way_.count(id) == 0) check_same_type(topic, type, done, other->type());
+      if (other->topic() == topic && yielding_.count(id) == 0) check_same_type(topic, type, done, other->type());
     }
   };
   check(publishers_, "advertised");
@@ -54,26 +54,18 @@ void Topics::advertise(EndpointId id, const std::string& topic, const MessageTyp
 void Topics::subscribe(EndpointId id, const std::string& topic, const MessageType& type, std::uint32_t queue_size,
                        messages::MessageCallback callback, bool tcp_no_delay) {
   check_type_on(topic, type);
-  auto deliver = [this, id, callback = std::move(callback)](messages::WireView message) {
-    if (!is_aside(id)) callback(message);
-  };
   const auto subscriber =
-      std::make_shared<SubscriberEndpoint>(topic, type, queue_size, std::move(deliver), tcp_no_delay, queue_, guard_);
+      std::make_shared<SubscriberEndpoint>(topic, type, queue_size, std::move(callback), tcp_no_delay, queue_, guard_);
   subscribers_.emplace(id, subscriber);
   settle(topic);
   put_on(subscriber);
 }
 
 void Topics::yield_topic(EndpointId id) {
-  giving_way_.try_emplace(id);
+  yielding_.try_emplace(id);
   const auto publisher = publishers_.find(id);
   settle(publisher != publishers_.end() ? publisher->second->topic()
                                         : find_endpoint(subscribers_, id, "subscriber")->second->topic());
-}
-
-bool Topics::is_aside(EndpointId id) const {
-  const auto found = giving_way_.find(id);
-  return found != giving_way_.end() && found->second.aside;
 }
 
 template <class Endpoint>
@@ -81,7 +73,7 @@ bool Topics::has_script(const EndpointTable<Endpoint>& endpoints, const std::str
                         const MessageType* other_than) const {
   return std::any_of(endpoints.begin(), endpoints.end(), [&](const auto& entry) {
     const auto& [id, endpoint] = entry;
-    if (endpoint->topic() != topic || giving_way_.count(id) != 0) return false;
+    if (endpoint->topic() != topic || yielding_.count(id) != 0) return false;
     return other_than == nullptr || endpoint->type().md5 != other_than->md5;
   });
 }
@@ -94,14 +86,14 @@ void Topics::settle(const std::string& topic) {
 
 template <class Endpoint>
 void Topics::settle(EndpointTable<Endpoint>& own_kind, const std::string& topic) {
-  for (auto& [id, standing] : giving_way_) {
+  for (auto& [id, was_off] : yielding_) {
     const auto found = own_kind.find(id);
     if (found == own_kind.end() || found->second->topic() != topic) continue;
     const MessageType& type = found->second->type();
     const bool off = has_script(publishers_, topic, &type) || has_script(subscribers_, topic, &type);
-    standing.aside = off || has_script(own_kind, topic, nullptr);
+    found->second->set_aside(off || has_script(own_kind, topic, nullptr));
     // With an equal type the endpoint stays registered, and keeps its connections to other nodes.
-    if (off == std::exchange(standing.off, off)) continue;
+    if (off == std::exchange(was_off, off)) continue;
     if (off) {
       take_off(found->second);
     } else {
@@ -136,8 +128,7 @@ void Topics::take_off(std::shared_ptr<SubscriberEndpoint> subscriber) {
 }
 
 bool Topics::wants_messages(EndpointId publisher) const {
-  const auto found = find_endpoint(publishers_, publisher, "publisher");
-  return !is_aside(publisher) && found->second->wants_messages();
+  return find_endpoint(publishers_, publisher, "publisher")->second->wants_messages();
 }
 
 bool Topics::has_publisher(EndpointId subscriber) const {
@@ -159,20 +150,19 @@ const MessageType& Topics::type(EndpointId id) const {
 }
 
 void Topics::publish(EndpointId publisher, messages::WireBuffer message) {
-  const auto found = find_endpoint(publishers_, publisher, "publisher");
-  if (!is_aside(publisher)) found->second->publish(std::move(message));
+  find_endpoint(publishers_, publisher, "publisher")->second->publish(std::move(message));
 }
 
-Topics::Standing Topics::forget_standing(EndpointId id) {
-  const auto node = giving_way_.extract(id);
-  return node ? node.mapped() : Standing();
+bool Topics::forget_yielding(EndpointId id) {
+  const auto node = yielding_.extract(id);
+  return node && node.mapped();
 }
 
 void Topics::shutdown_publisher(EndpointId publisher) {
   const auto found = find_endpoint(publishers_, publisher, "publisher");
   const std::shared_ptr<PublisherEndpoint> gone = std::move(found->second);
   publishers_.erase(found);
-  if (!forget_standing(publisher).off) take_off(gone);
+  if (!forget_yielding(publisher)) take_off(gone);
   settle(gone->topic());
 }
 
@@ -181,7 +171,7 @@ void Topics::shutdown_subscriber(EndpointId subscriber) {
   const std::shared_ptr<SubscriberEndpoint> gone = std::move(found->second);
   subscribers_.erase(found);
   gone->silence();
-  if (!forget_standing(subscriber).off) take_off(gone);
+  if (!forget_yielding(subscriber)) take_off(gone);
   settle(gone->topic());
 }
 

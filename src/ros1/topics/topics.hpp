@@ -9,8 +9,8 @@
 #include <unordered_map>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "callbacks/callback_guard.hpp"
 #include "peers/publisher_check.hpp"
-#include "topics/callback_guard.hpp"
 #include "topics/endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 
@@ -51,14 +51,8 @@ class Topics {
   void silence();
 
  private:
-  /// State of an endpoint that yields its topic.
-  struct Standing {
-    bool aside = false;  ///< neither sends nor delivers
-    bool off = false;    ///< also not registered, because the topic currently has another type
-  };
-
-  bool is_aside(messages::EndpointId id) const;
-  Standing forget_standing(messages::EndpointId id);
+  /// Returns whether it was off.
+  bool forget_yielding(messages::EndpointId id);
   void check_type_on(const std::string& topic, const messages::MessageType& type) const;
   void settle(const std::string& topic);
   template <class Endpoint>
@@ -77,7 +71,8 @@ class Topics {
   CallbackGuard& guard_;
   EndpointTable<PublisherEndpoint> publishers_;
   EndpointTable<SubscriberEndpoint> subscribers_;
-  std::unordered_map<messages::EndpointId, Standing> giving_way_;
+  /// The endpoints that yield, and whether each is off: not registered, because its topic currently has another type.
+  std::unordered_map<messages::EndpointId, bool> yielding_;
   std::set<std::shared_ptr<SubscriberEndpoint>> registered_;  // of the master thread
 };
 

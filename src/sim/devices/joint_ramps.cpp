@@ -69,4 +69,21 @@ void JointRamps::transfer(StateArchive& archive) {
   archive(changing_);
 }
 
+std::optional<std::vector<double>> CommandMix::inputs(const std::vector<double>& commands) const {
+  const auto usable = [this](double command) { return std::abs(command) <= most; };  // NaN is not
+  if (!std::all_of(commands.begin(), commands.end(), usable)) return std::nullopt;
+  std::vector<double> inputs;
+  double largest = 0;
+  for (const Row& row : rows) {
+    if (row.factors.size() != commands.size()) return std::nullopt;
+    const double sum = std::inner_product(commands.begin(), commands.end(), row.factors.begin(), 0.0);
+    inputs.push_back(sum / row.divisor);
+    largest = std::max(largest, std::abs(inputs.back()));
+  }
+  if (largest > most) {
+    for (double& input : inputs) input *= most / largest;
+  }
+  return inputs;
+}
+
 }  // namespace bubblesim

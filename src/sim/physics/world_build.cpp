@@ -44,7 +44,7 @@ dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pos
 
    private:
     dGeomID surface() const {
-      if (!mesh->parts.empty()) return create_convex(mesh->parts);
+      if (!mesh->parts.empty()) return create_convex(*mesh);
       return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
     }
   };

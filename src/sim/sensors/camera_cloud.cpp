@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point clouds of cameras, in one pass over depths and colours.
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -31,7 +33,7 @@ struct Row {
 };
 
 /// Returns the number of points that are NaN.
-BUBBLESIM_SIMD std::size_t fill_row(const Row& row, float least, float most, bool optical, float* points) {
+BUBBLESIM_SIMD std::size_t fill_row(const Row& row, float least, float most, bool optical, std::uint8_t* points) {
   std::size_t missing = 0;
   for (std::size_t i = 0; i < row.width; ++i) {
     const float measured = row.depths[i];
@@ -45,20 +47,16 @@ BUBBLESIM_SIMD std::size_t fill_row(const Row& row, float least, float most, boo
       const std::uint8_t* rgb = row.rgb + 3 * i;
       color = static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
     }
-    float* point = points + kCloudFloats * i;
-    point[0] = optical ? right : depth;
-    point[1] = optical ? down : -right;
-    point[2] = optical ? depth : -down;
-    point[3] = 0;
+    std::array<float, kCloudFloats> point{optical ? right : depth, optical ? down : -right, optical ? depth : -down};
     std::memcpy(&point[4], &color, sizeof color);  // the lowest byte first, as on all machines that run ROS
-    point[5] = point[6] = point[7] = 0;
+    std::memcpy(points + sizeof point * i, point.data(), sizeof point);
   }
   return missing;
 }
 
 }  // namespace
 
-bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, float* points) {
+bool to_point_cloud(const CameraImage& image, double least, double most, CloudAxes axes, std::uint8_t* points) {
   const double pixel = std::tan(image.horizontal_fov / 2) * 2 / image.width;
   const std::vector<float> across = offsets(image.width, pixel);
   const std::vector<float> down = offsets(image.height, pixel);
@@ -73,7 +71,7 @@ bool to_point_cloud(const CameraImage& image, double least, double most, CloudAx
       const Row pixels{&image.depth[first], image.rgb.empty() ? nullptr : &image.rgb[3 * first], across.data(),
                        down[row], width};
       found += fill_row(pixels, static_cast<float>(least), static_cast<float>(most), axes == CloudAxes::kOptical,
-                        points + kCloudFloats * first);
+                        points + kCloudFloats * sizeof(float) * first);
     }
     missing += found;
   });

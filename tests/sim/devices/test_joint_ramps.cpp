@@ -2,7 +2,9 @@
 // Targets of joints that follow commands at limited rates.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/joint_ramps.hpp"
@@ -101,6 +103,22 @@ TEST_F(Ramps, InvalidNumbersAreRefused) {
   EXPECT_THROW(JointRamps({kNaN}, {}), InvalidInput);
   EXPECT_THROW(JointRamps({1}, {{hinge, MotorMode::kVelocity, {1, 1}}}), InvalidInput);
   EXPECT_THROW(JointRamps({1}, {{hinge, MotorMode::kVelocity, {kNaN}}}), InvalidInput);
+}
+
+/// Left and right wheel of 0.5 m radius, 2 m apart; of forward and turning velocity.
+const CommandMix kWheels{{{{1, -1}, 0.5}, {{1, 1}, 0.5}}, 100};
+
+TEST(CommandMix, GivesTheSpeedsOfWheels) { EXPECT_EQ(*kWheels.inputs({3, 1}), (std::vector<double>{4, 8})); }
+
+TEST(CommandMix, ScalesInputsDownTogether) { EXPECT_EQ(*kWheels.inputs({75, 25}), (std::vector<double>{50, 100})); }
+
+TEST(CommandMix, HasNoInputsForCommandsThatAreNotUsable) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& commands :
+       std::vector<std::vector<double>>{{kNaN, 0}, {0, kInfinity}, {101, 0}, {0, -101}, {1}, {1, 2, 3}}) {
+    EXPECT_FALSE(kWheels.inputs(commands)) << commands[0];
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ import math
 
 from bubblesim.gazebo_plugins.drives.ackermann_plugin import AckermannPlugin
 from bubblesim.gazebo_plugins.drives.ackermann_wheels import AckermannWheels
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, variances
 from bubblesim.gazebo_plugins.drives.wheels import wheel_radius
 from bubblesim.gazebo_plugins.plugin import Message, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
@@ -51,7 +51,7 @@ class AckermannDrive(AckermannPlugin):
             radius=radius,
         )
         self._rate = Rate(p.number("update_rate", 100.0, least=0.0), self.simulation)
-        variances = (p.number("covariance_x", 1e-5), p.number("covariance_y", 1e-5), p.number("covariance_yaw", 1e-3))
+        given = (p.number("covariance_x", 1e-5), p.number("covariance_y", 1e-5), p.number("covariance_yaw", 1e-3))
         publishes = p.flag("publish_odom", default=False)
         p.check()
         self._odometry = Odometry(
@@ -60,7 +60,7 @@ class AckermannDrive(AckermannPlugin):
             frame=p.text("odometry_frame", "odom"),
             base_frame=p.text("robot_base_frame", "base_footprint"),
             transform=p.flag("publish_odom_tf", default=False),
-            pose_covariance=covariance(*variances),
+            pose_variances=variances(*given),
         )
         self.subscribe("cmd_vel", "geometry_msgs/Twist", self._command)
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance
+from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, variances
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics
 from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
@@ -52,7 +52,7 @@ class DiffDrive(Plugin):
             frame=self.frame(p.text("odometryFrame", "odom")),
             base_frame=self.frame(p.text("robotBaseFrame", "base_footprint")),
             transform=p.flag("publishOdomTF", default=not is_of_ros2),
-            pose_covariance=covariance(1e-5, 1e-5, 1e-3),
+            pose_variances=variances(1e-5, 1e-5, 1e-3),
         )
         self._publishes_odometry = publishes_odometry
         self._wheels = WheelTopics(self, [joint for pair in zip(right, left, strict=True) for joint in pair])

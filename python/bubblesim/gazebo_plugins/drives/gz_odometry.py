@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, variances
 from bubblesim.gazebo_plugins.plugin import Plugin
 
 
@@ -17,5 +17,5 @@ def drive_odometry(plugin: Plugin) -> Odometry:
         frame=p.text("frame_id", f"{model}/odom"),
         base_frame=p.text("child_frame_id", f"{model}/base_link"),
         transform=True,
-        pose_covariance=covariance(1e-5, 1e-5, 1e-3),
+        pose_variances=variances(1e-5, 1e-5, 1e-3),
     )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, motion_in_world, variances
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
@@ -25,7 +25,7 @@ class GzOdometryPublisher(Plugin):
             frame=p.text("odom_frame", f"{model}/odom"),
             base_frame=p.text("robot_base_frame", f"{model}/base_footprint"),
             transform=True,
-            pose_covariance=covariance(0.0, 0.0, 0.0),
+            pose_variances=variances(0.0, 0.0, 0.0),
         )
 
     def reset(self) -> None:

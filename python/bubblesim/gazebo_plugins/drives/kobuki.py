@@ -3,22 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bubblesim._core import read_imu, read_lidar, read_sensor
+from bubblesim._core.reading_messages import imu, joint_state
 from bubblesim.controllers.differential_drive import DifferentialDrive
 from bubblesim.controllers.planar_motion import Pose2D, Velocity, moved
 from bubblesim.gazebo_plugins.drives.kobuki_events import SIDES, bumpers_pressed, cliff_reading
-from bubblesim.gazebo_plugins.drives.odometry import Motion, Odometry, covariance, motion_on_plane
+from bubblesim.gazebo_plugins.drives.odometry import Motion, Odometry, motion_on_plane, variances
 from bubblesim.gazebo_plugins.drives.two_sided_drive import STILL, TwoSidedDrive, WheelGroup
-from bubblesim.gazebo_plugins.drives.wheels import joint_states
 from bubblesim.gazebo_plugins.plugin import FASTEST, Message, Plugin, PluginContext
-from bubblesim.gazebo_plugins.sensors.imu import imu_message
-from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 _BASE = "mobile_base"  # namespace of the topics of the Kobuki's driver
-_ONLY_YAW = [1e6, 0.0, 0.0, 0.0, 1e6, 0.0, 0.0, 0.0, 0.05]  # variances: roll and pitch are unknown
+_ONLY_YAW = 1e6, 1e6, 0.05  # variances: roll and pitch are unknown
 
 
 class Kobuki(Plugin):
@@ -67,7 +63,7 @@ class Kobuki(Plugin):
             frame=self.frame("odom"),
             base_frame=self.frame("base_footprint"),
             transform=transform,
-            pose_covariance=covariance(0.1, 0.1, 0.05),
+            pose_variances=variances(0.1, 0.1, 0.05),
         )
         self._states = self.advertise("joint_states", "sensor_msgs/JointState", 1)
         if self._imu is not None:
@@ -116,11 +112,10 @@ class Kobuki(Plugin):
         """Publish states, and events of cliff sensors and bumpers."""
         self._odometry.publish(self._moved())
         if self.is_needed(self._states):
-            states = joint_states(self, self._joints)
-            self.bridge.publish(self._states, {**states, "header": self.header(self.frame("base_link"))})
+            states = joint_state(self.world, self.header(self.frame("base_link")), self._joints)
+            self.bridge.publish(self._states, states)
         if self._imu is not None and self.is_needed(self._imus) and (reading := self._turns.take()):
-            header = self.header(self.frame("base_link"))
-            self.bridge.publish(self._imus, {"header": header, **_imu_message(self, reading)})
+            self.bridge.publish(self._imus, imu(self.header(self.frame("base_link")), reading, _ONLY_YAW))
         if self._cliffs and self.is_needed(self._cliff_events):
             self._publish_cliffs()
         if self._bumper is not None and self.is_needed(self._bumper_events):
@@ -153,10 +148,3 @@ class Kobuki(Plugin):
                 self._pressed[side] = side in pressed
                 event = {"bumper": SIDES[side], "state": int(side in pressed)}
                 self.bridge.publish(self._bumper_events, event)
-
-
-def _imu_message(plugin: Plugin, reading: Any) -> Message:
-    vectors = reading.orientation, reading.angular_velocity, reading.linear_acceleration
-    orientation, angular, linear = (vector.tolist() for vector in vectors)
-    message = imu_message(orientation, angular, linear, Noise(plugin, 0.0))
-    return {**message, "orientation_covariance": _ONLY_YAW, "angular_velocity_covariance": _ONLY_YAW}

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from bubblesim._core.reading_messages import odometry
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
 from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.geometry.rotations import heading_of, quaternion_of_heading
-from bubblesim.ros_messages import pose_message
 
 UNKNOWN = 1e12  # variance of values that wheels cannot measure: height, roll and pitch
 SOURCES = {"encoder": "encoder", "world": "world", "0": "encoder", "1": "world"}
@@ -41,10 +41,9 @@ def motion_on_plane(pose: Pose2D, velocity: Velocity) -> Motion:
     return Motion([pose.x, pose.y, 0.0, *quaternion_of_heading(pose.heading)], velocity.linear, 0.0, velocity.angular)
 
 
-def covariance(x: float, y: float, yaw: float) -> list[float]:
-    """Return a covariance matrix with these variances; the others are UNKNOWN."""
-    variances = (x, y, UNKNOWN, UNKNOWN, UNKNOWN, yaw)
-    return [variance if row == column else 0.0 for row, variance in enumerate(variances) for column in range(6)]
+def variances(x: float, y: float, yaw: float) -> tuple[float, ...]:
+    """Return the variances of x, y, z, roll, pitch and yaw; those that are not given are UNKNOWN."""
+    return (x, y, UNKNOWN, UNKNOWN, UNKNOWN, yaw)
 
 
 class Odometry:
@@ -58,8 +57,8 @@ class Odometry:
         frame: str,
         base_frame: str,
         transform: bool,
-        pose_covariance: list[float],
-        twist_covariance: list[float] | None = None,
+        pose_variances: Sequence[float],
+        velocity_variances: Sequence[float] = (0.0,) * 6,
     ) -> None:
         """With ``topic`` None only the transform is published."""
         self._plugin = plugin
@@ -67,8 +66,7 @@ class Odometry:
         self._frame = frame
         self._base_frame = base_frame
         self._transform = transform
-        self._pose_covariance = pose_covariance
-        self._twist_covariance = twist_covariance or [0.0] * 36
+        self._variances = pose_variances, velocity_variances
 
     def publish(self, motion: Motion) -> None:
         """Publish the motion of this step."""
@@ -78,13 +76,6 @@ class Odometry:
             plugin.context.transforms.add(header, self._base_frame, motion.pose)
         if self._publisher is None or not plugin.is_needed(self._publisher):
             return
-        twist = {"linear": {"x": motion.forward, "y": motion.leftward}, "angular": {"z": motion.turning}}
-        plugin.bridge.publish(
-            self._publisher,
-            {
-                "header": header,
-                "child_frame_id": self._base_frame,
-                "pose": {"pose": pose_message(motion.pose), "covariance": self._pose_covariance},
-                "twist": {"twist": twist, "covariance": self._twist_covariance},
-            },
-        )
+        velocity = (motion.forward, motion.leftward, 0.0), (0.0, 0.0, motion.turning)
+        message = odometry(header, self._base_frame, motion.pose, *velocity, *self._variances)
+        plugin.bridge.publish(self._publisher, message)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim._core import PlanarDrive
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance, motion_in_world
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, motion_in_world, variances
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
@@ -27,8 +27,8 @@ class PlanarMove(Plugin):
             frame=p.text("odometryFrame", "odom"),
             base_frame=p.text("robotBaseFrame", "base_footprint"),
             transform=True,
-            pose_covariance=covariance(1e-5, 1e-5, 1e-3),
-            twist_covariance=covariance(1e-5, 1e-5, 1e-3),
+            pose_variances=variances(1e-5, 1e-5, 1e-3),
+            velocity_variances=variances(1e-5, 1e-5, 1e-3),
         )
         self._drive = PlanarDrive(self.world, context.model)
         context.endpoints.append(self._drive.remove)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.controllers.differential_drive import DifferentialDrive
-from bubblesim.gazebo_plugins.drives.odometry import Odometry, covariance
+from bubblesim.gazebo_plugins.drives.odometry import Odometry, variances
 from bubblesim.gazebo_plugins.drives.two_sided_drive import TwoSidedDrive, WheelGroup
 from bubblesim.gazebo_plugins.plugin import FASTEST, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
@@ -24,7 +24,7 @@ class SkidSteerDrive(Plugin):
         torque = p.number("torque", 5.0, least=0.0)
         rate = p.number("updateRate", 100.0, least=0.0)
         self._rate = Rate(rate, self.simulation)
-        variances = (p.number("covariance_x", 1e-4), p.number("covariance_y", 1e-4), p.number("covariance_yaw", 1e-2))
+        given = (p.number("covariance_x", 1e-4), p.number("covariance_y", 1e-4), p.number("covariance_yaw", 1e-2))
         p.check()
         self._drive = TwoSidedDrive(self, WheelGroup(geometry, left, right), torque=torque, rate=rate)
         self._odometry = Odometry(
@@ -33,8 +33,8 @@ class SkidSteerDrive(Plugin):
             frame=p.text("odometryFrame", "odom"),
             base_frame=p.text("robotBaseFrame", "base_footprint"),
             transform=p.flag("broadcastTF", default=False),
-            pose_covariance=covariance(*variances),
-            twist_covariance=covariance(*variances),
+            pose_variances=variances(*given),
+            velocity_variances=variances(*given),
         )
         self._drive.subscribe(p.text("commandTopic", "cmd_vel"))
 

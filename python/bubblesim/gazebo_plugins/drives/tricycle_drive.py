@@ -7,7 +7,7 @@ import math
 
 from bubblesim._core import JointRamps, MotorMode
 from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdometry, Wheels
-from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, covariance, motion_in_world, motion_on_plane
+from bubblesim.gazebo_plugins.drives.odometry import SOURCES, Odometry, motion_in_world, motion_on_plane, variances
 from bubblesim.gazebo_plugins.drives.wheels import WheelTopics, drive_by_velocity
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
@@ -50,7 +50,7 @@ class TricycleDrive(Plugin):
             frame=self.frame(p.text("odometryFrame", "odom")),
             base_frame=self.frame(p.text("robotBaseFrame", "base_link")),
             transform=True,
-            pose_covariance=covariance(1e-5, 1e-5, 1e-3),
+            pose_variances=variances(1e-5, 1e-5, 1e-3),
         )
         self._wheels = WheelTopics(self, (self._steering, self._wheel, self._left, self._right))
         self.subscribe(p.text("commandTopic", "cmd_vel"), "geometry_msgs/Twist", self._command)

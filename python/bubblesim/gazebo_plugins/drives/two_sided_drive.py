@@ -12,7 +12,7 @@ from bubblesim.controllers.differential_drive import DifferentialDrive, WheelOdo
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.gazebo_plugins.drives.odometry import Motion, motion_in_world, motion_on_plane
 from bubblesim.gazebo_plugins.drives.wheels import drive_by_velocity
-from bubblesim.gazebo_plugins.plugin import Message, Plugin
+from bubblesim.gazebo_plugins.plugin import FASTEST, Message, Plugin
 
 STILL = Velocity(0.0, 0.0)
 
@@ -71,8 +71,16 @@ class TwoSidedDrive:
             drive_by_velocity(self._plugin.world, [*group.left, *group.right], self._torque)
 
     def subscribe(self, topic: str) -> None:
-        """Subscribe to a command topic."""
-        self._plugin.subscribe(topic, "geometry_msgs/Twist", self.set_command)
+        """Subscribe to a command topic. The commands reach the wheels without Python."""
+        target = self._ramps.commands(self._rows(), FASTEST)
+        self._plugin.subscribe_numbers(topic, "geometry_msgs/Twist", ("linear.x", "angular.z"), target)
+
+    def _rows(self) -> list[tuple[list[float], float]]:
+        """Return how the inputs of the ramps depend on the robot's velocities; see ``command``."""
+        if self._whole:
+            return [([1.0, 0.0], 1.0), ([0.0, 1.0], 1.0)]
+        shapes = [group.geometry for group in self._groups]
+        return [([1.0, side * shape.track / 2], shape.wheel_radius) for shape in shapes for side in (-1.0, 1.0)]
 
     def set_command(self, twist: Message) -> None:
         """Command the wheels by a geometry_msgs/Twist."""

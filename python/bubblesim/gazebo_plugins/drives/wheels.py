@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from bubblesim._core import MotorMode
-from bubblesim.gazebo_plugins.plugin import Message, Plugin
+from bubblesim._core.reading_messages import joint_state
+from bubblesim.gazebo_plugins.plugin import Plugin
 
 
 def drive_by_velocity(world: Any, joints: Sequence[int], torque: float | None = None) -> None:
@@ -26,18 +27,6 @@ def wheel_radius(plugin: Plugin, joint: int) -> float | None:
     return max((shape.size[0] for shape in shapes if shape.kind in ("sphere", "cylinder")), default=None)
 
 
-def joint_states(plugin: Plugin, joints: Sequence[int]) -> Message:
-    """Return a sensor_msgs/JointState of this step; the effort is that of the motor, the mean over the step."""
-    world = plugin.world
-    return {
-        "header": plugin.header(""),
-        "name": [world.name(joint) for joint in joints],
-        "position": [world.joint_position(joint) for joint in joints],
-        "velocity": [world.joint_velocity(joint) for joint in joints],
-        "effort": [world.motor_effort(joint) for joint in joints],
-    }
-
-
 class WheelTopics:
     """Optional topics of a drive's wheels: joint_states, and the wheels' transforms."""
 
@@ -54,7 +43,7 @@ class WheelTopics:
         """Publish the states of this step."""
         plugin, world = self._plugin, self._plugin.world
         if self._publisher is not None and plugin.is_needed(self._publisher):
-            plugin.bridge.publish(self._publisher, joint_states(plugin, self._joints))
+            plugin.bridge.publish(self._publisher, joint_state(world, plugin.header(""), self._joints))
         if self._transforms:
             for joint in self._joints:
                 parent, child = world.joint_links(joint)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.drives.wheels import joint_states
+from bubblesim._core.reading_messages import joint_state
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 
@@ -38,7 +38,7 @@ class JointStatePublisher(Plugin):
     def publish(self) -> None:
         """Publish the joints' states."""
         if self.is_needed(self._publisher) and self._rate.due():
-            self.bridge.publish(self._publisher, joint_states(self, self._joints))
+            self.bridge.publish(self._publisher, joint_state(self.world, self.header(""), self._joints))
 
 
 class GzJointStatePublisher(JointStatePublisher):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bubblesim._core.reading_messages import point
 from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 
@@ -23,4 +24,4 @@ class Baro(HectorSensor):
         """Publish the height."""
         if self.is_due(self._publisher):
             (height,) = self._noise.on([self.world.pose(self._link)[2] + self._above])
-            self.bridge.publish(self._publisher, {"header": self.header(self._frame), "point": {"z": height}})
+            self.bridge.publish(self._publisher, point(self.header(self._frame), (0.0, 0.0, height)))

@@ -7,7 +7,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from bubblesim._core import camera_optics, read_camera
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim._core.reading_messages import color_image, compressed_image
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.scripting.api.ros.image_codec import COMPRESSIONS, compress
@@ -69,30 +70,17 @@ class Camera(Plugin):
         if infos:
             self._publish_infos(header)
 
-    def _publish_infos(self, header: Message) -> None:
-        info = {"header": header, **self.info.message(*camera_optics(self.simulation, self.context.owner))}
+    def _publish_infos(self, header: Any) -> None:
+        info = self.info.message(header, *camera_optics(self.simulation, self.context.owner))
         for publisher in filter(self.is_needed, self.infos):
             self.bridge.publish(publisher, info)
 
-    def publish_image(self, image: Any, header: Message) -> None:
+    def publish_image(self, image: Any, header: Any) -> None:
         """Publish the topics of the image that have subscribers."""
         if image.rgb is not None:
             if self.is_needed(self._image):
-                self.bridge.publish(self._image, {"header": header, **image_message(image.rgb, "rgb8")})
+                self.bridge.publish(self._image, color_image(header, image))
             if self._compressed is not None and self.is_needed(self._compressed):
                 data = compress(image.rgb, "jpeg", COMPRESSIONS["jpeg"][2])
-                message = {"header": header, "format": "rgb8; jpeg compressed bgr8", "data": data}
+                message = compressed_image(header, "rgb8; jpeg compressed bgr8", data)
                 self.bridge.publish(self._compressed, message)
-
-
-def image_message(pixels: Any, encoding: str) -> Message:
-    """Return a sensor_msgs/Image without its header, of an array of rows, which is copied once, into the message."""
-    height, width = pixels.shape[:2]
-    return {
-        "height": height,
-        "width": width,
-        "encoding": encoding,
-        "is_bigendian": 0,
-        "step": pixels.nbytes // height,
-        "data": pixels.view("u1") if pixels.dtype != "u1" else pixels,
-    }

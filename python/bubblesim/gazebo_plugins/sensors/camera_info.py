@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
+from bubblesim._core.reading_messages import camera_info
 from bubblesim.gazebo_plugins.parameters import Parameters
-from bubblesim.gazebo_plugins.plugin import Message
-from bubblesim.ros_messages import pinhole
 
 
 class CameraInfo:
@@ -23,14 +23,8 @@ class CameraInfo:
         self._distortion = [p.number(name, 0.0) for name in names]
         p.ignore("CxPrime", "borderCrop", "distortion_k1", "autoDistortion")
 
-    def message(self, width: int, height: int, horizontal_fov: float) -> Message:
-        """Return the message without its header, for this image size."""
+    def message(self, header: Any, width: int, height: int, horizontal_fov: float) -> Any:
+        """Return the message for this image size."""
         f = self._focal_length or width / (2 * math.tan(horizontal_fov / 2))
         cx, cy = self._centre[0] or (width + 1) / 2, self._centre[1] or (height + 1) / 2
-        return {
-            "height": height,
-            "width": width,
-            "distortion_model": "plumb_bob",
-            "D": self._distortion,
-            **pinhole(f, cx, cy, self.baseline),
-        }
+        return camera_info(header, width, height, f, cx, cy, self.baseline, self._distortion)

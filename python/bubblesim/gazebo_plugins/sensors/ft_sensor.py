@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from bubblesim._core import read_sensor
+from bubblesim._core.reading_messages import wrench
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
-from bubblesim.ros_messages import vector_message
 
 
 class FtSensor(Plugin):
@@ -37,6 +37,5 @@ class FtSensor(Plugin):
     def publish(self) -> None:
         """Publish a new reading."""
         if self.is_needed(self._publisher) and (reading := self._readings.take()):
-            force, torque = self._noise.on(reading.force.tolist()), self._noise.on(reading.torque.tolist())
-            wrench = {"force": vector_message(force), "torque": vector_message(torque)}
-            self.bridge.publish(self._publisher, {"header": self.header(self._frame), "wrench": wrench})
+            message = wrench(self.header(self._frame), reading, self._noise.draw(6))
+            self.bridge.publish(self._publisher, message)

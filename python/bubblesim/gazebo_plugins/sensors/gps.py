@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import math
 
+from bubblesim._core.reading_messages import nav_sat_fix, vector
 from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.gazebo_plugins.sensors.noise import Noise
-from bubblesim.ros_messages import vector_message
 
 # WGS 84
 _EQUATORIAL_RADIUS = 6378137.0  # m
@@ -28,7 +28,7 @@ class Gps(HectorSensor):
         self._longitude = p.number("referenceLongitude", 8.9)
         self._altitude = p.number("referenceAltitude", 0.0)
         self._heading = math.radians(p.number("referenceHeading", 0.0))
-        self._status = {"status": int(p.number("status", 0)), "service": int(p.number("service", 1))}
+        self._status = int(p.number("status", 0)), int(p.number("service", 1))
         self._velocity_noise = Noise(self, *p.deviations("velocityGaussianNoise"))
         p.ignore("velocityOffset", "velocityDrift", "velocityDriftFrequency")
         p.check()
@@ -52,21 +52,12 @@ class Gps(HectorSensor):
         across = _EQUATORIAL_RADIUS / math.sqrt(squeezed)
         meridian = across * (1 - _ECCENTRICITY_SQUARED) / squeezed
         parallel = across * math.cos(math.radians(self._latitude))
-        self.bridge.publish(
-            self._fix,
-            {
-                "header": header,
-                "status": self._status,
-                "latitude": self._latitude + math.degrees(north / meridian),
-                "longitude": self._longitude - math.degrees(west / parallel),
-                "altitude": self._altitude + z,
-                "position_covariance": self._noise.covariance(3),
-                "position_covariance_type": 2,  # COVARIANCE_TYPE_DIAGONAL_KNOWN
-            },
-        )
+        latitude = self._latitude + math.degrees(north / meridian)
+        longitude = self._longitude - math.degrees(west / parallel)
+        place = latitude, longitude, self._altitude + z
+        self.bridge.publish(self._fix, nav_sat_fix(header, *place, *self._status, self._noise.variances(3)))
         vx, vy, vz = self._velocity_noise.on(self.world.velocity(self._link)[0])
-        velocity = vector_message([*self._turned(vx, vy), vz])
-        self.bridge.publish(self._velocity, {"header": header, "vector": velocity})
+        self.bridge.publish(self._velocity, vector(header, (*self._turned(vx, vy), vz)))
 
     def _turned(self, x: float, y: float) -> tuple[float, float]:
         """Return the north and west components of a vector along x and y."""

@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection, Iterator
 from typing import Any
 
-from bubblesim.gazebo_plugins.plugin import Message, PluginContext
-from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
-from bubblesim.gazebo_plugins.sensors.camera import image_message
-from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCloud
-from bubblesim.gazebo_plugins.sensors.laser import laser_scan
+from bubblesim._core.reading_messages import camera_cloud, color_image, depth_image, laser_scan, lidar_cloud
+from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.sensor_topic import MakeMessage, SensorTopic, sibling_topic
 
 # By SDFormat's sensor type: the system that publishes it, and the last part of its default topic.
@@ -54,7 +52,6 @@ class GzSensor(SensorTopic):
         self._kind, self._given_topic, self._info_topic, self._given_frame = context.simulation.world.gz_topic(
             context.owner
         )
-        self._cloud = DepthCloud(optical=False)
         super().__init__(context)
 
     def place_of_topic(self) -> tuple[str, str]:
@@ -73,21 +70,20 @@ class GzSensor(SensorTopic):
         match self._kind:
             case "lidar" | "gpu_lidar":
                 middle = len(reading.elevations) // 2
-                rays = directions(reading)
-                yield topic, "sensor_msgs/LaserScan", lambda scan: laser_scan(scan, slice(middle, middle + 1))
+                yield topic, "sensor_msgs/LaserScan", lambda header, scan: laser_scan(header, scan, middle)
                 yield (
                     f"{topic}/points",
                     "sensor_msgs/PointCloud2",
-                    lambda scan: cloud_of_returns(scan, rays, organized=True),
+                    lambda header, scan: lidar_cloud(header, scan, organized=True),
                 )
             case "depth_camera":
-                yield topic, "sensor_msgs/Image", _depths
-                yield f"{topic}/points", "sensor_msgs/PointCloud2", self._points
+                yield topic, "sensor_msgs/Image", depth_image
+                yield f"{topic}/points", "sensor_msgs/PointCloud2", _points
                 yield self.info_output(self._info_topic or sibling_topic(topic, "camera_info"))
             case "rgbd_camera":
-                yield f"{topic}/image", "sensor_msgs/Image", lambda image: image_message(image.rgb, "rgb8")
-                yield f"{topic}/depth_image", "sensor_msgs/Image", _depths
-                yield f"{topic}/points", "sensor_msgs/PointCloud2", self._points
+                yield f"{topic}/image", "sensor_msgs/Image", color_image
+                yield f"{topic}/depth_image", "sensor_msgs/Image", depth_image
+                yield f"{topic}/points", "sensor_msgs/PointCloud2", _points
                 yield self.info_output(self._info_topic or f"{topic}/camera_info")
             case "camera":
                 yield topic, *self.form(reading)
@@ -95,12 +91,9 @@ class GzSensor(SensorTopic):
             case _:
                 yield from super().outputs(topic, reading)
 
-    def _points(self, image: Any) -> Message:
-        return self._cloud.message(image)
 
-
-def _depths(image: Any) -> Message:
-    return image_message(image.depth, "32FC1")
+def _points(header: Any, image: Any) -> Any:
+    return camera_cloud(header, image, (-math.inf, math.inf), optical=False)
 
 
 def _valid(topic: str) -> str:

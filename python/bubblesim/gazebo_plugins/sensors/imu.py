@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from bubblesim._core import read_imu
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim._core.reading_messages import imu, imu_of_values
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.geometry.frames import into
 from bubblesim.geometry.rotations import product, quaternion_of_rpy
-from bubblesim.ros_messages import vector_message
 
 
 class ImuSensor(Plugin):
@@ -29,6 +27,7 @@ class ImuSensor(Plugin):
         self._turn = quaternion_of_rpy(p.numbers("rpyOffset", (0.0, 0.0, 0.0)))
         p.ignore("xyzOffset", "bodyName", "initialOrientationAsReference")
         self._noise = Noise(self, *p.deviations("gaussianNoise"))
+        self._variances = self._noise.variances(3)
         self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
         p.check()
         self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
@@ -42,11 +41,9 @@ class ImuSensor(Plugin):
         """Publish a new reading."""
         if not (self.is_needed(self._publisher) and (reading := self._readings.take())):
             return
-        orientation = product(self._turn, reading.orientation.tolist())
-        message = imu_message(
-            orientation, reading.angular_velocity.tolist(), reading.linear_acceleration.tolist(), self._noise
-        )
-        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+        changes = self._turn, self._noise.draw(6)
+        message = imu(self.header(self._frame), reading, self._variances, self._variances, *changes)
+        self.bridge.publish(self._publisher, message)
 
 
 class LinkImu(Plugin):
@@ -91,8 +88,10 @@ class LinkImu(Plugin):
         pose[3:] = product(self._turn, pose[3:])
         _, angular = self.world.velocity(self._link)
         force = [a - g for a, g in zip(self.world.acceleration(self._link), self.world.gravity, strict=True)]
-        message = imu_message(pose[3:], into(pose, angular), into(pose, force), *self.noises)
-        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+        noises = self.noises
+        values = pose[3:], noises[0].on(into(pose, angular)), noises[1].on(into(pose, force))
+        variances = (noise.variances(3) for noise in noises)
+        self.bridge.publish(self._publisher, imu_of_values(self.header(self._frame), *values, *variances))
 
 
 class HectorImu(LinkImu):
@@ -118,23 +117,3 @@ class HectorImu(LinkImu):
     def _noise(self, parameter: str) -> Noise:
         """Return the noise of one deviation, or of one per axis."""
         return Noise(self, *self.parameters.deviations(parameter))
-
-
-def imu_message(
-    orientation: Sequence[float],
-    angular: Sequence[float],
-    linear: Sequence[float],
-    noise: Noise,
-    noise_of_linear: Noise | None = None,
-) -> Message:
-    """Return a sensor_msgs/Imu without its header; ``noise_of_linear`` defaults to ``noise``."""
-    noise_of_linear = noise_of_linear or noise
-    covariance = noise.covariance(3)
-    return {
-        "orientation": dict(zip("xyzw", orientation, strict=True)),
-        "orientation_covariance": covariance,
-        "angular_velocity": vector_message(noise.on(angular)),
-        "angular_velocity_covariance": covariance,
-        "linear_acceleration": vector_message(noise_of_linear.on(linear)),
-        "linear_acceleration_covariance": noise_of_linear.covariance(3),
-    }

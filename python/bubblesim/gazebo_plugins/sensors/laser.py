@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim._core.reading_messages import laser_scan
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
 
@@ -31,17 +30,4 @@ class Laser(Plugin):
     def publish(self) -> None:
         """Publish a new scan."""
         if self.is_needed(self._publisher) and (scan := self._scans.take()):
-            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **laser_scan(scan)})
-
-
-def laser_scan(scan: Any, rings: slice = slice(None)) -> Message:
-    """Return a sensor_msgs/LaserScan without its header, of all rings concatenated, as in Gazebo, or of some."""
-    return {
-        "angle_min": scan.angle_min,
-        "angle_max": scan.angle_max,
-        "angle_increment": scan.angle_increment,
-        "range_min": scan.min_range,
-        "range_max": scan.max_range,
-        "ranges": scan.ranges[rings].reshape(-1),
-        "intensities": scan.intensities[rings].reshape(-1),
-    }
+            self.bridge.publish(self._publisher, laser_scan(self.header(self._frame), scan))

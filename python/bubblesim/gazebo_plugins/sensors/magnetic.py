@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import math
 
+from bubblesim._core.reading_messages import magnetic_field, vector
 from bubblesim.gazebo_plugins.plugin import PluginContext
 from bubblesim.gazebo_plugins.sensors.hector import HectorSensor
 from bubblesim.geometry.frames import into
-from bubblesim.ros_messages import vector_message
 
 
 class Magnetic(HectorSensor):
@@ -26,15 +26,15 @@ class Magnetic(HectorSensor):
         heading = math.radians(p.number("referenceHeading", 0.0) - p.number("declination", 0.0))
         level = magnitude * math.cos(inclination)
         self._field = [level * math.cos(heading), level * math.sin(heading), -magnitude * math.sin(inclination)]
-        self._as_field = p.flag("useMagneticFieldMsgs", default=False)
+        as_field = p.flag("useMagneticFieldMsgs", default=False)
         p.check()
-        message_type = "sensor_msgs/MagneticField" if self._as_field else "geometry_msgs/Vector3Stamped"
+        self._message = magnetic_field if as_field else vector
+        message_type = "sensor_msgs/MagneticField" if as_field else "geometry_msgs/Vector3Stamped"
         self._publisher = self.advertise(p.text("topicName", "magnetic"), message_type, 1)
 
     def publish(self) -> None:
         """Publish the field in the link's frame."""
         if not self.is_due(self._publisher):
             return
-        measured = vector_message(self._noise.on(into(self.world.pose(self._link), self._field)))
-        content = {"magnetic_field": measured} if self._as_field else {"vector": measured}
-        self.bridge.publish(self._publisher, {"header": self.header(self._frame), **content})
+        measured = self._noise.on(into(self.world.pose(self._link), self._field))
+        self.bridge.publish(self._publisher, self._message(self.header(self._frame), measured))

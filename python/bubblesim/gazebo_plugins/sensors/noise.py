@@ -25,13 +25,18 @@ class Noise:
 
     def on(self, values: Sequence[float]) -> list[float]:
         """Return the values with noise."""
-        if not any(self._deviations):
-            return list(values)
-        return [value + float(self._random.normal(0.0, self._of(i))) for i, value in enumerate(values)]
+        noise = self.draw(len(values))
+        return list(values) if noise is None else [value + off for value, off in zip(values, noise, strict=True)]
 
-    def covariance(self, size: int) -> list[float]:
-        """Return the covariance matrix, size x size."""
-        return [self._of(row) ** 2 if row == column else 0.0 for row in range(size) for column in range(size)]
+    def draw(self, size: int) -> list[float] | None:
+        """Return the noise of values, None if there is none."""
+        if not any(self._deviations):
+            return None
+        return [float(self._random.normal(0.0, self._of(i))) for i in range(size)]
+
+    def variances(self, size: int) -> list[float]:
+        """Return the variances of values."""
+        return [self._of(i) ** 2 for i in range(size)]
 
     def _of(self, i: int) -> float:
         return self._deviations[i % len(self._deviations)]

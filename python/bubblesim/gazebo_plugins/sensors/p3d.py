@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+from bubblesim._core.reading_messages import odometry
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.geometry.frames import state_in
 from bubblesim.geometry.rotations import product, quaternion_of_rpy
-from bubblesim.ros_messages import pose_message, vector_message
 
 _WORLD = ("/world", "world", "/map", "map", "")
 
@@ -43,19 +43,7 @@ class P3D(Plugin):
         pose, linear, angular = state_in(self.world, self._link, self._reference)
         position = [at + offset for at, offset in zip(pose[:3], self._offset, strict=True)]
         placed = [*position, *product(self._turn, pose[3:])]
-        covariance = self._noise.covariance(6)
-        self.bridge.publish(
-            self._publisher,
-            {
-                "header": self.header(self._frame.lstrip("/")),
-                "child_frame_id": self.world.name(self._link),
-                "pose": {"pose": pose_message(placed), "covariance": covariance},
-                "twist": {
-                    "twist": {
-                        "linear": vector_message(self._noise.on(linear)),
-                        "angular": vector_message(self._noise.on(angular)),
-                    },
-                    "covariance": covariance,
-                },
-            },
-        )
+        velocity = self._noise.on(linear), self._noise.on(angular)
+        variances = self._noise.variances(6)
+        frames = self.header(self._frame.lstrip("/")), self.world.name(self._link)
+        self.bridge.publish(self._publisher, odometry(*frames, placed, *velocity, variances, variances))

@@ -6,7 +6,9 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
+from bubblesim._core.reading_messages import nearest_range
+from bubblesim._core.reading_messages import range as range_message
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
@@ -43,18 +45,15 @@ class Range(Plugin):
         """Publish a new range."""
         if self.is_needed(self._publisher) and (scan := self._scans.take()):
             fov = scan.angle_max - scan.angle_min if self._fov is None else self._fov
-            message = {"radiation_type": self._radiation, "field_of_view": fov, **self._range(scan)}
-            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **message})
+            limits = scan.min_range, scan.max_range
+            message = range_message(self.header(self._frame), self._radiation, fov, *limits, self._nearest(scan))
+            self.bridge.publish(self._publisher, message)
 
-    def _range(self, scan: Any) -> Message:
-        nearest = float(scan.ranges.min())
+    def _nearest(self, scan: Any) -> float:
+        nearest: float = nearest_range(scan)
         if nearest < scan.max_range:
-            nearest = min(max(self._noise.on([nearest])[0], scan.min_range), scan.max_range)
-        return {
-            "min_range": scan.min_range,
-            "max_range": scan.max_range,
-            "range": min(nearest, scan.max_range),
-        }
+            nearest = max(self._noise.on([nearest])[0], scan.min_range)
+        return min(nearest, float(scan.max_range))
 
 
 class HectorSonar(Range):

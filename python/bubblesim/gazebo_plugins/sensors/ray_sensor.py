@@ -3,19 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from bubblesim._core import read_lidar
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
-from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
-from bubblesim.gazebo_plugins.sensors.laser import laser_scan
+from bubblesim._core.reading_messages import laser_scan, lidar_cloud
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 
-_OUTPUTS: dict[str, Callable[[Any], Message]] = {
-    "sensor_msgs/PointCloud2": lambda scan: cloud_of_returns(scan, directions(scan)),
-    "sensor_msgs/LaserScan": laser_scan,
-}
+_OUTPUTS = {"sensor_msgs/PointCloud2": lidar_cloud, "sensor_msgs/LaserScan": laser_scan}
 _OUT = "~/out:="
 
 
@@ -46,4 +39,4 @@ class RaySensor(Plugin):
     def publish(self) -> None:
         """Publish a new scan."""
         if self.is_needed(self._publisher) and (scan := self._scans.take()):
-            self.bridge.publish(self._publisher, {"header": self.header(self._frame), **self._form(scan)})
+            self.bridge.publish(self._publisher, self._form(self.header(self._frame), scan))

@@ -3,25 +3,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from bubblesim._core import CameraImage, camera_optics, read_sensor
-from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
-from bubblesim.gazebo_plugins.sensors.block_laser import cloud_of_returns, directions
-from bubblesim.gazebo_plugins.sensors.bumper import contact_state
-from bubblesim.gazebo_plugins.sensors.camera import image_message
+from bubblesim._core.reading_messages import (
+    color_image,
+    contacts_state,
+    depth_image,
+    imu,
+    laser_scan,
+    lidar_cloud,
+    magnetic_field,
+    nav_sat_fix,
+    point,
+    wrench,
+)
+from bubblesim._core.reading_messages import range as range_message
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
-from bubblesim.gazebo_plugins.sensors.imu import imu_message
-from bubblesim.gazebo_plugins.sensors.laser import laser_scan
-from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import is_new
-from bubblesim.ros_messages import vector_message
 
-MakeMessage = Callable[[Any], Message]  # of a reading, without the header
+_ULTRASOUND = 0  # sensor_msgs/Range
+MakeMessage = Callable[[Any, Any], Any]  # of a header and a reading
 
 
 @dataclass(frozen=True)
@@ -79,10 +85,10 @@ class SensorTopic(Plugin):
         optics_alone = all(message == self._optics for _, message in needed)
         reading = None if optics_alone else read_sensor(self.simulation, self.context.owner)[1]
         for publisher, message in needed:
-            self.bridge.publish(publisher, {"header": header, **message(reading)})
+            self.bridge.publish(publisher, message(header, reading))
 
-    def _optics(self, _: Any) -> Message:
-        return self._info.message(*camera_optics(self.simulation, self.context.owner))
+    def _optics(self, header: Any, _: Any) -> Any:
+        return self._info.message(header, *camera_optics(self.simulation, self.context.owner))
 
     def form(self, reading: Any) -> tuple[str, MakeMessage]:
         """Return the message type and the function that creates the message."""
@@ -92,62 +98,36 @@ class SensorTopic(Plugin):
             case "LidarScan" if len(reading.elevations) == 1:
                 return "sensor_msgs/LaserScan", laser_scan
             case "LidarScan":
-                rays = directions(reading)
-                return "sensor_msgs/PointCloud2", lambda scan: cloud_of_returns(scan, rays)
+                return "sensor_msgs/PointCloud2", lidar_cloud
             case "CameraImage":
-                return "sensor_msgs/Image", picture
+                return "sensor_msgs/Image", depth_image if reading.rgb is None else color_image
             case "ImuReading":
-                exact = Noise(self, 0.0)
-                return "sensor_msgs/Imu", lambda imu: imu_message(
-                    imu.orientation.tolist(), imu.angular_velocity.tolist(), imu.linear_acceleration.tolist(), exact
-                )
+                return "sensor_msgs/Imu", imu
             case "NavSatReading":
                 return "sensor_msgs/NavSatFix", _fix
             case "AltimeterReading":
-                return "geometry_msgs/PointStamped", lambda reading: {"point": {"z": reading.height}}
+                return "geometry_msgs/PointStamped", lambda header, reading: point(header, (0.0, 0.0, reading.height))
             case "MagnetometerReading":
-                return "sensor_msgs/MagneticField", lambda reading: {
-                    "magnetic_field": vector_message(reading.field.tolist())
-                }
+                return "sensor_msgs/MagneticField", lambda header, reading: magnetic_field(header, reading.field)
             case "ContactReading":
                 return "gazebo_msgs/ContactsState", self._contacts
             case "ForceTorqueReading":
-                return "geometry_msgs/WrenchStamped", _wrench
+                return "geometry_msgs/WrenchStamped", wrench
             case kind:
                 raise ValueError(f"a {kind} cannot be published: remove the topic, or read the sensor in a script")
 
-    def _contacts(self, reading: Any) -> Message:
-        link = self.world.parent(self.context.owner)
-        return {"states": [contact_state(self.world, link, contact) for contact in reading.contacts]}
+    def _contacts(self, header: Any, reading: Any) -> Any:
+        return contacts_state(self.world, header, self.world.parent(self.context.owner), reading)
 
-    def _range(self, reading: Any) -> Message:
+    def _range(self, header: Any, reading: Any) -> Any:
         least, most, angle = self.world.sonar_limits(self.context.owner)
-        return {
-            "radiation_type": 0,  # ultrasound
-            "field_of_view": 2 * angle,
-            "min_range": least,
-            "max_range": most,
-            "range": reading.distance if reading.detected else np.inf,
-        }
+        return range_message(
+            header, _ULTRASOUND, 2 * angle, least, most, reading.distance if reading.detected else math.inf
+        )
 
 
-def picture(image: Any) -> Message:
-    """Return a sensor_msgs/Image of colours, or of depths in metres for depth cameras."""
-    return image_message(image.depth, "32FC1") if image.rgb is None else image_message(image.rgb, "rgb8")
-
-
-def _fix(reading: Any) -> Message:
-    return {
-        "status": {"status": 0, "service": 1},  # a fix, by GPS
-        "latitude": reading.latitude,
-        "longitude": reading.longitude,
-        "altitude": reading.altitude,
-    }
-
-
-def _wrench(reading: Any) -> Message:
-    parts = {"force": reading.force, "torque": reading.torque}
-    return {"wrench": {name: vector_message(vector.tolist()) for name, vector in parts.items()}}
+def _fix(header: Any, reading: Any) -> Any:
+    return nav_sat_fix(header, reading.latitude, reading.longitude, reading.altitude)
 
 
 def sibling_topic(topic: str, name: str) -> str:
