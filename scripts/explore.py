@@ -10,6 +10,10 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
 
+from bubblesim.program import users_packages
+
+users_packages.leave_out()
+
 import sys
 import threading
 

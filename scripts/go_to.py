@@ -13,6 +13,10 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are loaded shows no traceback
 
+from bubblesim.program import users_packages
+
+users_packages.leave_out()
+
 import dataclasses
 import sys
 import threading
@@ -24,7 +28,7 @@ from nav_msgs.msg import OccupancyGrid, Path
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool
 
-from bubblesim.controllers.keyboard_teleop import Velocity as TwistVelocity
+from bubblesim.controllers.base_velocity import BaseVelocity
 from bubblesim.controllers.planar_motion import Pose2D, Velocity
 from bubblesim.navigation.driver import STANDING, Driver
 from bubblesim.navigation.driving import Driving, GaveUpError
@@ -104,7 +108,7 @@ class GoTo:
         self._arrived.publish(arrived)
 
     def _send(self, command: Velocity) -> None:
-        self._commands.publish(TwistVelocity(forward=command.linear, turning=command.angular))
+        self._commands.publish(BaseVelocity(forward=command.linear, turning=command.angular))
 
     def _show(self, points: list[Point]) -> None:
         if points is self._shown:

@@ -18,11 +18,11 @@ from pathlib import Path
 
 import rospy
 
-from bubblesim.controllers.joystick import Joystick
-from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
-from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
 from bubblesim.nodes.run_node import run_node, run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
+from bubblesim.teleop.joystick import Joystick
+from bubblesim.teleop.stick_teleop import StickTeleop
 
 
 class JoyTeleop:
@@ -76,7 +76,7 @@ class JoyTeleop:
                 joystick.feed(data)
             self._commands.follow(self._velocity(joystick))
 
-    def _velocity(self, joystick: Joystick) -> Velocity:
+    def _velocity(self, joystick: Joystick) -> BaseVelocity:
         if self._enable >= 0 and not joystick.buttons.get(self._enable, False):
             return STANDING
         forward, left = -joystick.axes.get(self._linear, 0.0), -joystick.axes.get(self._angular, 0.0)

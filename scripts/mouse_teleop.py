@@ -16,10 +16,10 @@ import tkinter
 
 import rospy
 
-from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
-from bubblesim.controllers.stick_teleop import StickTeleop
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
 from bubblesim.nodes.run_node import run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
+from bubblesim.teleop.stick_teleop import StickTeleop
 
 HALF = 150  # pixels from the window's middle to its edge
 KNOB = 12  # pixels
@@ -58,7 +58,7 @@ class Window:
         self._move_knob(HALF, HALF)
         self._drive(STANDING)
 
-    def _drive(self, velocity: Velocity) -> None:
+    def _drive(self, velocity: BaseVelocity) -> None:
         self._velocity = velocity
         self._commands.follow(velocity)
         self._text.configure(text=f"{velocity.forward:+.2f} m/s  {velocity.turning:+.2f} rad/s")

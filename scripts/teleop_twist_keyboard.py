@@ -22,9 +22,9 @@ from collections.abc import Iterator
 
 import rospy
 
-from bubblesim.controllers.keyboard_teleop import HELP, KeyboardTeleop
 from bubblesim.nodes.run_node import run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
+from bubblesim.teleop.keyboard_teleop import HELP, KeyboardTeleop
 
 
 @contextlib.contextmanager

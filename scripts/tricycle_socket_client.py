@@ -13,7 +13,7 @@ import sys
 import time
 
 from bubblesim.controllers.tricycle_avoid import TricycleAvoid
-from bubblesim.program import run_program
+from bubblesim.program.run import run_program
 
 PATIENCE = 5.0  # s, timeout of the connection and of answers
 

@@ -25,7 +25,8 @@ from ros_support import DEADLINE, REPOSITORY, RosCore, alone_on_port, start, sto
 PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
-LINK = re.compile(r"\]\((?!https?:)([^)#]+)")
+LINK = re.compile(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)")
+HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 CHILD_SCRIPT = "sysCall_"  # part of a child script: not a program
 ROS_NODE = "import rospy"
 NODE_NAME = re.compile(r'rospy\.init_node\("(\w+)"')
@@ -152,7 +153,19 @@ def test_child_scripts_run(roscore: RosCore, tmp_path: Path, page: Path) -> None
         assert (run.returncode, warned) == (0, False), f"{code}\n{run.stderr}"
 
 
+def has_anchor(target: Path, anchor: str) -> bool:
+    """Return whether a file exists and has a heading of which GitHub makes this anchor; any file has the empty one."""
+    if not target.exists():
+        return False
+    headings = HEADING.findall(target.read_text()) if anchor else []
+    return not anchor or anchor in [re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_links_lead_somewhere(page: Path) -> None:
-    broken = [link for link in LINK.findall(page.read_text()) if not (page.parent / link).exists()]
+    broken = [
+        f"{target}#{anchor}"
+        for target, anchor in LINK.findall(page.read_text())
+        if not has_anchor(page.parent / target if target else page, anchor)
+    ]
     assert broken == []

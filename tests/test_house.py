@@ -4,6 +4,7 @@
 import ast
 import re
 import subprocess
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
@@ -81,37 +82,49 @@ def test_core_builds_alone(tmp_path: Path) -> None:
     assert list(tmp_path.rglob("libbubblesim.so"))
 
 
-# The imports that each Python package may use of the others; nothing imports `cli`, `demo` and `testing`.
-PYTHON_LAYERS = [
-    {"program", "output", "addresses", "geometry", "messages", "delayed_rows", "scene_elements"},
-    {"controllers"},
-    {"ros_messages", "navigation", "nodes"},
-    {"running"},
-    {
-        "scripting.dummies",
-        "scripting.drawings",
-        "scripting.graphs",
-        "scripting.log",
-        "scripting.object_collections",
-        "scripting.primitive_shapes",
-        "scripting.set_colours",
-        "scripting.set_numbers",
-        "scripting.problems",
-        "scripting.scene_edits",
-        "scripting.saved_scene",
-        "scripting.stored_values",
-    },
-    {"scripting.caller", "scripting.allowed_programs", "scripting.threads"},
-    {"scripting.api"},
-    {"scripting.language"},
-    {"scripting.host"},
-    {"gazebo_plugins", "observers", "remote"},
-    {"checking", "services"},
-    {"web"},
-    {"doctor"},
-    {"sweeps", "gym_tasks"},
-    {"cli", "demo", "testing"},
-]
+def places() -> dict[str, bool]:
+    """Return the folders in the order of docs/architecture.md, and whether they are marked as no simulation."""
+    rows = re.findall(r"^\| `([\w/.]+)`(\*?) \|", (REPOSITORY / "docs/architecture.md").read_text(), re.MULTILINE)
+    return {folder: bool(star) for folder, star in rows}
+
+
+def folder_of(file: Path, listed: Iterable[str]) -> str:
+    """Return the innermost folder of the list that has a file."""
+    path = file.relative_to(REPOSITORY)
+    found = next((str(each) for each in (path, *path.parents) if str(each) in listed), None)
+    assert found, f"{path} is in no folder that docs/architecture.md lists"
+    return found
+
+
+def sources() -> list[Path]:
+    """Return the sources of the libraries and of the Python package."""
+    return [
+        file
+        for folder, pattern in (("include", "*.?pp"), ("src", "*.?pp"), ("python/bubblesim", "*.py"))
+        for file in sorted((REPOSITORY / folder).rglob(pattern))
+        if file != REPOSITORY / "python/bubblesim/__init__.py"  # imports the public names at their first use
+    ]
+
+
+def included(source: Path) -> set[Path]:
+    """Return our files that a C++ file includes."""
+    library = REPOSITORY.joinpath(*source.relative_to(REPOSITORY).parts[:2])
+    places = [source.parent, library, REPOSITORY / "include", *sorted((REPOSITORY / "src").iterdir())]
+    candidates = [[place / name for place in places] for name in INCLUDE.findall(source.read_text())]
+    return {found for files in candidates if (found := next((file for file in files if file.is_file()), None))}
+
+
+def dependencies() -> Iterator[tuple[Path, Path]]:
+    """Yield each file with each of ours that it includes or imports."""
+    known = modules()
+    core = REPOSITORY / "src/bindings/CMakeLists.txt"
+    for source in sources():
+        if source.suffix == ".py":
+            names = imported_names(source)
+            needed = {known[name] for name in names & known.keys()} | ({core} if "_core" in names else set())
+        else:
+            needed = included(source)
+        yield from ((source, file) for file in needed)
 
 
 def modules() -> dict[str, Path]:
@@ -121,8 +134,8 @@ def modules() -> dict[str, Path]:
     return {".".join(file.relative_to(package).with_suffix("").parts).removesuffix(".__init__"): file for file in files}
 
 
-def imports(file: Path, known: dict[str, Path]) -> set[str]:
-    """Return our modules that a file imports, including those that only its annotations need."""
+def imported_names(file: Path) -> set[str]:
+    """Return what a file imports of our package, without `bubblesim.`, also what only its annotations need."""
     names: set[str] = set()
     for node in ast.walk(ast.parse(file.read_text())):
         if isinstance(node, ast.Import):
@@ -130,34 +143,45 @@ def imports(file: Path, known: dict[str, Path]) -> set[str]:
         elif isinstance(node, ast.ImportFrom) and node.module:
             names.update(f"{node.module}.{alias.name}" for alias in node.names)
             names.add(node.module)
-    ours = {name.removeprefix("bubblesim.") for name in names if name.startswith("bubblesim.")}
-    return {name for name in ours if name in known and known[name].name != "__init__.py"}
+    return {name.removeprefix("bubblesim.") for name in names if name.startswith("bubblesim.")}
 
 
-def layer(module: str) -> int:
-    found = [
-        number
-        for number, names in enumerate(PYTHON_LAYERS)
-        if any(module == name or module.startswith(f"{name}.") for name in names)
-    ]
-    assert len(found) == 1 or module == "scripting", f"{module} belongs to no layer"
-    return found[0] if found else -1
+def test_each_folder_has_its_place_in_the_order() -> None:
+    listed = places()
+    folders = {"/".join(source.relative_to(REPOSITORY).parent.parts[:3]) for source in sources()}
+    assert folders - listed.keys() == set(), "docs/architecture.md does not list them"
+    assert [name for name in listed if not (REPOSITORY / name).exists()] == []
 
 
-def test_python_packages_import_one_way() -> None:
-    known = modules()
-    strays = [
-        f"{module} imports {name}"
-        for module, file in sorted(known.items())
-        for name in sorted(imports(file, known))
-        if layer(name) > layer(module)
-    ]
-    assert not strays
+def test_folders_need_only_what_is_below_them() -> None:
+    order = list(places())
+    found = [(folder_of(source, order), folder_of(file, order), source) for source, file in dependencies()]
+    assert len(found) > 1000
+    strays = {
+        f"{source.relative_to(REPOSITORY)} needs {below}"
+        for above, below, source in found
+        if order.index(above) > order.index(below)
+    }
+    assert sorted(strays) == []
+
+
+def test_the_simulation_does_without_what_is_no_simulation() -> None:
+    is_apart = places()
+    assert any(is_apart.values())
+    may = {"python/bubblesim", "python/bubblesim/cli"}
+    strays = {
+        f"{source.relative_to(REPOSITORY)} needs {folder_of(file, is_apart)}"
+        for source, file in dependencies()
+        if is_apart[folder_of(file, is_apart)]
+        and not is_apart[above := folder_of(source, is_apart)]
+        and above not in may
+    }
+    assert sorted(strays) == []
 
 
 def test_no_python_modules_import_each_other_in_a_circle() -> None:
     known = modules()
-    waiting = {module: imports(file, known) - {module} for module, file in known.items()}
+    waiting = {module: imported_names(file) & known.keys() - {module} for module, file in known.items()}
     while ready := [module for module, needed in waiting.items() if not needed & waiting.keys()]:
         for module in ready:
             del waiting[module]

@@ -114,7 +114,7 @@ bool run(const Case& scans, bool housing, int rounds) {
       const std::vector<float>* ranges = nullptr;
       our_time += timed([&] { reading = simulation.measure(id); });
       raw_time += timed([&] { ranges = &raw.scan(kSensor, poses); });
-      const std::vector<float>& found = std::get<LidarScan>(reading->measurement).ranges;
+      const std::vector<float>& found = reading->measurement.get<LidarScan>().ranges;
       for (std::size_t ray = 0; ray < found.size() && turn % 50 == 0; ++ray) {
         if (std::isfinite(found[ray])) apart = std::max(apart, std::abs(found[ray] - (*ranges)[ray]));
       }

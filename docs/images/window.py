@@ -21,7 +21,7 @@ PREPARE = """async () => {
   selection.select(sonar ?? scene.byPath("/Tricycle"));
   for (const id of ["sensors", "joints", "points"]) view.setOverlay(id, true);
   layout.show("tree");
-  view.look(scene.byPath("/Tricycle"));
+  view.viewpoint.look(scene.byPath("/Tricycle"));
 }"""
 
 

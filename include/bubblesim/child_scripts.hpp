@@ -49,7 +49,7 @@ class ChildScripts final : public PythonSystem {
 
  private:
   friend class NodeServices;
-  friend class RemoteDoor;
+  friend class RemoteApiServer;
 
   void after_call() override;
 

@@ -32,7 +32,7 @@ class Scene {
   /// Of all that determines how the scene behaves, equal in every process; computed at the first call. Thread-safe.
   std::uint64_t hash() const;
 
-  struct Prepared;  // see src/sim/run/prepared.hpp
+  struct Prepared;  // see src/sim/scene/prepared.hpp
   const Prepared& prepared() const { return *prepared_; }
 
  private:

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "bubblesim/row.hpp"
 #include "bubblesim/simulation.hpp"
 
 namespace bubblesim {
+
+struct ReadingQuantity;
 
 /// Numbers of one quantity in the row of a world.
 struct Quantity {
@@ -16,31 +19,6 @@ struct Quantity {
   std::vector<std::size_t> shape;  ///< empty: a single number
   std::size_t start = 0;           ///< of its numbers in the row
   std::size_t size = 1;            ///< their number
-};
-
-enum class NumberType { kFloat32, kFloat64 };
-
-/// A row of numbers of either type.
-class Row {
- public:
-  Row(void* data, NumberType type) : data_(data), type_(type) {}
-
-  void put(double value) {
-    if (type_ == NumberType::kFloat32) {
-      static_cast<float*>(data_)[at_++] = static_cast<float>(value);
-    } else {
-      static_cast<double*>(data_)[at_++] = value;
-    }
-  }
-  double take() {
-    return type_ == NumberType::kFloat32 ? static_cast<const float*>(data_)[at_++]
-                                         : static_cast<const double*>(data_)[at_++];
-  }
-
- private:
-  void* data_;
-  NumberType type_;
-  std::size_t at_ = 0;
 };
 
 /// Quantities that were looked up once, for all simulations of a scene: their handles are equal.
@@ -66,12 +44,13 @@ class Quantities {
 
  private:
   struct Target {
-    const Kind* kind;
+    const Kind* kind = nullptr;
+    const ReadingQuantity* of_reading = nullptr;  // in place of a kind
     ObjectId object = kNoObject;
     ObjectId relative_to = kNoObject;
   };
   void add(Simulation& example, const std::string& name, Use use);
-  void add(const World& world, const Kind& kind, ObjectId object, ObjectId relative_to, const std::string& name);
+  void add(const Target& target, std::vector<std::size_t> shape, std::string name);
 
   std::vector<Quantity> list_;
   std::vector<Target> targets_;

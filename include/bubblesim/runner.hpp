@@ -31,7 +31,7 @@ struct StepGate {
 
 using GateId = std::uint64_t;
 
-struct WatchedFile;
+struct WatchedDescriptor;
 
 struct RunnerOptions {
   double speed = 1;  ///< simulated seconds per second; infinity: as fast as possible
@@ -125,9 +125,9 @@ class Runner {
   GateId add_gate(StepGate gate);
   void remove_gate(GateId gate);
   void remove_gates();
-  /// For FileWatch, which see.
-  void add_file(std::shared_ptr<WatchedFile> file);
-  void remove_file(const WatchedFile& file);
+  /// For DescriptorWatch, which see.
+  void add_descriptor(std::shared_ptr<WatchedDescriptor> descriptor);
+  void remove_descriptor(const WatchedDescriptor& descriptor);
   /// Runs the simulation on this thread until end(), the time limit, is_ending, or a stop that ends it. Throws what a
   /// step throws, except a divergence that a reset can mend.
   void run();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of sensors: for each its description and its measurement. The two variants at the end list them all.
+// The descriptions and measurements of bubblesim's own kinds of sensors (sensor_definition.hpp: how to add others).
 // SI units; sensors look along their x axis, y to the left, z up.
 #pragma once
 
@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "bubblesim/any_record.hpp"
 #include "bubblesim/math.hpp"
 #include "bubblesim/scene_tree.hpp"
 
@@ -25,6 +25,8 @@ struct NoiseDescription {
   double bias_mean = 0;
   double bias_stddev = 0;
   double precision = 0;  ///< 0: not rounded
+
+  static const MemberTable& members();
 };
 
 enum class ProximityVolume {
@@ -41,17 +43,19 @@ struct SonarDescription {
   double max_range = 1;   ///< m
   double half_angle = 0;  ///< rad, between the axis and the volume's side
   ProximityVolume volume = ProximityVolume::kCone;
+
+  static const MemberTable& members();
 };
 
 /// Measurement of a sonar or another proximity sensor. Lengths in metres, in the sensor's frame.
 struct ProximityReading {
-  static constexpr std::string_view kName = "proximity sensor";
-
   bool detected = false;
   double distance = 0;
   Vector3 point;
   Vector3 normal;               ///< of the detected surface
   ObjectId object = kNoObject;  ///< the detected link
+
+  static const MemberTable& members();
 };
 
 /// Angles of a scan: `samples` evenly spaced angles from `min` to `max`, both included; a single sample lies at `min`.
@@ -61,6 +65,8 @@ struct ScanAngles {
   double max = 0;  ///< rad
 
   double at(int i) const { return samples > 1 ? min + (max - min) * i / (samples - 1) : min; }
+
+  static const MemberTable& members();
 };
 
 struct LidarDescription {
@@ -71,18 +77,20 @@ struct LidarDescription {
   double resolution = 0;  ///< m; ranges are rounded to multiples of it, 0: not rounded
   NoiseDescription noise;
   std::string signal;  ///< name of the string signal that holds the points for child scripts; empty: none
+
+  static const MemberTable& members();
 };
 
 /// One scan of a lidar. Ring by ring, the lowest first; each ring starts at `horizontal.min`.
 struct LidarScan {
-  static constexpr std::string_view kName = "lidar";
-
   ScanAngles horizontal;
   ScanAngles vertical;
   double min_range = 0;
   double max_range = 0;
   std::vector<float> ranges;       ///< m, at least min_range; +Inf: nothing within max_range (REP 117)
   std::vector<float> intensities;  ///< laser_retro of the visual that was hit; 0: no hit
+
+  static const MemberTable& members();
 };
 
 /// Metres, in the sensor's frame.
@@ -101,12 +109,12 @@ struct CameraDescription {
   bool color = true;              ///< false: depth camera
   bool antialias = false;         ///< four rays per pixel
   NoiseDescription noise;         ///< of each colour value (0 to 1), or of the depth in m when color is false
+
+  static const MemberTable& members();
 };
 
 /// Image of a camera, row by row from the top, each row from left to right.
 struct CameraImage {
-  static constexpr std::string_view kName = "camera";
-
   int width = 0;
   int height = 0;
   double horizontal_fov = 0;      ///< rad
@@ -115,6 +123,8 @@ struct CameraImage {
   std::vector<std::uint8_t> rgb;  ///< three bytes per pixel; empty for a depth camera
   std::vector<float> depth;       ///< m along the axis, at least `near`; +Inf beyond `far` (REP 117)
   std::vector<ObjectId> objects;  ///< visible link, or kNoObject
+
+  static const MemberTable& members();
 };
 
 /// Axes of a camera's point cloud: those of the sensor, or z forward and x to the right (REP 103).
@@ -133,16 +143,18 @@ struct ImuDescription {
   std::array<NoiseDescription, 3> angular_velocity_noise;     ///< rad/s
   std::array<NoiseDescription, 3> linear_acceleration_noise;  ///< m/s^2
   double bandwidth = 0;                                       ///< Hz, of a first-order low-pass filter; 0: none
+
+  static const MemberTable& members();
 };
 
 /// Measurement of an inertial measurement unit, in the sensor's frame (REP 145).
 struct ImuReading {
-  static constexpr std::string_view kName = "IMU";
-
   Quaternion orientation;    ///< of the sensor in the world, without noise
   Vector3 angular_velocity;  ///< rad/s
   Vector3
       linear_acceleration;  ///< m/s^2, mean over the last step or filtered, with the reaction to gravity: +g at rest
+
+  static const MemberTable& members();
 };
 
 /// A satellite navigation (GPS) receiver.
@@ -151,47 +163,55 @@ struct NavSatDescription {
   NoiseDescription vertical_position_noise;    ///< m
   NoiseDescription horizontal_velocity_noise;  ///< m/s, east and north
   NoiseDescription vertical_velocity_noise;    ///< m/s
+
+  static const MemberTable& members();
 };
 
 /// Measurement of a satellite navigation receiver.
 struct NavSatReading {
-  static constexpr std::string_view kName = "GPS receiver";
-
   double latitude = 0;   ///< degrees
   double longitude = 0;  ///< degrees
   double altitude = 0;   ///< m above the WGS84 ellipsoid
   Vector3 velocity;      ///< m/s, east, north, up
+
+  static const MemberTable& members();
 };
 
 /// Measures the height above its start position.
 struct AltimeterDescription {
   NoiseDescription position_noise;  ///< m
   NoiseDescription velocity_noise;  ///< m/s
+
+  static const MemberTable& members();
 };
 
 /// Measurement of an altimeter.
 struct AltimeterReading {
-  static constexpr std::string_view kName = "altimeter";
-
   double height = 0;    ///< m above its initial position
   double velocity = 0;  ///< m/s upwards
+
+  static const MemberTable& members();
 };
 
 /// Measures the magnetic field; noise along x, y, z.
 struct MagnetometerDescription {
   std::array<NoiseDescription, 3> field_noise;  ///< T
+
+  static const MemberTable& members();
 };
 
 /// Measurement of a magnetometer, in the sensor's frame.
 struct MagnetometerReading {
-  static constexpr std::string_view kName = "magnetometer";
-
   Vector3 field;  ///< T
+
+  static const MemberTable& members();
 };
 
 /// Measures the contacts of its link.
 struct ContactDescription {
   std::vector<std::string> collisions;  ///< names of collisions of the link; empty: all
+
+  static const MemberTable& members();
 };
 
 inline bool watches(const ContactDescription& sensor, const std::string& collision) {
@@ -205,6 +225,8 @@ struct ContactPoint {
   Vector3 normal;    ///< direction in which the other shape pushes
   double depth = 0;  ///< m
   Vector3 force;     ///< N, in the last physics substep with contact
+
+  static const MemberTable& members();
 };
 
 /// A contact between a shape of a link and another shape during the last step.
@@ -214,13 +236,15 @@ struct Contact {
   std::string other_collision;
   Vector3 force;                     ///< N on the link, mean over the step
   std::vector<ContactPoint> points;  ///< of the last physics substep with contact
+
+  static const MemberTable& members();
 };
 
 /// Contacts of a link.
 struct ContactReading {
-  static constexpr std::string_view kName = "contact sensor";
-
   std::vector<Contact> contacts;
+
+  static const MemberTable& members();
 };
 
 /// Measures the force and torque that a joint transmits.
@@ -232,27 +256,31 @@ struct ForceTorqueDescription {
   std::array<NoiseDescription, 3> force_noise;   ///< N
   std::array<NoiseDescription, 3> torque_noise;  ///< N m
   double bandwidth = 0;                          ///< Hz, of a first-order low-pass filter; 0: none
+
+  static const MemberTable& members();
 };
 
 /// Force and torque that a joint transmits, with the axes and sign of the description; torque about the sensor's
 /// origin.
 struct ForceTorqueReading {
-  static constexpr std::string_view kName = "force-torque sensor";
-
   Vector3 force;   ///< N, mean over the last step or filtered
   Vector3 torque;  ///< N m, mean over the last step
+
+  static const MemberTable& members();
 };
 
-using SensorKind =
-    std::variant<SonarDescription, LidarDescription, CameraDescription, ImuDescription, NavSatDescription,
-                 AltimeterDescription, MagnetometerDescription, ContactDescription, ForceTorqueDescription>;
+/// Which kind of sensor, with its parameters: holds the description of a kind.
+class SensorKind : public AnyRecord {
+ public:
+  using AnyRecord::AnyRecord;
+  using AnyRecord::operator=;
+};
 
-using Measurement = std::variant<ProximityReading, LidarScan, CameraImage, ImuReading, NavSatReading, AltimeterReading,
-                                 MagnetometerReading, ContactReading, ForceTorqueReading>;
-
-/// The kName of the measurement's kind.
-inline std::string_view kind_name(const Measurement& measurement) {
-  return std::visit([](const auto& kind) { return kind.kName; }, measurement);
-}
+/// Holds the reading of a kind.
+class Measurement : public AnyRecord {
+ public:
+  using AnyRecord::AnyRecord;
+  using AnyRecord::operator=;
+};
 
 }  // namespace bubblesim

@@ -181,7 +181,7 @@ class Simulation {
   Color color(ObjectId object) const;
   /// Number of measurements of all sensors so far.
   std::uint64_t measurements() const { return measurements_; }
-  /// See kind_name(). Does not measure.
+  /// SensorDefinition::name. Does not measure.
   std::string_view sensor_kind(ObjectId sensor);
   /// Like read() and measure() for proximity sensors. Throw WrongObject for other sensors.
   ProximityReading read_proximity(ObjectId sensor);

@@ -10,6 +10,8 @@
 
 from __future__ import annotations
 
+import importlib
+import sys
 from pkgutil import extend_path
 from typing import TYPE_CHECKING, Any
 
@@ -96,9 +98,31 @@ __all__ = [
 __path__ = extend_path(__path__, __name__)
 
 
+def _why_not_loaded() -> str:
+    """Return why the compiled module is not found: it is for one version of Python, and may not be built at all."""
+    from pathlib import Path
+
+    here = f"{sys.version_info.major}.{sys.version_info.minor}"
+    for folder in __path__:
+        for file in Path(folder).glob("_core.cpython-*.so"):
+            digits = file.name.split("-")[1]
+            return (
+                f"bubblesim was built for Python {digits[0]}.{digits[1:]}, this is {here} ({sys.executable}): "
+                "use /usr/bin/python3"
+            )
+    return "the compiled part of bubblesim is not found: run scripts/setup, and source .ws/devel/setup.bash"
+
+
 def __getattr__(name: str) -> Any:
     """Load the core on first use: some commands of `bubblesim` do not need it, and loading takes 0.1 s."""
-    if name not in __all__:
+    if name == "_core":
+        try:
+            return importlib.import_module("bubblesim._core")
+        except ModuleNotFoundError as error:
+            if error.name == "bubblesim._core":
+                raise ImportError(_why_not_loaded()) from None
+            raise
+    if name not in __all__ and not name.endswith("Reading"):  # kinds of sensors that were added have such classes
         raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     if name == "connect":
         from bubblesim.remote.connection import connect
@@ -106,4 +130,6 @@ def __getattr__(name: str) -> Any:
         return connect
     from bubblesim import _core
 
+    if not hasattr(_core, name):
+        raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
     return getattr(_core, name)

@@ -7,6 +7,10 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while modules are loaded
 
+from bubblesim.program import users_packages
+
+users_packages.leave_out()
+
 import argparse
 import os
 import re
@@ -15,11 +19,12 @@ import tempfile
 import time
 from pathlib import Path
 
-from bubblesim.program import run_program
+from bubblesim.program.run import run_program
 from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.recording import Recording
+from bubblesim.running.ros_home import use_writable_ros_home
 from bubblesim.running.stop import Stop, wait_for
 
 _CONTROLLERS = {"tricycle": "tricycle_avoid.py"}  # the other scenes start their controller or need none
@@ -47,6 +52,7 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     stop = Stop()
     recording = Recording()
     with tempfile.TemporaryDirectory(prefix="bubblesim-demo-") as logs, Programs(Path(logs)) as programs:
+        use_writable_ros_home(Path(logs))
         provide_master(programs, stop)
         if stop.requested:
             return

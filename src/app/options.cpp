@@ -136,14 +136,14 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.add_option("--record", options.record, "FILE: record the messages that scripts publish and receive in a bag");
   app.add_option("--lockstep", options.lockstep, "TOPIC: in each step, wait for one message on it (repeatable)")
       ->allow_extra_args(false);
-  CLI::Option* remote =
-      app.add_option("--remote", remote_port,
-                     "PORT: open the door for CoppeliaSim's remote client for Python (default 23000); the simulation "
-                     "is stopped until a client or ~unpause starts it")
-          ->expected(0, 1)
-          ->default_str("23000")
-          ->check(CLI::Range(0, 65535));
-  app.add_option("--remote-address", options.remote_address, "address that the door listens on (default 127.0.0.1)")
+  CLI::Option* remote = app.add_option("--remote", remote_port,
+                                       "PORT: serve CoppeliaSim's remote API clients (default 23000); the simulation "
+                                       "is stopped until a client or ~unpause starts it")
+                            ->expected(0, 1)
+                            ->default_str("23000")
+                            ->check(CLI::Range(0, 65535));
+  app.add_option("--remote-address", options.remote_address,
+                 "address that the remote API server listens on (default 127.0.0.1)")
       ->needs(remote);
   app.add_option("--remote-token", options.remote_token,
                  "FILE: refuse clients that do not send the text in FILE; made with a new token if there is none. "

@@ -40,19 +40,19 @@ struct Options {
   bool watch = false;
   std::filesystem::path record;
   std::vector<std::string> lockstep;  ///< topics
-  std::optional<int> remote_port;     ///< of the door for remote clients
+  std::optional<int> remote_port;     ///< of the remote API server
   std::string remote_address = "127.0.0.1";
   std::filesystem::path remote_token;   ///< file with the text that remote clients must know; empty: none
-  std::filesystem::path window_socket;  ///< of the door for the window, in a folder of this user; empty: none
+  std::filesystem::path window_socket;  ///< of the remote API for the window, in a folder of this user; empty: none
   bool remote_trusted = false;          ///< clients may start all programs and use all files
-  bool start = false;                   ///< with the door, which otherwise leaves the start to a client
+  bool start = false;                   ///< with the remote API server, which otherwise leaves the start to a client
   bool web = false;                     ///< start the server of the window
   std::optional<int> web_port;          ///< default: 8080, or the next free one
   std::string web_address = "127.0.0.1";
   bool web_edit = true;                ///< pages may change the simulation and files
   std::vector<std::string> arguments;  ///< NAME:=VALUE, for a xacro scene
 
-  bool has_door() const { return remote_port || !window_socket.empty(); }
+  bool has_remote_api() const { return remote_port || !window_socket.empty(); }
 };
 
 /// Parses the command line. On --help, --list-scenes, --version or an error, prints the text and returns the exit code

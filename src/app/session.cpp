@@ -39,7 +39,8 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   if (options.remote_port && !options.start && !options.paused) how.initial = RunState::kStopped;
   if (!is_first) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
-  how.ends_at_stop = (!options.ros && !options.has_door()) || options.until;  // nothing can or should start it again
+  how.ends_at_stop =
+      (!options.ros && !options.has_remote_api()) || options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
@@ -119,9 +120,9 @@ Session::RunnerUse::~RunnerUse() {
   node.runner.set(nullptr);
 }
 
-Session::DoorUse::~DoorUse() {
+Session::ServedScene::~ServedScene() {
   try {
-    door.detach();
+    server.detach();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
@@ -158,14 +159,14 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*services_);
   }
   if (observers_) simulation_->add(*observers_);
-  if (options.has_door() && !node.door) {
-    node.door = std::make_unique<RemoteDoor>(
-        python, RemoteDoorOptions{options.remote_address, options.remote_port, options.window_socket,
-                                  options.remote_token, options.remote_trusted, fixed_scene(options)});
+  if (options.has_remote_api() && !node.remote_api) {
+    node.remote_api = std::make_unique<RemoteApiServer>(
+        python, RemoteApiOptions{options.remote_address, options.remote_port, options.window_socket,
+                                 options.remote_token, options.remote_trusted, fixed_scene(options)});
   }
-  if (node.door) {
-    simulation_->add(*node.door);
-    door_use_ = std::make_unique<DoorUse>(*node.door, *scripts_, failure);
+  if (node.remote_api) {
+    simulation_->add(*node.remote_api);
+    served_scene_ = std::make_unique<ServedScene>(*node.remote_api, *scripts_, failure);
   }
   counts_use_ = std::make_unique<CountsUse>(node.counts, *scripts_);
   if (is_first && !options.load_state.empty()) load_state(*simulation_, options.load_state);
@@ -180,11 +181,11 @@ std::shared_ptr<const Scene> Session::run() {
     summarize(runner_);
     throw;
   }
-  return node_.door && !stop_requested() ? node_.door->take_next_scene() : nullptr;
+  return node_.remote_api && !stop_requested() ? node_.remote_api->take_next_scene() : nullptr;
 }
 
 int Session::finish() {
-  if (node_.door) node_.door->close();
+  if (node_.remote_api) node_.remote_api->close();
   scripts_->finish();
   node_.guard.reset();
   summarize(runner_);

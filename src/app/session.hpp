@@ -14,7 +14,7 @@
 #include "bubblesim/gazebo_plugins.hpp"
 #include "bubblesim/node_services.hpp"
 #include "bubblesim/observers.hpp"
-#include "bubblesim/remote_door.hpp"
+#include "bubblesim/remote_api_server.hpp"
 #include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_system.hpp"
 #include "bubblesim/runner.hpp"
@@ -70,7 +70,7 @@ struct Node {
   std::unique_ptr<RosBridge> bridge;  ///< null without ROS
   std::unique_ptr<StopGuard> guard;
   std::unique_ptr<PythonEngine> python;
-  std::unique_ptr<RemoteDoor> door;  ///< null without remote clients
+  std::unique_ptr<RemoteApiServer> remote_api;  ///< null without remote clients
 };
 
 /// The options for the node's bridge.
@@ -80,7 +80,7 @@ RosBridgeOptions ros_options(Node& node);
 class Session {
  public:
   /// `is_first`: the scene of the command line, which starts as the options say; later ones are stopped. `failure`: see
-  /// RemoteDoor::attach().
+  /// RemoteApiServer::attach().
   Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_first, const std::string& failure = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -104,14 +104,14 @@ class Session {
   };
 
   /// Lets the remote clients wait for the next session.
-  struct DoorUse {
-    DoorUse(RemoteDoor& its_door, const ChildScripts& scripts, const std::string& failure) : door(its_door) {
-      door.attach(scripts, failure);
+  struct ServedScene {
+    ServedScene(RemoteApiServer& of_node, const ChildScripts& scripts, const std::string& failure) : server(of_node) {
+      server.attach(scripts, failure);
     }
-    ~DoorUse();
-    DoorUse(const DoorUse&) = delete;
-    DoorUse& operator=(const DoorUse&) = delete;
-    RemoteDoor& door;
+    ~ServedScene();
+    ServedScene(const ServedScene&) = delete;
+    ServedScene& operator=(const ServedScene&) = delete;
+    RemoteApiServer& server;
   };
 
   /// Keeps the last numbers of the scripts.
@@ -132,7 +132,7 @@ class Session {
   std::unique_ptr<GazeboPlugins> plugins_;
   std::unique_ptr<ChildScripts> scripts_;
   std::unique_ptr<NodeServices> services_;
-  std::unique_ptr<DoorUse> door_use_;
+  std::unique_ptr<ServedScene> served_scene_;
   std::unique_ptr<CountsUse> counts_use_;
 };
 

@@ -40,7 +40,7 @@ PrivateFolder::~PrivateFolder() {
 
 WebServer::WebServer(Options& options) {
   if (!options.web) return;
-  options.window_socket = folder_.emplace().path() / "door";
+  options.window_socket = folder_.emplace().path() / "api";
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "bubblesim";
   std::vector<std::string> arguments = {program.string(), "view",
                                         "--door",         options.window_socket.string(),

@@ -24,8 +24,8 @@ class PrivateFolder {
 
 class WebServer {
  public:
-  /// Starts the server if the options want it, and sets their window_socket, where it waits for the door. Throws
-  /// std::runtime_error when it cannot be started.
+  /// Starts the server if the options want it, and sets their window_socket, where it waits for the remote API server.
+  /// Throws std::runtime_error when it cannot be started.
   explicit WebServer(Options& options);
   ~WebServer();
   WebServer(const WebServer&) = delete;

@@ -131,8 +131,7 @@ void bind_objects(py::module_& module) {
           "Factor of the standard deviations of a sensor's noise, until the simulation is reset.")
       .def_property_readonly(
           "reading", [](const View& v) { return last_reading(v.simulation(), v.id()); },
-          "A sensor's last reading: a ProximityReading, LidarScan, CameraImage, ImuReading,\n"
-          "NavSatReading, AltimeterReading, MagnetometerReading, ContactReading or ForceTorqueReading.")
+          "A sensor's last reading, an object of the class of its kind: a LidarScan, CameraImage, ImuReading, ...")
       .def_property_readonly(
           "urdf", [](const View& v) { return to_urdf(v.world().description(v.id())); },
           "Return the URDF of the object's model, for robot_state_publisher and RViz; each sensor is a separate link.\n"

@@ -17,7 +17,7 @@
 #include "camera_messages.hpp"
 #include "contact_messages.hpp"
 #include "guarded.hpp"
-#include "held_readings.hpp"
+#include "held_reading.hpp"
 #include "lidar_messages.hpp"
 #include "motion_messages.hpp"
 #include "number_list.hpp"
@@ -79,7 +79,7 @@ void add(const NumberList<6>& numbers, Vector3& first, Vector3& second) {
 void bind_scans(py::module_& m) {
   m.def(
       "laser_scan",
-      [](const StampedFrame& frame, HeldScan scan, std::optional<int> ring) {
+      [](const StampedFrame& frame, Held<LidarScan> scan, std::optional<int> ring) {
         if (ring && (*ring < 0 || *ring >= scan->vertical.samples)) throw py::index_error("no such ring of the scan");
         return message(frame.header(),
                        [=](Fields& fields, const Header& header) { make::laser_scan(fields, header, *scan, ring); });
@@ -88,7 +88,7 @@ void bind_scans(py::module_& m) {
       "Return a sensor_msgs/LaserScan of one ring, or of all one after the other.");
   m.def(
       "lidar_cloud",
-      [](const StampedFrame& frame, HeldScan scan, double least, double most, bool organized) {
+      [](const StampedFrame& frame, Held<LidarScan> scan, double least, double most, bool organized) {
         return message(frame.header(), [=](Fields& fields, const Header& header) {
           make::lidar_cloud(fields, header, *scan, {least, most, organized});
         });
@@ -99,14 +99,14 @@ void bind_scans(py::module_& m) {
       "velodyne_pointcloud. An organized cloud has all rays, and NaN for those without a return.");
   m.def(
       "lidar_points",
-      [](const StampedFrame& frame, HeldScan scan) {
+      [](const StampedFrame& frame, Held<LidarScan> scan) {
         return message(frame.header(),
                        [=](Fields& fields, const Header& header) { make::lidar_points(fields, header, *scan); });
       },
       py::arg("header"), py::arg("scan"),
       "Return a sensor_msgs/PointCloud with intensities; rays without a return end at the maximum range.");
   m.def(
-      "nearest_range", [](const HeldScan& scan) { return make::nearest_range(*scan); }, py::arg("scan"),
+      "nearest_range", [](const Held<LidarScan>& scan) { return make::nearest_range(*scan); }, py::arg("scan"),
       "Return the nearest range, m; infinite without a return.");
   m.def(
       "range",
@@ -124,14 +124,14 @@ void bind_scans(py::module_& m) {
 void bind_images(py::module_& m) {
   m.def(
       "color_image",
-      [](const StampedFrame& frame, HeldImage image) {
+      [](const StampedFrame& frame, Held<CameraImage> image) {
         return message(frame.header(),
                        [=](Fields& fields, const Header& header) { make::color_image(fields, header, *image); });
       },
       py::arg("header"), py::arg("image"), "Return a sensor_msgs/Image, rgb8.");
   m.def(
       "depth_image",
-      [](const StampedFrame& frame, HeldImage image, const std::optional<std::pair<double, double>>& limits) {
+      [](const StampedFrame& frame, Held<CameraImage> image, const std::optional<std::pair<double, double>>& limits) {
         std::optional<make::DepthLimits> depths;
         if (limits) depths = make::DepthLimits{limits->first, limits->second};
         return message(frame.header(), [=](Fields& fields, const Header& header) {
@@ -142,7 +142,7 @@ void bind_images(py::module_& m) {
       "Return a sensor_msgs/Image of depths in metres, 32FC1; those not between the limits are NaN.");
   m.def(
       "camera_cloud",
-      [](const StampedFrame& frame, HeldImage image, std::pair<double, double> limits, bool optical) {
+      [](const StampedFrame& frame, Held<CameraImage> image, std::pair<double, double> limits, bool optical) {
         const make::DepthLimits depths{limits.first, limits.second};
         const CloudAxes axes = optical ? CloudAxes::kOptical : CloudAxes::kSensor;
         return message(frame.header(), [=](Fields& fields, const Header& header) {
@@ -187,7 +187,7 @@ std::unique_ptr<FieldReader> imu_message(const StampedFrame& frame, const ImuRea
 void bind_vectors(py::module_& m) {
   m.def(
       "imu",
-      [](const StampedFrame& frame, const HeldImu& reading, const NumberList<3>& variances,
+      [](const StampedFrame& frame, const Held<ImuReading>& reading, const NumberList<3>& variances,
          const NumberList<3>& linear_acceleration_variances, const NumberList<4>& turn,
          const std::optional<NumberList<6>>& noise) {
         ImuReading changed = *reading;
@@ -252,7 +252,7 @@ void bind_vectors(py::module_& m) {
       py::arg("header"), py::arg("vector"), "Return a geometry_msgs/Vector3Stamped.");
   m.def(
       "wrench",
-      [](const StampedFrame& frame, const HeldForceTorque& held, const std::optional<NumberList<6>>& noise) {
+      [](const StampedFrame& frame, const Held<ForceTorqueReading>& held, const std::optional<NumberList<6>>& noise) {
         ForceTorqueReading reading = *held;
         if (noise) add(*noise, reading.force, reading.torque);
         return message(frame.header(),
@@ -330,7 +330,7 @@ void bind_reading_messages(py::module_& core) {
   bind_motions(m);
   Guarded(m).def(
       "contacts_state",
-      [](const World& world, const StampedFrame& frame, ObjectId link, const HeldContacts& reading,
+      [](const World& world, const StampedFrame& frame, ObjectId link, const Held<ContactReading>& reading,
          ObjectId reference) {
         auto touches = make::read_touches(world, link, *reading, reference);
         return message(frame.header(), [touches = std::move(touches)](Fields& fields, const Header& header) {

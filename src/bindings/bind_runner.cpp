@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "bubblesim/file_watch.hpp"
+#include "bubblesim/descriptor_watch.hpp"
 #include "bubblesim/runner.hpp"
 #include "guarded.hpp"
 
@@ -150,8 +150,8 @@ void post(Runner& runner, py::function function) {
   });
 }
 
-std::unique_ptr<FileWatch> watch(Runner& runner, int descriptor, py::function serve) {
-  return std::make_unique<FileWatch>(runner, descriptor, with_gil<bool>(std::move(serve)));
+std::unique_ptr<DescriptorWatch> watch(Runner& runner, int descriptor, py::function serve) {
+  return std::make_unique<DescriptorWatch>(runner, descriptor, with_gil<bool>(std::move(serve)));
 }
 
 using FramePtr = std::shared_ptr<const Frame>;
@@ -205,12 +205,12 @@ void bind_runner(py::module_& module) {
                              "n x 7 float32: x, y, z in m and the quaternion x, y, z, w of each link in the world.")
       .def_property_readonly("joint_positions", &joint_positions, "float32, rad or m.");
 
-  py::class_<FileWatch>(module, "FileWatch", "Calls a function of a runner when a file descriptor is readable.")
-      .def("close", &FileWatch::close, py::call_guard<py::gil_scoped_release>(),
+  py::class_<DescriptorWatch>(module, "DescriptorWatch",
+                              "Calls a function of a runner when a file descriptor is readable.")
+      .def("close", &DescriptorWatch::close, py::call_guard<py::gil_scoped_release>(),
            "End it; after that the function is not called any more.")
-      .def("look_again", &FileWatch::look_again,
-           "Have the function called even if the descriptor is not readable: for sockets whose descriptor signals "
-           "edges.");
+      .def("serve_again", &DescriptorWatch::serve_again,
+           "Have the function called even if the descriptor is not readable: for edge-triggered descriptors.");
 
   py::class_<Runner, RunnerPtr>(module, "Runner", R"(Runs a simulation on a thread of its own.
 

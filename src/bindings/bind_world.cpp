@@ -97,7 +97,7 @@ void bind_world(py::module_& module) {
           [](const World& w, const std::string& signal) {
             for (const ObjectId id : w.tree().objects()) {
               if (w.tree().at(id).kind != ObjectKind::kSensor) continue;
-              const auto* lidar = std::get_if<LidarDescription>(&w.sensor_description(id).kind);
+              const auto* lidar = w.sensor_description(id).kind.get_if<LidarDescription>();
               if (lidar != nullptr && lidar->signal == signal) return id;
             }
             return kNoObject;
@@ -107,7 +107,7 @@ void bind_world(py::module_& module) {
       .def(
           "sonar_limits",
           [](const World& w, ObjectId id) {
-            const auto* sonar = std::get_if<SonarDescription>(&w.sensor_description(id).kind);
+            const auto* sonar = w.sensor_description(id).kind.get_if<SonarDescription>();
             if (sonar == nullptr) throw WrongObject(w.tree().short_path(id) + " is not a proximity sensor");
             return py::make_tuple(sonar->min_range, sonar->max_range, sonar->half_angle);
           },

@@ -28,5 +28,6 @@ void bind_forces(pybind11::module_& core);
 void bind_reading_messages(pybind11::module_& core);
 void bind_readings(pybind11::module_& core);
 void bind_sensors(pybind11::module_& core);
+void bind_sensor_kinds(pybind11::module_& core);
 
 }  // namespace bubblesim::bindings

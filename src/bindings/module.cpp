@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, core) {
   bind_readings(core);
   bind_sensors(core);
   bind_reading_messages(core);
+  bind_sensor_kinds(core);
   bind_objects(core);
   bind_scene(core);
   bind_simulation(core);

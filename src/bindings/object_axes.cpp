@@ -18,8 +18,7 @@ Quaternion joint_axes(const World& world, ObjectId joint) {
 }
 
 bool looks_along_an_axis(const SensorDescription& sensor) {
-  return std::holds_alternative<SonarDescription>(sensor.kind) ||
-         std::holds_alternative<CameraDescription>(sensor.kind);
+  return sensor.kind.holds<SonarDescription>() || sensor.kind.holds<CameraDescription>();
 }
 
 }  // namespace

@@ -1,73 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_view.hpp"
 
+#include <string>
+
+#include "bubblesim/sensor_definition.hpp"
+
 namespace bubblesim::bindings {
 namespace {
 
 namespace py = pybind11;
 
-const char* volume_name(ProximityVolume volume) {
-  switch (volume) {
-    case ProximityVolume::kRay:
-      return "ray";
-    case ProximityVolume::kCone:
-      return "cone";
-    case ProximityVolume::kPyramid:
-      return "pyramid";
-    case ProximityVolume::kDisc:
-      return "disc";
-    case ProximityVolume::kCylinder:
-      return "cylinder";
+struct AsScalar {
+  py::object operator()(bool value) const { return py::bool_(value); }
+  py::object operator()(int value) const { return py::int_(value); }
+  py::object operator()(double value) const { return py::float_(value); }
+  py::object operator()(const std::string& value) const { return py::str(value); }
+  template <class Array>
+  py::object operator()(const Array&) const {
+    return py::none();
   }
-  return "";
-}
-
-py::dict named(const char* kind) {
-  py::dict dict;
-  dict["kind"] = kind;
-  return dict;
-}
-
-struct Parameters {
-  py::dict operator()(const SonarDescription& sonar) const {
-    py::dict dict = named("proximity");
-    dict["min_range"] = sonar.min_range;
-    dict["max_range"] = sonar.max_range;
-    dict["half_angle"] = sonar.half_angle;
-    dict["volume"] = volume_name(sonar.volume);
-    return dict;
-  }
-  py::dict operator()(const LidarDescription& lidar) const {
-    py::dict dict = named("lidar");
-    dict["min_range"] = lidar.min_range;
-    dict["max_range"] = lidar.max_range;
-    dict["samples"] = lidar.horizontal.samples;
-    dict["min_angle"] = lidar.horizontal.min;
-    dict["max_angle"] = lidar.horizontal.max;
-    dict["rings"] = lidar.vertical.samples;
-    dict["min_elevation"] = lidar.vertical.min;
-    dict["max_elevation"] = lidar.vertical.max;
-    return dict;
-  }
-  py::dict operator()(const CameraDescription& camera) const {
-    py::dict dict = named(camera.color ? "camera" : "depth_camera");
-    dict["width"] = camera.width;
-    dict["height"] = camera.height;
-    dict["horizontal_fov"] = camera.horizontal_fov;
-    dict["near"] = camera.near;
-    dict["far"] = camera.far;
-    return dict;
-  }
-  py::dict operator()(const ImuDescription&) const { return named("imu"); }
-  py::dict operator()(const NavSatDescription&) const { return named("navsat"); }
-  py::dict operator()(const AltimeterDescription&) const { return named("altimeter"); }
-  py::dict operator()(const MagnetometerDescription&) const { return named("magnetometer"); }
-  py::dict operator()(const ContactDescription&) const { return named("contact"); }
-  py::dict operator()(const ForceTorqueDescription&) const { return named("force_torque"); }
 };
+
+/// Numbers, choices and computed texts; None for other members.
+py::object scalar(const Member& member, const void* record) {
+  if (!member.is_stored()) return std::visit(AsScalar{}, member.compute(record));
+  switch (member.type) {
+    case MemberType::kInteger:
+      return py::int_(*static_cast<const std::int32_t*>(member.get(record)));
+    case MemberType::kNumber:
+      return py::float_(*static_cast<const double*>(member.get(record)));
+    case MemberType::kChoice:
+      return py::str(choice_of(member, record));
+    default:
+      return py::none();
+  }
+}
 
 }  // namespace
 
-pybind11::dict sensor_parameters(const SensorKind& kind) { return std::visit(Parameters{}, kind); }
+py::dict sensor_parameters(const SensorKind& kind) {
+  py::dict dict;
+  dict["kind"] = definition_of(kind).id;
+  for (const Member& member : kind.table()->members) {
+    const py::object value = scalar(member, kind.data());
+    if (!value.is_none()) dict[member.name.c_str()] = value;
+  }
+  return dict;
+}
 
 }  // namespace bubblesim::bindings

@@ -8,8 +8,8 @@
 
 namespace bubblesim::bindings {
 
-/// `kind` is that of sim's readings: proximity, lidar, camera, depth_camera, imu, navsat, altimeter, magnetometer,
-/// contact or force_torque.
+/// `kind`: SensorDefinition::id, or depth_camera; the others are the numbers and choices among the members of the
+/// description, under their names.
 pybind11::dict sensor_parameters(const SensorKind& kind);
 
 }  // namespace bubblesim::bindings

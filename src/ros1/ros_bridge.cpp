@@ -14,8 +14,12 @@
 #include <vector>
 
 #include "bubblesim/messages/registry.hpp"
+#include "callbacks/arrivals.hpp"
+#include "callbacks/counting_queue.hpp"
+#include "console/log_line.hpp"
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
+#include "master/names.hpp"
 #include "master/node_name.hpp"
 #include "master/parameters.hpp"
 #include "master/remote_shutdown.hpp"
@@ -27,10 +31,7 @@
 #include "ros_clock.hpp"
 #include "services/services.hpp"
 #include "services/step_service.hpp"
-#include "status/counting_queue.hpp"
 #include "status/diagnostics.hpp"
-#include "status/say.hpp"
-#include "topics/arrivals.hpp"
 #include "topics/endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 #include "topics/topics.hpp"
@@ -73,7 +74,7 @@ struct RosBridge::Impl {
 
   MasterWatch watch{[this] {
     clock.read_use_sim_time();
-    say("registered again at ROS master " + ros::master::getURI());
+    log_line("registered again at ROS master " + ros::master::getURI());
   }};
   PublisherCheck publisher_check;
   RefusedPeers refused_peers;
@@ -93,9 +94,16 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     : options(std::move(bridge_options)),
       master({[this] { return watch.check(); }, [this] { return refusal(); },
               [] {
-                say("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
-                    "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
-                    "as a master appears");
+                log_line("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
+                         "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
+                         "as a master appears");
+              },
+              [](bool had_master) {
+                log_line(had_master
+                             ? "the ROS master at " + ros::master::getURI() +
+                                   " does not answer -- the simulation continues; connected nodes stay connected, new "
+                                   "ones find this node when the master is back"
+                             : "still no ROS master at " + ros::master::getURI() + "; start one with 'roscore'");
               },
               [this] { on_connected(); },
               [this] {
@@ -123,7 +131,7 @@ std::string RosBridge::Impl::refusal() {
 void RosBridge::Impl::on_connected() {
   clock.register_at_master();
   for (const auto& server : own_servers) services.register_server(*server);
-  say("load succeeded: node " + ros::this_node::getName() + " at ROS master " + ros::master::getURI());
+  log_line("load succeeded: node " + ros::this_node::getName() + " at ROS master " + ros::master::getURI());
 }
 
 void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) {
@@ -157,7 +165,7 @@ RosBridge::~RosBridge() {
   impl_->topics.silence();
   impl_->services.silence();
   if (leave() && impl_->services.finish_calls(kLastCalls)) return;
-  say("the ROS master at " + master_uri() + " does not answer: ending without unregistering this node");
+  log_line("the ROS master at " + master_uri() + " does not answer: ending without unregistering this node");
   static_cast<void>(impl_.release());  // the remaining thread still uses it
 }
 

@@ -12,9 +12,9 @@
 #include <cmath>
 #include <utility>
 
+#include "console/log_line.hpp"
 #include "master/master_call.hpp"
 #include "peers/own_types.hpp"
-#include "status/say.hpp"
 #include "topics/topics.hpp"
 
 namespace bubblesim {
@@ -64,7 +64,7 @@ void RosClock::check_type(const std::string& other_topic, const messages::Messag
 
 void RosClock::say_left_to_script() {
   if (std::exchange(said_script_, true)) return;
-  say("a script advertises " + topic() + ": the simulator does not publish it");
+  log_line("a script advertises " + topic() + ": the simulator does not publish it");
 }
 
 void RosClock::set(double sim_time) {

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from node_support import Background, write
-from ros_support import RosCore, built, start, wait_until
+from ros_support import DEADLINE, RosCore, built, free_port, start, stop, wait_until
 
 NODES: dict[str, list[str]] = {"sim": ["tricycle"], "pointcloud_to_laserscan": []}
 ANY_ADDRESS = "00000000"
@@ -32,13 +32,26 @@ MULTICALL = GET_PID.replace("getPid", "system.multicall")
 numbers = itertools.count()
 
 
+def listens(pid: int) -> set[str]:
+    """Return the addresses of the listening TCP sockets of a process, from /proc."""
+    sockets = set()
+    for entry in Path(f"/proc/{pid}/fd").iterdir():
+        with contextlib.suppress(OSError):
+            sockets.add(entry.readlink().name)
+    lines = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    return {line[1].split(":")[0] for line in lines if line[3] == "0A" and f"socket:[{line[9]}]" in sockets}
+
+
 class Node(Background):
     """One of our nodes with its name, log, and listening addresses."""
 
-    def __init__(self, program: str, env: dict[str, str], folder: Path, *arguments: str) -> None:
+    def __init__(
+        self, program: str, env: dict[str, str], folder: Path, *arguments: str, before: tuple[str, ...] = ()
+    ) -> None:
         name = f"peer_{next(numbers)}"
         self._log = folder / f"{name}.log"
-        command = [str(built(program)), *NODES[program], *arguments, f"__name:={name}"]
+        where = program if program.startswith("/") else str(built(program))
+        command = [*before, where, *NODES.get(program, []), *arguments, f"__name:={name}"]
         with self._log.open("w") as output:
             self.process = start(command, env, stdout=output, stderr=subprocess.STDOUT)
         master: Any = xmlrpc.client.ServerProxy(env["ROS_MASTER_URI"])
@@ -54,13 +67,7 @@ class Node(Background):
         return xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}")
 
     def listens(self) -> set[str]:
-        """Return the addresses of its listening TCP sockets, from /proc."""
-        sockets = set()
-        for entry in Path(f"/proc/{self.process.pid}/fd").iterdir():
-            with contextlib.suppress(OSError):
-                sockets.add(entry.readlink().name)
-        lines = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
-        return {line[1].split(":")[0] for line in lines if line[3] == "0A" and f"socket:[{line[9]}]" in sockets}
+        return listens(self.process.pid)
 
     def tcpros_port(self, topic: str) -> int:
         code, message, answer = self.api.requestTopic("/test", topic, [["TCPROS"]])
@@ -146,6 +153,49 @@ def test_with_a_master_for_all_machines_ports_listen_on_all_addresses(core: RosC
 def test_an_address_of_the_command_line_counts(core: RosCore, tmp_path: Path) -> None:
     with Node("sim", environment(core), tmp_path, "__ip:=127.0.0.1") as node:
         assert node.listens() == {LOOPBACK}
+
+
+@pytest.mark.parametrize(
+    ("chosen", "addresses"), [({}, {LOOPBACK}), ({"ROS_IP": "127.0.0.1"}, {LOOPBACK}), ({"ROS_IP": ""}, {LOOPBACK})]
+)
+def test_nodes_in_python_listen_as_those_in_cpp(
+    core: RosCore, tmp_path: Path, chosen: dict[str, str], addresses: set[str]
+) -> None:
+    with Node("tricycle_avoid.py", environment(core, **chosen), tmp_path) as node:
+        assert node.listens() == addresses
+
+
+@pytest.mark.parametrize("addresses", [["127.0.1.1"], ["127.0.0.1", "192.0.2.7"]], ids=["only here", "several"])
+def test_a_name_that_says_no_one_address_opens_all(core: RosCore, tmp_path: Path, addresses: list[str]) -> None:
+    hosts = write(
+        tmp_path / "hosts", "127.0.0.1 localhost\n" + "".join(f"{each} robot.example\n" for each in addresses)
+    )
+    mounted = (
+        "unshare",
+        "--map-root-user",
+        "--mount",
+        "bash",
+        "-c",
+        f'mount --bind {hosts} /etc/hosts; exec "$0" "$@"',
+    )
+    if subprocess.run([*mounted, "true"], check=False).returncode:
+        pytest.skip("this user may not mount anything")
+    with Node("sim", environment(core, ROS_HOSTNAME="robot.example"), tmp_path, before=mounted) as node:
+        assert node.listens() == {ANY_ADDRESS}
+
+
+@pytest.mark.parametrize(("chosen", "addresses"), [({}, {ANY_ADDRESS}), ({"ROS_HOSTNAME": "localhost"}, {LOOPBACK})])
+def test_a_master_listens_on_all_addresses_unless_it_is_on_loopback(
+    core: RosCore, tmp_path: Path, chosen: dict[str, str], addresses: set[str]
+) -> None:
+    env = environment(core, **chosen)
+    with (tmp_path / "log").open("w") as output:
+        master = start(["rosmaster", "--core", "-p", str(free_port())], env, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        wait_until(lambda: listens(master.pid) != set(), "the master's port")
+        assert listens(master.pid) == addresses
+    finally:
+        stop(master)
 
 
 def test_an_address_of_no_interface_is_a_warning(core: RosCore, tmp_path: Path) -> None:
@@ -250,3 +300,43 @@ def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
                     connection.recv(1)
     wait_until(lambda: "suppressing more lines about connections of peers" in sim.output, "the limit")
     assert len(sim.output.splitlines()) < 30
+
+
+def test_any_caller_can_shut_a_node_down(core: RosCore, tmp_path: Path) -> None:
+    """As `rosnode kill` does: roscpp does not check who calls."""
+    with Node("sim", core.env, tmp_path) as running:
+        assert running.api.shutdown("/stranger", "for no reason")[0] == 1
+        assert running.process.wait(DEADLINE) == 0
+
+
+@pytest.fixture
+def plain(core: RosCore, tmp_path: Path) -> Iterator[Node]:
+    """A roscpp node without our limits."""
+    with Node("/usr/lib/topic_tools/relay", environment(core), tmp_path, "/in", "/out") as running:
+        yield running
+
+
+@pytest.mark.parametrize(
+    "body",
+    [CALL.format("getPid", f"<param>{nested(100_000)}</param>"), CALL.format("system.multicall", "")],
+    ids=["nested values", "nested multicall"],
+)
+def test_such_a_request_crashes_a_plain_roscpp_node(plain: Node, body: str) -> None:
+    if "multicall" in body:
+        inner = MULTICALL.replace("<value>/test</value>", f"<value><array><data>{GET_PID}</data></array></value>")
+        body = CALL.format("system.multicall", f"<param><value><array><data>{inner}</data></array></value></param>")
+    with contextlib.suppress(ConnectionError):
+        plain.post(body.encode())
+    assert plain.process.wait(DEADLINE) < 0  # by a signal
+
+
+def test_a_body_without_end_fills_the_memory_of_a_plain_roscpp_node(plain: Node) -> None:
+    def memory() -> int:
+        return int(Path(f"/proc/{plain.process.pid}/statm").read_text().split()[1]) >> 8  # MiB
+
+    before = memory()
+    with socket.create_connection(("127.0.0.1", plain.port), timeout=60) as connection:
+        connection.sendall(b"POST / HTTP/1.0\r\nContent-Type: text/xml\r\nContent-length: 2000000000\r\n\r\n")
+        for _ in range(64):
+            connection.sendall(bytes(1 << 20))
+        wait_until(lambda: memory() - before > 50, "the memory to fill")

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node of the tests of the door."""
+"""The node of the tests of the remote API."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from door_support import Door
+from remote_support import RemoteNode
 
 
 @pytest.fixture
-def door(tmp_path: Path) -> Iterator[Door]:
-    with Door(tmp_path, "--speed", "max") as door:
-        yield door
-        assert door.process.poll() is None, door.output
+def node(tmp_path: Path) -> Iterator[RemoteNode]:
+    with RemoteNode(tmp_path, "--speed", "max") as node:
+        yield node
+        assert node.process.poll() is None, node.output

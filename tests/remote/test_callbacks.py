@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from door_support import Door, refusal
 from node_support import write
+from remote_support import RemoteNode, refusal
 
 
-def test_callbacks_run_in_the_client(door: Door) -> None:
-    sim = door.sim()
+def test_callbacks_run_in_the_client(node: RemoteNode) -> None:
+    sim = node.sim()
     calls = []
 
     def add(a: int, b: int) -> int:
@@ -39,8 +39,8 @@ SCRIPT = """
 
 def test_scripts_are_called_and_call_back(tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", SCRIPT)
-    with Door(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as node:
+        sim = node.sim()
         ball = sim.getScript(sim.scripttype_simulation, "/Ball")
         assert "the simulation is stopped" in refusal(sim.callScriptFunction, "add", ball, 1, 2)
         sim.setStepping(True)
@@ -71,8 +71,8 @@ LARGE = """
 
 def test_of_the_calls_that_wait_for_a_client_the_last_16_mebibytes_are_kept(tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", LARGE)
-    with Door(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as door:
-        silent, sim = door.sim(), door.sim()
+    with RemoteNode(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as node:
+        silent, sim = node.sim(), node.sim()
         ball = sim.getScript(sim.scripttype_simulation, "/Ball")
         sim.setStepping(True)
         sim.startSimulation()

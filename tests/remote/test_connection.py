@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 import bubblesim
-from door_support import Door
+from remote_support import RemoteNode
 from ros_support import free_port
 
 
-def test_bubblesim_connect_has_typed_results(door: Door) -> None:
-    with bubblesim.connect(door.port) as simulator:
+def test_bubblesim_connect_has_typed_results(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
         sim = simulator.sim
         assert sim.getObjectPosition.__doc__ == "Return [x, y, z] in metres."
         car = sim.getObject("/Tricycle")
@@ -23,7 +23,7 @@ def test_bubblesim_connect_has_typed_results(door: Door) -> None:
         assert sim.step() is None
         with pytest.raises(RuntimeError, match="did you mean /Tricycle"):
             sim.getObject("/Tricyle")
-    other = door.sim()
+    other = node.sim()
     other.wait(0.5)  # the connection has ended its stepping
 
 

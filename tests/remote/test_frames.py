@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import bubblesim
-from door_support import Door
+from remote_support import RemoteNode
 
 
-def test_frames_show_the_poses_of_the_moving_links(door: Door) -> None:
-    with bubblesim.connect(door.port) as simulator:
+def test_frames_show_the_poses_of_the_moving_links(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
         sim = simulator.sim
         frames = simulator.frames()
         first = next(frames)
@@ -32,8 +32,8 @@ def test_frames_show_the_poses_of_the_moving_links(door: Door) -> None:
         assert motor == pytest.approx(sim.getJointPosition(sim.getObject("/FrontMotor")), abs=1e-6)
 
 
-def test_frames_go_on_when_models_and_scenes_change(door: Door) -> None:
-    with bubblesim.connect(door.port) as simulator:
+def test_frames_go_on_when_models_and_scenes_change(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
         frames = simulator.frames()
         before = next(frames)
         added = simulator.sim.loadModel("PioneerP3DX")
@@ -45,8 +45,8 @@ def test_frames_go_on_when_models_and_scenes_change(door: Door) -> None:
         assert len(other.links) == 1
 
 
-def test_a_reader_that_is_slow_gets_the_last_frame(door: Door) -> None:
-    with bubblesim.connect(door.port) as simulator:
+def test_a_reader_that_is_slow_gets_the_last_frame(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
         frames = simulator.frames()
         next(frames)
         simulator.sim.startSimulation()
@@ -59,11 +59,11 @@ def test_a_reader_that_is_slow_gets_the_last_frame(door: Door) -> None:
 
 
 def test_frames_end_with_an_error_when_the_node_is_gone(tmp_path: Path) -> None:
-    with Door(tmp_path) as door, bubblesim.connect(door.port, timeout=8.0) as simulator:
+    with RemoteNode(tmp_path) as node, bubblesim.connect(node.port, timeout=8.0) as simulator:
         frames = simulator.frames()
         next(frames)
         time.sleep(2.0)
-        door.process.kill()
+        node.process.kill()
         with pytest.raises(TimeoutError, match=r"no frame from 127\.0\.0\.1 in 8 s"):
             for _ in frames:
                 pass

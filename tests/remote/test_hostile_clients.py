@@ -13,15 +13,16 @@ import pytest
 import zmq
 
 import bubblesim
-from door_support import Door, refusal
+from node_support import write
+from remote_support import RemoteNode, refusal
 from ros_support import DEADLINE, wait_until
 
 ZMTP_1 = b"\x01\x00"  # greeting: no identity
 ZMTP_2 = b"\xff" + bytes(8) + b"\x7f\x01\x03" + b"\x00\x00"  # signature, revision 1, REQ, no identity
 
 
-def connected(door: Door) -> socket.socket:
-    return socket.create_connection(("127.0.0.1", door.port), DEADLINE)
+def connected(node: RemoteNode) -> socket.socket:
+    return socket.create_connection(("127.0.0.1", node.port), DEADLINE)
 
 
 def call(client: "zmq.Socket[bytes]", function: str, *arguments: object, uuid: str = "hostile") -> Any:
@@ -30,9 +31,9 @@ def call(client: "zmq.Socket[bytes]", function: str, *arguments: object, uuid: s
     return cbor2.loads(client.recv())
 
 
-def status(door: Door, name: str) -> int:
+def status(node: RemoteNode, name: str) -> int:
     """Return a number of the node from /proc: VmRSS (KiB), Threads."""
-    lines = Path(f"/proc/{door.process.pid}/status").read_text().splitlines()
+    lines = Path(f"/proc/{node.process.pid}/status").read_text().splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
 
 
@@ -51,25 +52,25 @@ def read_until(peer: socket.socket, text: bytes) -> None:
         ZMTP_2 + b"\x01\x00" + b"\x00\x03abc",
     ],
 )
-def test_a_client_that_is_too_old_gets_an_error(door: Door, message: bytes) -> None:
-    with connected(door) as old:
+def test_a_client_that_is_too_old_gets_an_error(node: RemoteNode, message: bytes) -> None:
+    with connected(node) as old:
         old.sendall(message)
         read_until(old, b"before 3.0: use libzmq 4")
-    assert door.sim().getSimulationState() == 0
-    assert "error" not in door.output
+    assert node.sim().getSimulationState() == 0
+    assert "error" not in node.output
 
 
-def test_random_bytes_end_nothing(door: Door) -> None:
+def test_random_bytes_end_nothing(node: RemoteNode) -> None:
     numbers = random.Random(1)
     for _ in range(200):
-        with connected(door) as peer:
+        with connected(node) as peer:
             peer.sendall(numbers.choice([b"", ZMTP_1, ZMTP_2]) + numbers.randbytes(100))
-    assert door.sim().getSimulationState() == 0
+    assert node.sim().getSimulationState() == 0
 
 
-def test_a_message_of_very_many_parts_is_discarded_in_between(door: Door) -> None:
-    sim = door.sim()
-    peer = door.raw(zmq.DEALER)
+def test_a_message_of_very_many_parts_is_discarded_in_between(node: RemoteNode) -> None:
+    sim = node.sim()
+    peer = node.raw(zmq.DEALER)
     peer.send_multipart([b""] * 200_000, copy=True)
     assert "expected a request of one part" in cbor2.loads(peer.recv_multipart()[-1])["err"]
     peer.send_multipart([b"", cbor2.dumps({"func": "sim.getSimulationTime", "uuid": "parts"})])
@@ -78,8 +79,8 @@ def test_a_message_of_very_many_parts_is_discarded_in_between(door: Door) -> Non
     peer.close()
 
 
-def test_costly_messages_are_refused_at_once(door: Door) -> None:
-    sim = door.sim()
+def test_costly_messages_are_refused_at_once(node: RemoteNode) -> None:
+    sim = node.sim()
     begin = b"\xa3\x64func\x67sim.any\x64uuid\x61u\x64args\x81"
     costly = {
         # 150,000 keys in a table. Such integers can be chosen so that all of them collide.
@@ -93,15 +94,15 @@ def test_costly_messages_are_refused_at_once(door: Door) -> None:
         "more than 4 MiB of texts": b"\x7a" + struct.pack(">I", 16_000_000) + "ä".encode() * 8_000_000,
     }
     for reason, argument in costly.items():
-        peer = door.raw()
+        peer = node.raw()
         peer.send(begin + argument)
         assert reason in cbor2.loads(peer.recv())["err"]
         peer.close()
     assert sim.getSimulationState() == 0
 
 
-def test_large_lists_of_real_clients_are_accepted(door: Door) -> None:
-    sim = door.sim()
+def test_large_lists_of_real_clients_are_accepted(node: RemoteNode) -> None:
+    sim = node.sim()
     points = [0.5 * i for i in range(3 * 66_000)]
     assert len(sim.packTable(points)) > len(points)
     assert sim.unpackTable(sim.packTable({1: "one", 2: [2.0]})) == {1: "one", 2: [2.0]}
@@ -110,16 +111,16 @@ def test_large_lists_of_real_clients_are_accepted(door: Door) -> None:
     assert sim.getStringSignal("image") == image
 
 
-def test_a_packed_table_has_the_limits_of_a_message(door: Door) -> None:
-    peer = door.raw()
+def test_a_packed_table_has_the_limits_of_a_message(node: RemoteNode) -> None:
+    peer = node.raw()
     packed = cbor2.dumps(dict.fromkeys(range(5000), 0))
     assert "more than 1,000 keys" in call(peer, "sim.unpackTable", packed)["err"]
     assert "at most 1000000" in call(peer, "sim.unpackUInt8Table", bytes(2_000_000))["err"]
     peer.close()
 
 
-def test_signals_and_custom_data_have_a_limit(door: Door) -> None:
-    sim = door.sim()
+def test_signals_and_custom_data_have_a_limit(node: RemoteNode) -> None:
+    sim = node.sim()
     sim.setStringSignal("a", bytes(60_000_000))
     sim.setStringSignal("b", bytes(60_000_000))
     for _ in range(3):  # values that are replaced need no room
@@ -136,31 +137,31 @@ def test_signals_and_custom_data_have_a_limit(door: Door) -> None:
     )
     for _ in range(60):
         refusal(sim.setNamedStringParam, "name", "x" * 5_000_000)
-    assert status(door, "VmRSS") < 700_000
+    assert status(node, "VmRSS") < 700_000
 
 
 @pytest.mark.parametrize("seconds", [float("inf"), float("nan"), -1.0, 1e10])
-def test_a_wait_of_wall_time_is_at_most_a_day(door: Door, seconds: float) -> None:
-    peer = door.raw()
+def test_a_wait_of_wall_time_is_at_most_a_day(node: RemoteNode, seconds: float) -> None:
+    peer = node.raw()
     assert "is not a time to wait" in call(peer, "sim.wait", seconds, False)["err"]
     peer.close()
 
 
 @pytest.mark.parametrize("seconds", [float("inf"), float("nan")])
-def test_a_wait_of_simulated_time_is_finite(door: Door, seconds: float) -> None:
-    peer = door.raw()
+def test_a_wait_of_simulated_time_is_finite(node: RemoteNode, seconds: float) -> None:
+    peer = node.raw()
     call(peer, "sim.startSimulation")
     assert "is not a time to wait" in call(peer, "sim.wait", seconds)["err"]
     peer.close()
 
 
-def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(door: Door) -> None:
-    before = status(door, "Threads")
-    long = [door.raw(zmq.DEALER) for _ in range(100)]
+def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(node: RemoteNode) -> None:
+    before = status(node, "Threads")
+    long = [node.raw(zmq.DEALER) for _ in range(100)]
     for number, peer in enumerate(long):
         message = {"func": "sim.wait", "args": [1000.0, False], "uuid": f"long {number}"}
         peer.send_multipart([b"", cbor2.dumps(message)])
-    short, shorter = door.raw(zmq.DEALER), door.raw(zmq.DEALER)
+    short, shorter = node.raw(zmq.DEALER), node.raw(zmq.DEALER)
     start = time.monotonic()
     for peer, seconds in ((short, 0.6), (shorter, 0.3)):
         message = {"func": "sim.wait", "args": [seconds, False], "uuid": f"{seconds}"}
@@ -169,45 +170,131 @@ def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(door: Do
     assert time.monotonic() - start >= 0.3
     assert cbor2.loads(short.recv_multipart()[-1]) == {"ret": [0.0]}
     assert time.monotonic() - start >= 0.6
-    assert status(door, "Threads") <= before + 1
+    assert status(node, "Threads") <= before + 1
     for peer in (*long, short, shorter):
         peer.close()
 
 
-def test_the_names_of_one_connection_do_not_drive_out_other_clients(door: Door) -> None:
-    sim = door.sim()
+def test_the_names_of_one_connection_do_not_drive_out_other_clients(node: RemoteNode) -> None:
+    sim = node.sim()
     sim.setStepping(True)
-    peer = door.raw()
+    peer = node.raw()
     for number in range(2100):
         assert call(peer, "sim.getSimulationState", uuid=f"client {number}") == {"ret": [0]}
     assert sim.setStepping(True) == 1  # the level before
     peer.close()
 
 
-def test_what_a_reader_of_frames_sends_does_not_stop_them(door: Door) -> None:
-    with bubblesim.connect(door.port) as simulator:
+def test_what_a_reader_of_frames_sends_does_not_stop_them(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
         frames = simulator.frames()
         next(frames)
         simulator.sim.startSimulation()
-        rogue = zmq.Context.instance().socket(zmq.XSUB)
+        rogue = zmq.Context.instance().socket(zmq.DEALER)
         rogue.setsockopt(zmq.LINGER, 0)
-        rogue.connect(f"tcp://127.0.0.1:{simulator.call('frames.open')}")
+        rogue.connect(f"tcp://127.0.0.1:{simulator.call('frames.open')[0]}")
         sent = time.monotonic()
         while time.monotonic() < sent + 1.0:
-            rogue.send(b"x")
+            rogue.send_multipart([b"x"] * 3)
+            rogue.send(b"")
             time.sleep(0.01)
         now = next(frames).time
         later = next(frame.time for frame in frames if frame.time > now)
         assert later > now
+        assert not rogue.poll(0)
         rogue.close()
 
 
-def test_a_connection_that_breaks_at_any_place_is_forgotten(door: Door) -> None:
-    sim = door.sim()
+def test_frames_are_for_those_whom_the_server_let_in(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
+        frames = simulator.frames()
+        next(frames)
+        simulator.sim.startSimulation()
+        port, secret = simulator.call("frames.open")
+        answered = {}
+        for words in (b"", secret[:-1], bytes(len(secret)), secret):
+            for kind in (zmq.REQ, zmq.SUB):
+                reader = zmq.Context.instance().socket(kind)
+                reader.setsockopt(zmq.LINGER, 0)
+                reader.connect(f"tcp://127.0.0.1:{port}")
+                if kind == zmq.REQ:
+                    reader.send(words + bytes(8))
+                else:
+                    reader.setsockopt(zmq.SUBSCRIBE, words)
+                answered[words, kind] = bool(reader.poll(1500))
+                reader.close()
+        assert [key for key, found in answered.items() if found] == [(secret, zmq.REQ)]
+
+
+def test_replies_that_are_not_read_fill_no_memory(node: RemoteNode) -> None:
+    large = 16  # MiB
+    assert call(node.raw(), "sim.setStringSignal", "large", bytes(large << 20))["ret"] == []
+    before = status(node, "VmRSS")
+    greedy = [zmq.Context.instance().socket(zmq.DEALER) for _ in range(4)]
+    for peer in greedy:
+        peer.setsockopt(zmq.LINGER, 0)
+        peer.setsockopt(zmq.RCVHWM, 1)
+        peer.connect(f"tcp://127.0.0.1:{node.port}")
+        for _ in range(30):
+            request = {"func": "sim.getStringSignal", "args": ["large"], "uuid": f"greedy {id(peer)}"}
+            peer.send_multipart([b"", cbor2.dumps(request)])
+    time.sleep(2.0)
+    assert call(node.raw(), "sim.getSimulationTime", uuid="modest")["ret"] == [0.0]
+    grown = (status(node, "VmRSS") - before) / 1024
+    assert grown < len(greedy) * 4 * large, f"{grown} MiB"
+    for peer in greedy:
+        peer.close()
+
+
+def test_errors_of_messages_fill_no_log(tmp_path: Path) -> None:
+    """No message is known that makes the server fail: a script breaks it from within."""
+    code = """
+        from bubblesim.remote import clients
+        def fail(*arguments): raise ZeroDivisionError('broken')
+        def sysCall_init(): clients.Clients.client_of = fail
+    """
+    script = write(tmp_path / "script.py", code)
+    with RemoteNode(tmp_path, "--start", "--child-script", f"/Tricycle={script}") as node:
+        peer = node.raw()
+        wait_until(lambda: "broken" in str(call(peer, "sim.getSimulationTime")), "the script to break it")
+        for _ in range(30):
+            assert call(peer, "sim.getSimulationTime")["err"] == "broken"
+        assert node.output.count("error: a message of a remote client: ZeroDivisionError: broken") == 20
+        assert node.output.count("further ones are not reported") == 1
+
+
+def test_the_graphs_of_a_scene_have_a_limit(node: RemoteNode) -> None:
+    sim = node.sim()
+    graphs = [sim.createDummy(0.01) for _ in range(3)]
+    for graph in graphs[:2]:
+        for number in range(500):
+            sim.addGraphStream(graph, f"stream {number}")
+    assert "at most 1000 streams" in refusal(sim.addGraphStream, graphs[2], "one more")
+    assert "at most 1000 streams" in refusal(sim.addGraphCurve, graphs[0], "curve", 2, [0, 1])
+    assert sim.addGraphStream(graphs[0], "stream 7", "m") == 7  # a change
+    assert "at most 1000" in refusal(sim.addGraphStream, graphs[0], "x" * 1001)
+
+
+def test_of_removed_models_the_last_hundred_can_be_brought_back(node: RemoteNode) -> None:
+    with bubblesim.connect(node.port) as simulator:
+        model = simulator.call("window.add_model", "PioneerP3DX", [3.0, 0.0, 0.5])
+        numbers = []
+        for _ in range(102):
+            numbers.append(simulator.call("window.remove", model))
+            model = simulator.call("window.restore", numbers[-1])
+        assert len(set(numbers)) == 102
+        for gone in numbers[:2]:
+            with pytest.raises(RuntimeError, match="only the last 100 models"):
+                simulator.call("window.restore", gone)
+        assert simulator.call("window.restore", numbers[2]) >= 0
+
+
+def test_a_connection_that_breaks_at_any_place_is_forgotten(node: RemoteNode) -> None:
+    sim = node.sim()
     sim.startSimulation()
     for kind in ("sim.getSimulationTime", "sim.step", "sim.setStepping"):
         for _ in range(20):
-            peer = door.raw(zmq.DEALER)
+            peer = node.raw(zmq.DEALER)
             peer.send_multipart([b"", cbor2.dumps({"func": kind, "args": [True], "uuid": f"breaks {kind}"})])
             peer.close()
     begin = sim.getSimulationTime()

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from coppeliasim_zmqremoteapi_client.asyncio import RemoteAPIClient as AsyncClient
 
-from door_support import TIMEOUT, Door, refusal
+from remote_support import TIMEOUT, RemoteNode, refusal
 from ros_support import DEADLINE
 
 
 def test_the_flow_of_the_clients_simple_test(tmp_path: Path) -> None:
-    with Door(tmp_path) as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path) as node:
+        sim = node.sim()
         handles = [sim.createDummy(0.01, 12 * [0]) for _ in range(50)]
         for i, handle in enumerate(handles):
             sim.setObjectPosition(handle, [0.01 * i, 0.01 * i, 0.01 * i], -1)
@@ -40,12 +40,12 @@ def test_the_flow_of_the_clients_simple_test(tmp_path: Path) -> None:
         sim.stopSimulation()
         sim.removeObjects(handles)
         assert not sim.isHandle(handles[0])
-        assert "Simulation time: 1." in door.output
+        assert "Simulation time: 1." in node.output
 
 
-def test_the_asyncio_client_works_on_several_sockets(door: Door) -> None:
+def test_the_asyncio_client_works_on_several_sockets(node: RemoteNode) -> None:
     async def flow() -> None:
-        async with AsyncClient(port=door.port) as client:
+        async with AsyncClient(port=node.port) as client:
             sim = await client.require("sim")
             await sim.setStepping(True)
             await sim.startSimulation()
@@ -63,9 +63,9 @@ def test_the_asyncio_client_works_on_several_sockets(door: Door) -> None:
     asyncio.run(asyncio.wait_for(flow(), TIMEOUT / 1000))
 
 
-def test_the_flow_of_the_clients_test_without_blocking(door: Door) -> None:
+def test_the_flow_of_the_clients_test_without_blocking(node: RemoteNode) -> None:
     async def flow() -> None:
-        async with AsyncClient(port=door.port) as client:
+        async with AsyncClient(port=node.port) as client:
             sim = await client.require("sim")
             handles = await asyncio.gather(*(sim.createDummy(0.01, 12 * [0]) for _ in range(50)))
             assert len(set(handles)) == 50
@@ -88,11 +88,11 @@ def test_the_flow_of_the_clients_test_without_blocking(door: Door) -> None:
             assert not any(await asyncio.gather(*(sim.isHandle(handle) for handle in handles)))
 
     asyncio.run(asyncio.wait_for(flow(), 3 * TIMEOUT / 1000))
-    assert "at 1.00 s" in door.output
+    assert "at 1.00 s" in node.output
 
 
-def test_calls_are_answered_in_every_state(door: Door) -> None:
-    sim = door.sim()
+def test_calls_are_answered_in_every_state(node: RemoteNode) -> None:
+    sim = node.sim()
     car = sim.getObject("/Tricycle")
     assert sim.getSimulationState() == sim.simulation_stopped
     start = sim.getObjectPosition(car)
@@ -114,8 +114,8 @@ def test_calls_are_answered_in_every_state(door: Door) -> None:
     assert sim.step() is None
 
 
-def test_errors_are_those_of_scripts(door: Door) -> None:
-    sim = door.sim()
+def test_errors_are_those_of_scripts(node: RemoteNode) -> None:
+    sim = node.sim()
     expected = "sim.getObjectPosition: argument 1, handle: expected the handle of an object, an integer, found str 'x'"
     assert refusal(sim.getObjectPosition, "x") == expected
     assert "no object matches '/Tricyle'; did you mean /Tricycle?" in refusal(sim.getObject, "/Tricyle")
@@ -132,8 +132,8 @@ def test_errors_are_those_of_scripts(door: Door) -> None:
 
 
 def test_images_go_both_ways(tmp_path: Path) -> None:
-    with Door(tmp_path, "--speed", "max", scene="pioneer") as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--speed", "max", scene="pioneer") as node:
+        sim = node.sim()
         cameras = sim.getObjectsInTree(sim.handle_scene, sim.object_visionsensor_type)
         data, (width, height) = sim.getVisionSensorImg(cameras[0])
         assert isinstance(data, bytes)
@@ -143,8 +143,8 @@ def test_images_go_both_ways(tmp_path: Path) -> None:
         assert sim.getVisionSensorImg(cameras[0])[0] == painted
 
 
-def test_signals_and_data_live_on_the_stopped_scene(door: Door) -> None:
-    one, two = door.sim(), door.sim()
+def test_signals_and_data_live_on_the_stopped_scene(node: RemoteNode) -> None:
+    one, two = node.sim(), node.sim()
     one.setStringSignal("text", "here")
     one.setBoolProperty(one.handle_scene, "signal.go", True)
     one.writeCustomDataBlock(one.getObject("/Tricycle"), "tag", b"\x00\xff")

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from door_support import Door
 from node_support import run_script
+from remote_support import RemoteNode
 
 WHEEL_RADIUS = 0.195 / 2
 TRACK = 0.331
@@ -38,14 +38,14 @@ SONARS = [  # of the data sheet: forward, left (mm) and angle to the left (degre
 
 @pytest.fixture
 def room(tmp_path: Path) -> Iterator[Any]:
-    with Door(tmp_path, "--speed", "max", scene="p3dx_room") as door:
-        yield door.sim()
+    with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_room") as node:
+        yield node.sim()
 
 
 @pytest.fixture
 def floor(tmp_path: Path) -> Iterator[Any]:
-    with Door(tmp_path, "--speed", "max", scene="p3dx_floor") as door:
-        yield door.sim()
+    with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
+        yield node.sim()
 
 
 def matrix_of(sim: Any, handle: int, frame: int = -1) -> npt.NDArray[np.float64]:

@@ -62,11 +62,11 @@ def test_a_changed_message_is_decoded_or_refused(value: object, place: int, byte
 @pytest.mark.parametrize(
     ("message", "reason"),
     [
-        ([1], "not a map with the text 'func'"),
-        ({"args": []}, "not a map with the text 'func'"),
-        ({"func": 1}, "not a map with the text 'func'"),
+        ([1], "not a map with the string 'func'"),
+        ({"args": []}, "not a map with the string 'func'"),
+        ({"func": 1}, "not a map with the string 'func'"),
         ({"func": "f", "args": "text"}, "'args' is not a list but of type str"),
-        ({"func": "f", "uuid": 5}, "'uuid' is not a text"),
+        ({"func": "f", "uuid": 5}, "'uuid' is not a string"),
         ({"func": "f", "args": [cbor2.CBORTag(1, 5)]}, "tagged values are not supported"),
     ],
 )

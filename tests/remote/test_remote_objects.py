@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from door_support import Door, refusal
 from node_support import write
+from remote_support import RemoteNode, refusal
 
 WORLD = """\
 <?xml version="1.0"?>
@@ -58,9 +58,9 @@ WORLD = """\
 
 @pytest.fixture
 def sim(tmp_path: Path) -> Iterator[Any]:
-    with Door(tmp_path, "--speed", "max", scene=str(write(tmp_path / "room.sdf", WORLD))) as door:
-        yield door.sim()
-        assert door.process.poll() is None, door.output
+    with RemoteNode(tmp_path, "--speed", "max", scene=str(write(tmp_path / "room.sdf", WORLD))) as node:
+        yield node.sim()
+        assert node.process.poll() is None, node.output
 
 
 def run(sim: Any, seconds: float) -> None:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from door_support import Door, refusal
 from node_support import run_sim, write
+from remote_support import RemoteNode, refusal
 from ros_support import RosCore, wait_until
 
 NODE = "/sim_ros_interface"
@@ -29,8 +29,8 @@ def scene(folder: Path, name: str, model: str) -> Path:
 
 
 def test_a_node_without_a_scene_waits_for_one(tmp_path: Path) -> None:
-    with Door(tmp_path, "--speed", "max", scene="") as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--speed", "max", scene="") as node:
+        sim = node.sim()
         assert sim.getStringParam(sim.stringparam_scene_name) == ""
         assert sim.getObjectAlias(sim.getObject("/ground_plane")) == "ground_plane"
         assert sim.loadScene("tricycle") == 1
@@ -47,8 +47,8 @@ def test_a_node_without_a_scene_waits_for_one(tmp_path: Path) -> None:
     assert run_sim("--no-ros").returncode == 2
 
 
-def test_a_scene_of_the_original_is_found_by_its_name(door: Door) -> None:
-    sim = door.sim()
+def test_a_scene_of_the_original_is_found_by_its_name(node: RemoteNode) -> None:
+    sim = node.sim()
     car = sim.getObject("/Tricycle")
     assert sim.loadScene("C:\\scenes\\pioneer.ttt") == 1
     assert "no object matches '/Tricycle'" in refusal(sim.getObject, "/Tricycle")
@@ -65,8 +65,8 @@ def test_a_scene_with_errors_leaves_the_present_one(tmp_path: Path) -> None:
     folder = tmp_path / "scenes"
     first = scene(folder, "first", "One")
     write(folder / "wrong.sdf", "<sdf version='1.9'><world name='w'><model name='m'><link/></model></world></sdf>")
-    with Door(tmp_path, scene=str(first)) as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, scene=str(first)) as node:
+        sim = node.sim()
         assert "wrong.sdf" in refusal(sim.loadScene, "wrong.ttt")
         assert "first.sdf: contains a <world>: expected a <model>" in refusal(sim.loadModel, "first.ttm")
         assert sim.getObject("/One") >= 0
@@ -74,8 +74,8 @@ def test_a_scene_with_errors_leaves_the_present_one(tmp_path: Path) -> None:
 
 def test_a_scene_is_read_again_when_it_is_loaded_again(tmp_path: Path) -> None:
     file = scene(tmp_path / "scenes", "mine", "One")
-    with Door(tmp_path, scene=str(file)) as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, scene=str(file)) as node:
+        sim = node.sim()
         sim.createDummy(0.1)
         sim.setStringSignal("text", "here")
         scene(file.parent, "mine", "Two")
@@ -85,8 +85,8 @@ def test_a_scene_is_read_again_when_it_is_loaded_again(tmp_path: Path) -> None:
         assert sim.getStringSignal("text") is None
 
 
-def test_clients_stay_with_their_stepping_when_the_scene_changes(door: Door) -> None:
-    one, two = door.sim(), door.sim()
+def test_clients_stay_with_their_stepping_when_the_scene_changes(node: RemoteNode) -> None:
+    one, two = node.sim(), node.sim()
     one.setStepping(True)
     assert two.loadScene("ball") == 1
     two.startSimulation()
@@ -98,8 +98,8 @@ def test_clients_stay_with_their_stepping_when_the_scene_changes(door: Door) -> 
     two.wait(0.5)
 
 
-def test_a_closed_scene_leaves_a_floor(door: Door) -> None:
-    sim = door.sim()
+def test_a_closed_scene_leaves_a_floor(node: RemoteNode) -> None:
+    sim = node.sim()
     assert sim.closeScene() == 1
     roots = [sim.getObjectAlias(handle) for handle in sim.getObjectsInTree(sim.handle_scene, sim.handle_all, 2)]
     assert roots == ["ground_plane"]
@@ -107,8 +107,8 @@ def test_a_closed_scene_leaves_a_floor(door: Door) -> None:
     sim.wait(0.2)
 
 
-def test_scenes_change_many_times(door: Door) -> None:
-    sim = door.sim()
+def test_scenes_change_many_times(node: RemoteNode) -> None:
+    sim = node.sim()
     for _ in range(10):
         for name in ("ball", "tricycle"):
             sim.loadScene(name)
@@ -120,8 +120,8 @@ def test_ros_nodes_see_the_topics_of_the_scene_that_is_loaded(roscore: RosCore, 
     def published() -> set[str]:
         return {topic for topic, nodes in roscore.state()["publishers"].items() if NODE in nodes}
 
-    with Door(tmp_path, environment=roscore.env) as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, environment=roscore.env) as node:
+        sim = node.sim()
         for _ in range(3):
             sim.startSimulation()
             wait_until(lambda: "/front_sonar" in published(), "the tricycle's topics")
@@ -145,8 +145,8 @@ SCRIPT = """
 
 def test_the_scripts_of_the_command_line_stay_with_their_scene(tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", SCRIPT)
-    with Door(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--child-script", f"/Ball={script}", "--speed", "max", scene="ball") as node:
+        sim = node.sim()
         sim.loadScene("tricycle")
         sim.loadScene("ball")
         sim.startSimulation()
@@ -155,19 +155,19 @@ def test_the_scripts_of_the_command_line_stay_with_their_scene(tmp_path: Path) -
 
 
 def test_a_scene_that_ends_with_the_node_is_not_changed(tmp_path: Path) -> None:
-    with Door(tmp_path, "--until", 5) as door:
-        assert "started with --until" in refusal(door.sim().loadScene, "ball")
+    with RemoteNode(tmp_path, "--until", 5) as node:
+        assert "started with --until" in refusal(node.sim().loadScene, "ball")
 
 
 def test_paths_are_for_trusted_clients(tmp_path: Path) -> None:
     file = scene(tmp_path / "elsewhere", "mine", "One")
-    with Door(tmp_path) as door:
-        assert "there is no scene 'mine'" in refusal(door.sim().loadScene, str(file))
-        assert "must not start" in refusal(door.sim().launchExecutable, "/bin/true")
-        assert "remote-trusted" not in door.output
-    with Door(tmp_path, "--remote-trusted") as door:
-        sim = door.sim()
-        assert "warning: --remote-trusted: remote clients can start any program" in door.output
+    with RemoteNode(tmp_path) as node:
+        assert "there is no scene 'mine'" in refusal(node.sim().loadScene, str(file))
+        assert "must not start" in refusal(node.sim().launchExecutable, "/bin/true")
+        assert "remote-trusted" not in node.output
+    with RemoteNode(tmp_path, "--remote-trusted") as node:
+        sim = node.sim()
+        assert "warning: --remote-trusted: remote clients can start any program" in node.output
         assert sim.loadScene(str(file.with_suffix(".ttt"))) == 1
         assert sim.getObject("/One") >= 0
         assert sim.launchExecutable("/bin/true") > 0

@@ -9,10 +9,10 @@ import pytest
 from bubblesim._core import add_copy, copy_model
 
 from bubblesim import Simulation
-from bubblesim.scripting.saved_scene import scene_text, write_scene
-from bubblesim.scripting.scene_edits import SceneEdits
-from door_support import Door, refusal
+from bubblesim.scene_state.saved_scene import scene_text, write_scene
+from bubblesim.scene_state.scene_edits import SceneEdits
 from node_support import write
+from remote_support import RemoteNode, refusal
 
 SCENES = ["ball", "bubblerob", "pioneer", "quadcopter", "sensors", "tricycle"]
 ARM = """\
@@ -184,8 +184,8 @@ def test_a_file_is_not_overwritten_without_the_flag(tmp_path: Path) -> None:
 
 def test_trusted_clients_save_scenes(tmp_path: Path) -> None:
     file = tmp_path / "saved.ttt"
-    with Door(tmp_path, "--remote-trusted", scene="") as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--remote-trusted", scene="") as node:
+        sim = node.sim()
         cube = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.1, 0.1, 0.1])
         sim.setObjectPosition(cube, [1, 2, 3])
         sim.setShapeColor(cube, None, sim.colorcomponent_ambient_diffuse, [1, 0, 0])
@@ -198,8 +198,8 @@ def test_trusted_clients_save_scenes(tmp_path: Path) -> None:
         assert sim.getObjectPosition(cube) == pytest.approx([1, 2, 3])
         assert sim.getShapeColor(cube, None, sim.colorcomponent_ambient_diffuse)[1] == [1, 0, 0]
         assert sim.getObjectInt32Param(cube, sim.shapeintparam_static) == 1
-    with Door(tmp_path) as door:
-        assert "--remote-trusted" in refusal(door.sim().saveScene, str(tmp_path / "other.sdf"))
+    with RemoteNode(tmp_path) as node:
+        assert "--remote-trusted" in refusal(node.sim().saveScene, str(tmp_path / "other.sdf"))
 
 
 def test_colours_that_were_set_are_saved(tmp_path: Path) -> None:

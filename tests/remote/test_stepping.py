@@ -11,13 +11,13 @@ from pathlib import Path
 import cbor2
 import pytest
 
-from door_support import Door
 from node_support import run_sim, write
+from remote_support import RemoteNode
 from ros_support import DEADLINE, wait_until
 
 
-def test_two_clients_step_together(door: Door) -> None:
-    one, two, watching = door.sim(), door.sim(), door.sim()
+def test_two_clients_step_together(node: RemoteNode) -> None:
+    one, two, watching = node.sim(), node.sim(), node.sim()
     assert (one.setStepping(True), one.setStepping(True), one.setStepping(False)) == (0, 1, 2)
     two.setStepping(True)
     one.startSimulation()
@@ -38,8 +38,8 @@ def test_two_clients_step_together(door: Door) -> None:
     watching.wait(1.0)
 
 
-def test_wait_runs_the_steps_of_a_stepping_client(door: Door) -> None:
-    sim = door.sim()
+def test_wait_runs_the_steps_of_a_stepping_client(node: RemoteNode) -> None:
+    sim = node.sim()
     sim.setStepping(True)
     sim.startSimulation()
     sim.wait(0.5)
@@ -78,13 +78,13 @@ MOMENTS = ["idle", "call", "large call", "step", "wait", "callback"]
 
 
 @pytest.mark.parametrize("state", ["stopped", "paused", "running", "stepping"])
-def test_a_client_killed_at_any_moment_releases_the_simulation(door: Door, tmp_path: Path, state: str) -> None:
+def test_a_client_killed_at_any_moment_releases_the_simulation(node: RemoteNode, tmp_path: Path, state: str) -> None:
     program = write(tmp_path / "client.py", KILLED)
-    sim = door.sim()
-    files = Path(f"/proc/{door.process.pid}/fd")
+    sim = node.sim()
+    files = Path(f"/proc/{node.process.pid}/fd")
     before = len(list(files.iterdir()))
     for number, moment in enumerate(MOMENTS):
-        command = [sys.executable, str(program), str(door.port), state, moment]
+        command = [sys.executable, str(program), str(node.port), state, moment]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
             assert process.stdout
             assert process.stdout.readline() == "ready\n"
@@ -99,9 +99,9 @@ def test_a_client_killed_at_any_moment_releases_the_simulation(door: Door, tmp_p
     wait_until(lambda: len(list(files.iterdir())) <= before, "the end of the connections")
 
 
-def test_a_client_that_is_silent_for_its_timeout_is_released(door: Door) -> None:
-    sim = door.sim()
-    silent = door.raw()
+def test_a_client_that_is_silent_for_its_timeout_is_released(node: RemoteNode) -> None:
+    sim = node.sim()
+    silent = node.raw()
     begin = time.monotonic()
     for message in (
         {"func": "sim.setStepping", "args": [True], "uuid": "silent", "ver": 2, "timeout": 1},
@@ -112,16 +112,16 @@ def test_a_client_that_is_silent_for_its_timeout_is_released(door: Door) -> None
     # A machine that is busy for longer than the timeout releases it before.
     assert sim.getSimulationTime() == 0 or time.monotonic() - begin > 1
     wait_until(lambda: sim.getSimulationTime() > 0, "the release")
-    assert "is silent for 1 s and was released" in door.output
+    assert "is silent for 1 s and was released" in node.output
     silent.close()
 
 
 def test_a_silent_client_changes_nothing(tmp_path: Path) -> None:
     options = ["--no-ros", "--speed", "max", "--until", 3, "--state-hash", "--seed", 5]
     alone = run_sim("tricycle", *options).stdout.split()[-1]
-    with Door(tmp_path, "--speed", 2, *options[3:]) as door:
-        sim = door.sim()
+    with RemoteNode(tmp_path, "--speed", 2, *options[3:]) as node:
+        sim = node.sim()
         sim.getObject("/Tricycle")
         sim.startSimulation()  # not before: the run is short
-        door.process.wait(3 * DEADLINE)
-        assert door.output.split()[-1] == alone
+        node.process.wait(3 * DEADLINE)
+        assert node.output.split()[-1] == alone

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from bridge_probe import Probe
-from ros_support import RestartableCore, RosCore, stop, wait_until
+from ros_support import DEADLINE, RestartableCore, RosCore, free_port, ros_environment, stop, wait_until
 
 NAME = "/sim_ros_interface"
 RETURN = 1.0
@@ -197,3 +197,37 @@ def test_messages_flow_while_the_master_hangs(roscore: RosCore) -> None:
         time.sleep(0.5)
         probe.ask("publish", publisher, 1.0)
         peer.wait_for(lambda: peer.messages(received) == ["1.000000"], "the message")
+
+
+def _times_of(probe: Probe, text: str, count: int) -> list[float]:
+    """Return when lines with a text were logged, by time.monotonic."""
+    times: list[float] = []
+
+    def is_logged_again() -> bool:
+        if sum(text in line for line in probe.errors) > len(times):
+            times.append(time.monotonic())
+        return len(times) == count
+
+    probe.wait_for(is_logged_again, f"'{text}', {count} times", timeout=2 * DEADLINE)
+    return times
+
+
+def test_a_missing_master_is_reported_every_ten_seconds(tmp_path: Path) -> None:
+    port = free_port()
+    with Probe(ros_environment(port, tmp_path)) as probe:
+        times = _times_of(probe, f"no ROS master at http://localhost:{port}; start one with 'roscore'", 2)
+        assert times[1] - times[0] == pytest.approx(10.0, abs=1.5)
+
+
+def test_a_lost_master_is_reported_until_it_is_back(tmp_path: Path) -> None:
+    with restartable_core(tmp_path) as restartable, Probe(restartable.core.env) as probe:
+        probe.wait_for(lambda: probe.ask("connected") == "yes", "the connection")
+        restartable.core.pause()  # it hangs
+        uri = restartable.core.env["ROS_MASTER_URI"]
+        times = _times_of(probe, f"the ROS master at {uri} does not answer", 2)
+        assert times[1] - times[0] == pytest.approx(10.0, abs=1.5)
+        restartable.kill()
+        restartable.start()
+        wait_until(lambda: NAME in restartable.core.nodes(), "the node")
+        time.sleep(1.0)
+        assert sum("does not answer" in line for line in probe.errors) == 2

@@ -183,7 +183,7 @@ def test_wrong_images_and_stale_handles_are_reported(script: Script) -> None:
         """)
     node.wait_for_output("done")
     assert "needs 2 * 2 * 3 = 12 bytes of rgb8 and at least one pixel; found 11 bytes" in node.output
-    assert "argument 5, frame_id: expected a text, found int 5" in node.output
+    assert "argument 5, frame_id: expected a string, found int 5" in node.output
     assert "argument 2, data: expected bytes or a numpy array of uint8, found an array of float64" in node.output
     assert "transport must be 'raw' or 'compressed', found 'theora'" in node.output
     assert node.output.count("reported: invalid object handle") == 3

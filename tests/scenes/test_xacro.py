@@ -87,3 +87,13 @@ def test_remappings_work_beside_arguments_that_are_no_names(robot: Path, roscore
     arguments = [str(robot), "radius:=0.25", "file:=/a/b.yaml", "__name:=other", "/simulationTime:=/other/time"]
     with Node(roscore.env, tmp_path / "log", *arguments):
         wait_until(lambda: "/other" in roscore.state()["publishers"].get("/other/time", []), "the remapped topic")
+
+
+@pytest.mark.parametrize("expression", ["open('made', 'w')", "__import__('os').mkdir('made')", "().__class__"])
+def test_an_expression_in_a_file_runs_no_code(tmp_path: Path, expression: str) -> None:
+    file = tmp_path / "robot.urdf.xacro"
+    text = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${%s}"/></robot>'
+    file.write_text(text % expression)
+    run = command("check", file, cwd=tmp_path)
+    assert (run.returncode, "xacro" in run.stdout + run.stderr) == (2, True)
+    assert not (tmp_path / "made").exists()

@@ -11,14 +11,8 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from bubblesim.scripting.api import kinds
-from bubblesim.scripting.api.functions import (
-    MODULES,
-    ArgumentError,
-    checked_on_failure,
-    functions,
-    script_module,
-    value_first,
-)
+from bubblesim.scripting.api.checked_calls import ArgumentError, checked_on_failure, value_first
+from bubblesim.scripting.api.functions import MODULES, functions, script_module
 from bubblesim.scripting.api.reference import page
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
@@ -110,7 +104,7 @@ def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
         ((), "sample.text(value, count): missing a required argument: 'value'"),
         (("a", 1, 2), "sample.text(value, count): too many positional arguments"),
         (("a", 1.5), "sample.text: argument 2, count: expected an integer, found float 1.5"),
-        ((None,), "sample.text: argument 1, value: expected a text, found nothing (None)"),
+        ((None,), "sample.text: argument 1, value: expected a string, found nothing (None)"),
     ],
 )
 def test_a_call_that_does_not_fit_is_reported(arguments: tuple[object, ...], reported: str) -> None:

@@ -14,7 +14,8 @@ from ros_support import free_port, ros_environment
 
 IN_PYTHON = """
     from hypothesis import HealthCheck, given, settings, strategies as st
-    from bubblesim.scripting.api.functions import ArgumentError, functions, kinds_of
+    from bubblesim.scripting.api.checked_calls import ArgumentError
+    from bubblesim.scripting.api.functions import functions, kinds_of
 
     ANYTHING = st.recursive(
         st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary() | st.just(print),

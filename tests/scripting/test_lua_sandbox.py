@@ -167,7 +167,7 @@ def test_a_finalizer_that_comes_later_is_never_called(tmp_path: Path) -> None:
 
 def test_the_text_of_an_error_object_is_made_without_its_metatable(tmp_path: Path) -> None:
     reported = failure(tmp_path, "error(setmetatable({}, {__tostring = function() while true do end end}))")
-    assert "an error that is not a text: a table" in reported
+    assert "an error that is not a string: a table" in reported
 
 
 def test_texts_keep_their_metatable(tmp_path: Path) -> None:
@@ -246,3 +246,9 @@ def test_files_of_one_name_are_distinguished(tmp_path: Path) -> None:
 
 def test_the_programs_of_this_test_exist() -> None:
     assert built("rosBubbleRob").is_file()
+
+
+def test_a_script_in_lua_may_end_the_simulator_as_sim_says(tmp_path: Path) -> None:
+    code = "function sysCall_init() end\nfunction sysCall_actuation() sim.quitSimulator() end\n"
+    run = run_script(tmp_path, code, name="script.lua", until=1000.0)
+    assert run.returncode == 0

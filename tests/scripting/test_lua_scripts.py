@@ -141,9 +141,9 @@ def test_scripts_keep_their_globals_to_themselves(tmp_path: Path) -> None:
         ("function sysCall_thread()\n  sim.step()\n  x.y = 1\nend", "sysCall_thread ({file}:3) and is disabled"),
         ("local function f() return 1 + f() end\nfunction sysCall_init() f() end", "{file}:1: stack overflow"),
         ("function sysCall_init() t = 'x' while true do t = t .. t end end", "not enough memory"),
-        ("error({code = 1})", "an error that is not a text: {{code = 1}}"),
-        ("error(setmetatable({1}, {__tostring = function() error('no') end}))", "an error that is not a text: a table"),
-        ("function sysCall_thread()\n  error({1})\nend", "an error that is not a text: {{1}}"),
+        ("error({code = 1})", "an error that is not a string: {{code = 1}}"),
+        ("error(setmetatable({1}, {__tostring = function() error('no') end}))", "error that is not a string: a table"),
+        ("function sysCall_thread()\n  error({1})\nend", "an error that is not a string: {{1}}"),
         (
             "function sysCall_init()\n  local t = {} t[1] = t\n  sim.packTable(t)\nend",
             "{file}:3: a table contains itself",

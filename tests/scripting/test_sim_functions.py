@@ -195,7 +195,7 @@ assert sim.getSimulationState() == sim.simulation_advancing_running == 0x11
 
 BAD_CALLS = {
     "sim.getObject('/Bal')": "NoSuchObject: no object matches '/Bal'; did you mean /Ball?",
-    "sim.getObject(5)": "sim.getObject: argument 1, path: expected a text, found int 5",
+    "sim.getObject(5)": "sim.getObject: argument 1, path: expected a string, found int 5",
     "sim.getObject()": "sim.getObject(path, options): missing a required argument: 'path'",
     "sim.getObject('/Ball', {}, 3)": "sim.getObject(path, options): too many positional arguments",
     "sim.getObject('/Ball', index=1)": "sim.getObject(path, options): got an unexpected keyword argument 'index'",

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bubblesim.scripting.drawings import Drawings, Style
+from bubblesim.scene_state.drawings import Drawings, Style
 from bubblesim.services.drawing_markers import markers_of
 from node_support import Node, findings_of, write
 from ros_support import RosCore

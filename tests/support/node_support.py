@@ -124,8 +124,8 @@ class Node(Background):
     def output(self) -> str:
         return PREFIX.sub("", self._log.read_text(encoding="utf-8"))
 
-    def wait_for_output(self, text: str) -> None:
-        wait_until(lambda: text in self.output, f"'{text}' in the output")
+    def wait_for_output(self, text: str, count: int = 1) -> None:
+        wait_until(lambda: self.output.count(text) >= count, f"'{text}' in the output")
 
     def wait_until_listed(self, core: RosCore) -> None:
         wait_until(lambda: NAME in core.nodes(), "the node to be listed")

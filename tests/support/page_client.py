@@ -20,13 +20,13 @@ from web_support import PATIENCE, TOKEN
 
 
 class Server:
-    """The server of the window; it ends with the block. `door` is where it looks for a simulator."""
+    """The server of the window; it ends with the block. it expects a simulator at `remote_port`."""
 
     def __init__(self, folder: Path, *options: str, env: Mapping[str, str] | None = None) -> None:
         """Start it, with the token t unless the environment is given."""
-        self.door, self.port = free_port(), free_port()
+        self.remote_port, self.port = free_port(), free_port()
         self._log = folder / "server.txt"
-        command = ["bubblesim", "view", "--door", str(self.door), "--port", str(self.port), *options]
+        command = ["bubblesim", "view", "--door", str(self.remote_port), "--port", str(self.port), *options]
         with self._log.open("w") as output:
             self.process = start(command, env or os.environ | TOKEN, cwd=folder, stdout=output, stderr=output)
         self.origin = f"http://127.0.0.1:{self.port}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A node with a door, the server of the window, and a page in a real browser; everything ends with the block."""
+"""A node with a remote API, the server of the window, and a page in a real browser; everything ends with the block."""
 
 import subprocess
 import sys
@@ -25,14 +25,14 @@ class ToolsPage:
         self._folder = folder
         self._ends = ExitStack()
         self.errors: list[str] = []
-        door, self.port = free_port(), free_port()
+        remote_port, self.port = free_port(), free_port()
         self.env = dict(env or ros_environment(free_port(), folder))
         ros = [] if env else ["--no-ros"]
         self.node = self._ends.enter_context(
-            Node(self.env, folder / "node.txt", scene, *ros, f"--remote={door}", "--start", *options)
+            Node(self.env, folder / "node.txt", scene, *ros, f"--remote={remote_port}", "--start", *options)
         )
-        wait_until(lambda: "remote clients can connect" in self.node.output, "the door", timeout=PATIENCE / 1000)
-        command = [sys.executable, "-m", "bubblesim.web", "--door", str(door), "--port", str(self.port)]
+        wait_until(lambda: "remote clients can connect" in self.node.output, "the remote API", timeout=PATIENCE / 1000)
+        command = [sys.executable, "-m", "bubblesim.web", "--door", str(remote_port), "--port", str(self.port)]
         log = folder / "server.txt"
         with log.open("w") as output:
             self.server = start(command, self.env | TOKEN, cwd=folder, stdout=output, stderr=subprocess.STDOUT)

@@ -73,7 +73,7 @@ class Node:
 
 
 _IS_LOOKED_AT = """((object) => {
-  const { camera, controls } = bubblesim.view;
+  const { camera, controls } = bubblesim.view.viewpoint;
   const { centre, radius } = bubblesim.view.extent(object);
   const distance = camera.position.distanceTo(controls.target) / Math.max(2.6 * radius, 0.3);
   return controls.target.distanceTo(centre) < 1e-3 && Math.abs(distance - 1) < 1e-3;
@@ -152,12 +152,12 @@ class Window:
 
     def look_at(self, path: str) -> None:
         """Show an object from near."""
-        self.js("bubblesim.view.look(bubblesim.scene.byPath(x))", path)
+        self.js("bubblesim.view.viewpoint.look(bubblesim.scene.byPath(x))", path)
         self.is_near(path)
 
     def zoom_out(self, factor: float) -> None:
         """Turn the wheel in the middle until the camera is at least this many times as far away."""
-        distance = "bubblesim.view.camera.position.distanceTo(bubblesim.view.controls.target)"
+        distance = "bubblesim.view.camera.position.distanceTo(bubblesim.view.viewpoint.controls.target)"
         end = factor * self.js(distance)
         self.page.mouse.move(*self.middle())
         while self.js(distance) < end:
@@ -166,8 +166,8 @@ class Window:
 
     def look_from_above(self) -> None:
         """Look down at what is in the middle."""
-        self.js("bubblesim.view.lookFrom('top')")
-        away = "bubblesim.view.camera.position.clone().sub(bubblesim.view.controls.target).normalize()"
+        self.js("bubblesim.view.viewpoint.lookFrom('top')")
+        away = "bubblesim.view.camera.position.clone().sub(bubblesim.view.viewpoint.controls.target).normalize()"
         self.wait(f"{away}.z > 0.9999999")
 
     def button(self, title: str) -> Any:

@@ -5,7 +5,10 @@ import hashlib
 import itertools
 import os
 import re
+import shutil
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -272,3 +275,48 @@ class WithARival(Programs):
 def test_no_other_process_gets_the_port_of_the_master_while_it_starts(tmp_path: Path) -> None:
     with WithARival(tmp_path) as programs:
         assert start_master(programs).answers()
+
+
+def _pytest_of(python: Path, tests: Path, **environment: str) -> "subprocess.CompletedProcess[str]":
+    """Run tests with the fixtures by a Python without Debian's packages."""
+    command = [python, "-m", "pytest", "-q", "-p", "no:cacheprovider", tests]
+    return subprocess.run(command, env=os.environ | environment, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture
+def foreign(tmp_path: Path) -> Path:
+    """A Python that has Debian's packages but numpy."""
+    subprocess.run(["/usr/bin/python3", "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
+    (packages,) = (tmp_path / "venv").glob("lib/python3*/site-packages")
+    for place in Path("/usr/lib/python3/dist-packages").iterdir():
+        if not place.name.startswith("numpy") and not (packages / place.name).exists():
+            (packages / place.name).symlink_to(place)
+    (tmp_path / "conftest.py").write_text('pytest_plugins = ["bubblesim.testing.plugin"]\n')
+    (tmp_path / "test_mine.py").write_text("def test_it(sim): sim('ball').run(0.1)\n")
+    return tmp_path / "venv" / "bin" / "python"
+
+
+def test_a_python_without_debians_packages_is_one_line(tmp_path: Path, foreign: Path) -> None:
+    run = _pytest_of(foreign, tmp_path / "test_mine.py")
+    line = (
+        f"ERROR: {foreign} cannot load bubblesim: No module named 'numpy' -- `bubblesim test` runs tests with a Python "
+    )
+    assert run.stderr.strip() == f"{line}that can"
+    assert (run.returncode, run.stdout) == (4, "")
+
+
+def test_a_python_of_another_version_is_one_line(tmp_path: Path, foreign: Path) -> None:
+    package = tmp_path / "bubblesim"  # with a module for another version
+    shutil.copytree(REPOSITORY / "python" / "bubblesim", package, ignore=shutil.ignore_patterns("__pycache__"))
+    (package / "_core.cpython-39-x86_64-linux-gnu.so").write_bytes(b"")
+    run = _pytest_of(foreign, tmp_path / "test_mine.py", PYTHONPATH=str(tmp_path))
+    assert f"cannot load bubblesim: bubblesim was built for Python 3.9, this is 3.{sys.version_info[1]}" in run.stderr
+    assert len(run.stderr.strip().splitlines()) == 1
+
+
+def test_a_missing_pytest_is_named(tmp_path: Path, foreign: Path) -> None:
+    for package in foreign.parent.parent.glob("lib/python3*/site-packages/*pytest*"):
+        package.unlink()
+    run = bubblesim("test", tmp_path / "test_mine.py", env=os.environ | {"VIRTUAL_ENV": str(tmp_path / "venv")})
+    assert run.returncode == 2
+    assert run.stderr == f"error: {foreign} has no pytest: {foreign} -m pip install pytest\n"

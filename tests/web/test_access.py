@@ -164,4 +164,4 @@ def test_a_window_that_only_looks_changes_nothing(tmp_path: Path, show: Callable
                 "([name, args]) => bubblesim.link.call(name, args).then(() => 'done', (error) => error.message)",
                 [function, arguments],
             )
-            assert "may only look" in answer
+            assert "is read-only" in answer

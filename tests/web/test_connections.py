@@ -5,7 +5,7 @@ import asyncio
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 import pytest
@@ -102,3 +102,17 @@ def test_bad_requests_fill_no_log(server: Server) -> None:
     assert server.get("/")[0] == 200
     assert server.output.count("Error handling request") <= 10
     assert "left out for one minute" in server.output
+
+
+@pytest.mark.long
+def test_a_connection_without_the_token_ends_after_a_minute(server: Server) -> None:
+    begin = time.monotonic()
+    with server.connect() as connection:
+        connection.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode())
+        while not is_closed(connection):  # one that goes on asking
+            assert time.monotonic() - begin < 70
+            time.sleep(3.0)
+            with suppress(OSError):
+                connection.setblocking(True)
+                connection.sendall(f"GET /icon.svg HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode())
+    assert time.monotonic() - begin > 50

@@ -14,7 +14,7 @@ class Recorder:
 
     def __init__(self, *, may_edit: bool = True) -> None:
         self.may_edit = may_edit
-        self.door = self
+        self.node = self
         self.calls: list[tuple[Any, ...]] = []
 
     async def call(self, function: str, *arguments: Any) -> int:
@@ -77,9 +77,9 @@ def test_everything_else_is_refused_without_a_call(line: str) -> None:
 
 def test_a_page_that_may_only_look_reads() -> None:
     assert run("sim.getObject('/a')", may_edit=False) == [("sim.getObject", "/a")]
-    with pytest.raises(console.CommandError, match="may only look"):
+    with pytest.raises(console.CommandError, match="is read-only"):
         run("sim.setObjectPosition(1, [0, 0, 0])", may_edit=False)
-    with pytest.raises(console.CommandError, match="may only look"):
+    with pytest.raises(console.CommandError, match="is read-only"):
         run("sim.getObjectPosition(sim.createDummy(1))", may_edit=False)
 
 

@@ -142,7 +142,7 @@ def test_control_and_a_drag_lift_a_body(tmp_path: Path, show: Show) -> None:
         page.zoom_out(4)
         page.js("bubblesim.view.settled()")
         x, y = page.middle()
-        page.wait("bubblesim.view.pick(...x)?.link.path === '/box/link'", [x, y])
+        page.wait("bubblesim.view.picker.pick(...x)?.link.path === '/box/link'", [x, y])
         height = "bubblesim.view.poseOf(bubblesim.scene.byPath('/box'))[2]"
         # Another call of the page does not hold it up.
         page.js("void bubblesim.link.call('sim.wait', [2]).catch(() => 0)")

@@ -18,7 +18,7 @@ from ros_support import ros_environment, wait_until
 
 
 @contextmanager
-def door_of_unreadable_frames(address: str, frames: str) -> Iterator[list[str]]:
+def server_of_unreadable_frames(address: str, frames: str) -> Iterator[list[str]]:
     """Answer requests as a node does whose frames cannot be read; yield the functions that were called."""
     calls: list[str] = []
     ending = threading.Event()
@@ -47,7 +47,7 @@ def door_of_unreadable_frames(address: str, frames: str) -> Iterator[list[str]]:
 @pytest.mark.parametrize("frames", ["/proc/1/fd/999", "/dev/null"])
 def test_frames_that_cannot_be_read_are_reported_once_and_tried_again(tmp_path: Path, frames: str) -> None:
     with Server(tmp_path) as server:
-        with door_of_unreadable_frames(f"tcp://127.0.0.1:{server.door}", frames) as calls:
+        with server_of_unreadable_frames(f"tcp://127.0.0.1:{server.remote_port}", frames) as calls:
             wait_until(lambda: len(calls) > 3, "further tries")
         assert server.output.count("cannot show the simulator") == 1
         assert frames in server.output
@@ -57,16 +57,16 @@ def test_frames_that_cannot_be_read_are_reported_once_and_tried_again(tmp_path: 
                 return (await page.wait_for_event("scene"))["scene"]
 
         env = ros_environment(1, tmp_path)
-        with Node(env, tmp_path / "node.txt", "ball", "--no-ros", f"--remote={server.door}"):
+        with Node(env, tmp_path / "node.txt", "ball", "--no-ros", f"--remote={server.remote_port}"):
             assert asyncio.run(scene()) == "ball"
 
 
-def test_a_door_can_be_a_socket_in_a_folder(tmp_path: Path) -> None:
-    path = tmp_path / "door"
+def test_the_remote_api_can_be_a_socket_in_a_folder(tmp_path: Path) -> None:
+    path = tmp_path / "api"
     if len(os.fsencode(path)) > 100:
         pytest.skip("the path is too long for a socket")
     with (
-        door_of_unreadable_frames(f"ipc://{path}", "/dev/null") as calls,
+        server_of_unreadable_frames(f"ipc://{path}", "/dev/null") as calls,
         Server(tmp_path, "--door", str(path)),
     ):
         wait_until(lambda: "window.share" in calls, "the server")

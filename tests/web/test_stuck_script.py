@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A script that does not return keeps the thread that serves the door, but not the window's Stop button."""
+"""A script that does not return keeps the thread that serves the remote API, but not the window's Stop button."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -13,8 +13,8 @@ from web_support import Node, Window
 Show = Callable[..., Window]
 
 CAMERA = "bubblesim.view.camera.position.toArray()"
-TARGET = "bubblesim.view.controls.target.toArray()"
-AWAY = "bubblesim.view.camera.position.clone().sub(bubblesim.view.controls.target)"
+TARGET = "bubblesim.view.viewpoint.controls.target.toArray()"
+AWAY = "bubblesim.view.camera.position.clone().sub(bubblesim.view.viewpoint.controls.target)"
 LAYER = "bubblesim.view.overlays.find((e) => e.id === '{}').layer.object3d"
 
 
@@ -56,7 +56,7 @@ def test_a_double_click_shows_the_object_from_near(tmp_path: Path, show: Show) -
         page = show(node)
         page.look_at("/Tricycle")
         page.zoom_out(2)
-        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
+        page.wait("bubblesim.view.picker.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
         page.page.mouse.dblclick(*page.middle())
         page.is_near("/Tricycle")
 
@@ -66,15 +66,15 @@ def test_the_camera_follows_what_moves(tmp_path: Path, show: Show) -> None:
         page = show(node)
         page.select("/Ball")
         page.page.keyboard.press("f")
-        page.wait("bubblesim.view.following?.path === '/Ball/link'")
-        place = "[...bubblesim.view.poseOf(bubblesim.view.following)].slice(0, 3)"
+        page.wait("bubblesim.view.viewpoint.following?.path === '/Ball/link'")
+        place = "[...bubblesim.view.poseOf(bubblesim.view.viewpoint.following)].slice(0, 3)"
         both = f"bubblesim.view.settled().then(() => [{CAMERA}, {place}])"
         camera, ball = page.js(both)
         page.wait(f"Math.hypot(...{place}.map((e, i) => e - x[i])) > 1", ball)
         camera_now, ball_now = page.js(both)
         assert np.subtract(camera_now, camera) == pytest.approx(np.subtract(ball_now, ball), abs=1e-3)
         page.page.keyboard.press("f")
-        page.wait("bubblesim.view.following === null")
+        page.wait("bubblesim.view.viewpoint.following === null")
 
 
 SCENE = """\

@@ -36,7 +36,7 @@ def test_a_click_selects_and_properties_follow(tmp_path: Path, show: Show) -> No
     with Node(tmp_path, "tricycle") as node:
         page = show(node)
         page.look_at("/Tricycle")
-        page.wait("bubblesim.view.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
+        page.wait("bubblesim.view.picker.pick(...x)?.link.path.startsWith('/Tricycle')", page.middle())
         page.page.mouse.click(*page.middle())
         page.wait("bubblesim.selection.object?.path === '/Tricycle'")
         page.wait("document.querySelector('.properties h2').textContent === 'Tricycle'")
@@ -63,8 +63,8 @@ def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -
 
 def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle", "--remote=0") as node:
-        door, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
-        command = ["bubblesim", "view", "--door", door, "--port", str(port)]
+        remote_port, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
+        command = ["bubblesim", "view", "--door", remote_port, "--port", str(port)]
 
         def start_server() -> "subprocess.Popen[str]":
             with (tmp_path / "view.err").open("w") as log:
@@ -155,3 +155,28 @@ def test_two_thousand_boxes_are_drawn_from_small_frames(tmp_path: Path, show: Sh
         assert page.js("bubblesim.view.renderer.info.render.calls") < 40
         page.call("window.set_pose", page.js("bubblesim.scene.byPath('/box_7').handle"), [0, -3, 4, 0, 0, 0, 1])
         page.wait("bubblesim.view.poseOf(bubblesim.scene.byPath('/box_7'))[2] > 3.9")
+
+
+def test_the_first_error_of_what_is_asked_again_and_again_is_shown(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball") as node:
+        page = show(node)
+        page.page.evaluate(
+            """() => {
+            const { link } = bubblesim;
+            const call = link.call.bind(link);
+            bubblesim.test = { fails: true, failed: 0, answered: 0, shown: [] };
+            bubblesim.notify = (text, level) => bubblesim.test.shown.push([text, level]);
+            link.call = async (name, ...rest) => {
+                if (name !== "sim.getProblems") return call(name, ...rest);
+                if (bubblesim.test.fails) { bubblesim.test.failed++; throw new Error("out of order"); }
+                bubblesim.test.answered++;
+                return call(name, ...rest);
+            };
+            }"""
+        )
+        page.wait("bubblesim.test.failed >= 3")
+        assert page.js("bubblesim.test.shown") == [["out of order", "error"]]
+        page.js("bubblesim.test.fails = false")
+        page.wait("bubblesim.test.answered >= 2")
+        page.js("bubblesim.test.fails = true")
+        page.wait("bubblesim.test.shown.length === 2")

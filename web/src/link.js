@@ -42,16 +42,16 @@ export class Link extends Emitter {
     };
   }
 
-  /// Calls a function: "sim.NAME", "window.NAME" (the simulator's) or "server.NAME" (the server's). Calls on one line
-  /// are carried out one after the other; give long ones a line of their own.
-  call(name, args = [], line = "") {
+  /// Calls a function: "sim.NAME", "window.NAME" (the simulator's) or "server.NAME" (the server's). Calls on one
+  /// connection to the simulator are carried out one after the other; give long ones a connection of their own.
+  call(name, args = [], connection = "") {
     return new Promise((resolve, reject) => {
       if (!this.connected) {
         reject(new Error("there is no connection to the server"));
         return;
       }
       const number = this.#next++;
-      this.#waiting.push({ number, bytes: encode([number, name, args, line]), resolve, reject });
+      this.#waiting.push({ number, bytes: encode([number, name, args, connection]), resolve, reject });
       this.#sendCalls();
     });
   }

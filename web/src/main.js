@@ -7,7 +7,7 @@
 //   editing    changes of the scene that can be undone (editing.js)
 //   layout     show(id) brings a panel to the front
 //   notify(text, level)   shows a message
-//   attempt(name, args, line)   calls a function, and shows its error as a message
+//   attempt(name, args, connection)   calls a function, and shows its error as a message
 import "./main.css";
 
 import { h } from "./dom.js";
@@ -27,9 +27,9 @@ const selection = new Selection(scene);
 const layout = new Layout();
 const notices = new Notices();
 const app = { link, scene, selection, layout, notify: (text, level) => notices.show(text, level) };
-app.attempt = async (name, args = [], line = "") => {
+app.attempt = async (name, args = [], connection = "") => {
   try {
-    return await link.call(name, args, line);
+    return await link.call(name, args, connection);
   } catch (error) {
     app.notify(error.message, "error");
     return undefined;

@@ -8,8 +8,9 @@ export class Poll {
   #on = false;
   #timer = null;
   #busy = false;
+  #failed = false; // the last time
 
-  /// `period` in ms; `action` may be asynchronous. An error ends this turn only.
+  /// `period` in ms; `action` may be asynchronous. An error ends this turn only; the first one after a success is shown.
   constructor(app, period, action) {
     this.#app = app;
     this.#period = period;
@@ -33,13 +34,24 @@ export class Poll {
     if (this.#busy) return;
     this.#busy = true;
     try {
-      if (this.#app.link.connected && !document.hidden) await this.#action();
+      if (this.#app.link.connected && !document.hidden) {
+        await this.#action();
+        this.#failed = false;
+      }
     } catch (error) {
-      this.error = error;
+      this.#report(error);
     } finally {
       this.#busy = false;
       if (this.#on) this.#timer = setTimeout(() => this.now(), this.#period);
     }
+  }
+
+  /// Without a connection or a simulator, the page says so, and all calls fail.
+  #report(error) {
+    const { link, scene } = this.#app;
+    if (!link.connected || !scene.info || !this.#on || this.#failed) return;
+    this.#failed = true;
+    this.#app.notify(error.message, "error");
   }
 }
 

@@ -120,8 +120,8 @@ export class Toolbar {
       {
         title: "Look from",
         onchange: () => {
-          if (sides.value === "all") view.lookAtAll();
-          else view.lookFrom(sides.value);
+          if (sides.value === "all") view.viewpoint.lookAtAll();
+          else view.viewpoint.lookFrom(sides.value);
           sides.value = "";
         },
       },
@@ -130,7 +130,7 @@ export class Toolbar {
       ),
     );
     this.follow = button("follow", "Follow the selected object (F)", () => this.#toggleFollow());
-    view.on("options", () => this.follow.classList.toggle("on", view.following !== null));
+    view.on("options", () => this.follow.classList.toggle("on", view.viewpoint.following !== null));
     const modes = [
       ["select", "eye2", "Select (Esc)"],
       ["move", "move", "Move (W)"],
@@ -172,8 +172,8 @@ export class Toolbar {
 
   #toggleFollow() {
     const { view, selection, scene } = this.#app;
-    if (view.following) view.follow(null);
-    else if (selection.object) view.follow(followable(scene, selection.object));
+    if (view.viewpoint.following) view.viewpoint.follow(null);
+    else if (selection.object) view.viewpoint.follow(followable(scene, selection.object));
     else this.#app.notify("Select an object to follow first.");
   }
 
@@ -192,10 +192,10 @@ export class Toolbar {
       },
       n: () => this.step.click(),
       f: () => this.#toggleFollow(),
-      Home: () => view.lookAtAll(),
-      7: () => view.lookFrom("top"),
-      1: () => view.lookFrom("front"),
-      3: () => view.lookFrom("right"),
+      Home: () => view.viewpoint.lookAtAll(),
+      7: () => view.viewpoint.lookFrom("top"),
+      1: () => view.viewpoint.lookFrom("front"),
+      3: () => view.viewpoint.lookFrom("right"),
       w: () => view.gizmo.setMode("move"),
       e: () => view.gizmo.setMode("turn"),
       q: () => view.gizmo.setMode("pull"),

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from bubblesim import checking
+from bubblesim.scene_files import check as scene_check
 
 
 def add_parser(commands: Any) -> None:
@@ -14,12 +14,12 @@ def add_parser(commands: Any) -> None:
     parser: argparse.ArgumentParser = commands.add_parser(
         "check",
         help="validate scenes and models",
-        description=checking.DESCRIPTION,
-        epilog=checking.EPILOG,
+        description=scene_check.DESCRIPTION,
+        epilog=scene_check.EPILOG,
     )
-    checking.add_arguments(parser)
+    scene_check.add_arguments(parser)
     parser.set_defaults(command=_check, parser=parser)
 
 
 def _check(options: argparse.Namespace) -> int:
-    return checking.check(options.scenes)
+    return scene_check.check(options.scenes)

@@ -74,11 +74,13 @@ def _run(options: argparse.Namespace) -> int:
 
 def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
     from bubblesim.running.master import provide_master, require_master, simulated_time
+    from bubblesim.running.ros_home import use_writable_ros_home
 
     stop = Stop()
     with contextlib.ExitStack() as stack:
         logs = stack.enter_context(tempfile.TemporaryDirectory(prefix="bubblesim-run-"))
         programs = stack.enter_context(Programs(Path(logs)))
+        use_writable_ros_home(Path(logs))
         if not options.roscore:
             require_master()
         elif provide_master(programs, stop):

@@ -33,7 +33,7 @@ Ctrl-C ends a call that waits, Ctrl-D ends the prompt.
   bubblesim shell tricycle --no-ros       on a node of its own, which ends with the prompt
   bubblesim shell --port 23000            on a node that was started with --remote"""
 _ANSWER = re.compile(r"remote clients can connect to tcp://[^ ]*:(\d+)")
-_PATIENCE = 60.0  # s for the node to open its door, or to end
+_PATIENCE = 60.0  # s for the node to open its port, or to end
 _LONGEST_CALL = 1e6  # s; Ctrl-C ends it before
 _MOST_LINES = 10_000  # of the history
 
@@ -79,7 +79,7 @@ def _open(options: argparse.Namespace) -> int:
 def _started_node(
     scene: list[str], token: Path, options: argparse.Namespace
 ) -> Iterator[tuple[subprocess.Popen[str], int]]:
-    """Run a node of its own process group, which Ctrl-C does not reach; yield it and the port of its door."""
+    """Run a node of its own process group, which Ctrl-C does not reach; yield it and the port of its remote API."""
     command = [str(node_program()), *scene, *options.other_options, "--remote=0", f"--remote-token={token}"]
     node = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, process_group=0)
     try:

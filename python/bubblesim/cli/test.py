@@ -42,7 +42,12 @@ def add_parser(commands: Any) -> None:
 
 
 def _test(options: argparse.Namespace) -> int:
-    command = [_python(), "-m", "pytest", "-p", "bubblesim.testing.plugin", *options.files, *options.other_options]
+    python = _python()
+    if subprocess.run([python, "-c", "import pytest"], stderr=subprocess.DEVNULL, check=False).returncode:
+        cure = f"{python} -m pip install pytest" if os.environ.get("VIRTUAL_ENV") else "apt-get install python3-pytest"
+        print(f"error: {python} has no pytest: {cure}", file=sys.stderr)
+        return _BAD_INPUT
+    command = [python, "-m", "pytest", "-p", "bubblesim.testing.plugin", *options.files, *options.other_options]
     process = subprocess.Popen(command)
     # Ctrl-C and a closed terminal also reach pytest, which ends the programs it started; wait for that.
     for number in (signal.SIGINT, signal.SIGHUP):

@@ -14,7 +14,7 @@ from bubblesim._core.reading_messages import Clock, Header
 from bubblesim.gazebo_plugins.parameters import Parameters
 from bubblesim.gazebo_plugins.transforms import Transforms, is_needed
 from bubblesim.messages.names import did_you_mean, nearest_names
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 Message = dict[str, Any]
 FASTEST = 1e6  # rad/s or m/s: limit of the physics

@@ -16,7 +16,7 @@ from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
 from bubblesim.gazebo_plugins.sensors.sensor_topic import NoPlugin, SensorTopic
 from bubblesim.gazebo_plugins.transforms import Transforms
 from bubblesim.gazebo_plugins.unknown_plugins import UnknownPlugins, plugins_below
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 _WORLD = -1
 

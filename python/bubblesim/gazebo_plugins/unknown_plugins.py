@@ -9,7 +9,7 @@ from typing import Any
 
 from bubblesim.gazebo_plugins.parameters import where
 from bubblesim.gazebo_plugins.registry import NOT_NEEDED, PLUGINS, library, why_unknown
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 
 class UnknownPlugins:

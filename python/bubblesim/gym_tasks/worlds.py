@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 import bubblesim
-from bubblesim.delayed_rows import DelayedRows
 from bubblesim.gym_tasks.task import Array, Task, make_task
+from bubblesim.learning.delayed_rows import DelayedRows
 
 
 class Worlds:

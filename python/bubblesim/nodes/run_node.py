@@ -15,8 +15,8 @@ from typing import TypeVar
 
 import rospy
 
-from bubblesim.addresses import stay_on_this_machine
-from bubblesim.program import BY_CTRL_C, run_program
+from bubblesim.program.addresses import stay_on_this_machine
+from bubblesim.program.run import BY_CTRL_C, run_program
 
 Node = TypeVar("Node")
 

@@ -6,7 +6,7 @@ import threading
 import rospy
 from geometry_msgs.msg import Twist, TwistStamped
 
-from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
 from bubblesim.nodes.last_message import send_last
 
 
@@ -26,14 +26,14 @@ class TwistCommands:
         self._standing = True
         rospy.on_shutdown(self._end)
 
-    def publish(self, velocity: Velocity) -> None:
+    def publish(self, velocity: BaseVelocity) -> None:
         """Publish one command."""
         with self._lock:
             self._standing = velocity == STANDING
             if not self._ended:
                 self._publisher.publish(self._message(velocity))
 
-    def follow(self, velocity: Velocity) -> None:
+    def follow(self, velocity: BaseVelocity) -> None:
         """Publish a command, but zero velocity only once, so that other nodes can drive while this one is idle."""
         if velocity != STANDING or not self._standing:
             self.publish(velocity)
@@ -43,11 +43,11 @@ class TwistCommands:
             self._ended = True
         send_last((self._publisher, self._message(STANDING)))
 
-    def _message(self, velocity: Velocity) -> Twist | TwistStamped:
+    def _message(self, velocity: BaseVelocity) -> Twist | TwistStamped:
         return velocity_message(velocity, stamped=self._stamped, frame_id=self._frame_id)
 
 
-def velocity_message(velocity: Velocity, *, stamped: bool, frame_id: str = "") -> Twist | TwistStamped:
+def velocity_message(velocity: BaseVelocity, *, stamped: bool, frame_id: str = "") -> Twist | TwistStamped:
     """Return a velocity as a message, with the time of now if it is stamped."""
     twist = Twist()
     twist.linear.x = velocity.forward

@@ -14,7 +14,7 @@ import genpy
 
 from bubblesim import _core
 from bubblesim.observers.bag_file import BagFile
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 _CLOCK = "rosgraph_msgs/Clock"
 _Message = tuple[str, str, bytes, genpy.Time]  # topic, type, content, time

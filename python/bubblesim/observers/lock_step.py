@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from bubblesim._core import RunState
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 _TIMEOUT = 5.0  # s
 # Before the first step, the connections must be unchanged for this time: a node that advertises first may still be

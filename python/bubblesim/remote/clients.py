@@ -8,25 +8,25 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from bubblesim.output import write_line
-from bubblesim.remote.remote_client import Door, Line, RemoteClient
+from bubblesim.program.output import write_line
+from bubblesim.remote.remote_client import ClientConnection, RemoteClient, Server
 from bubblesim.remote.remote_sim import RemoteSim
 from bubblesim.scripting.host.started_programs import end_programs
 
 _MOST = 2000
-_BETWEEN_LOOKS = 1.0  # s between two looks for clients that are silent for too long
+_PERIOD = 1.0  # s between two checks for clients that are silent for too long
 _TIMEOUT = 600.0  # s
 
 
 class Clients:
     """By the uuid that each sends with its requests."""
 
-    def __init__(self, door: Door, note: Callable[[bool], None]) -> None:
+    def __init__(self, server: Server, note: Callable[[bool], None]) -> None:
         """Begin without clients.
 
         :param note: called with whether there are clients.
         """
-        self._door = door
+        self._server = server
         self._note = note
         self._clients: dict[str, RemoteClient] = {}
         self._modules: dict[str, RemoteSim] = {}  # by uuid
@@ -34,7 +34,7 @@ class Clients:
         self._created = 0
         self._runner: Any = None
         self._gate: int | None = None
-        self._next_look = 0.0
+        self._next_check = 0.0
 
     def __iter__(self) -> Iterator[RemoteClient]:
         """Return the clients in the order of their first requests."""
@@ -54,24 +54,24 @@ class Clients:
         self._modules.clear()
         self._runner = None
 
-    def client_of(self, line: Line, uuid: str, timeout: float | None) -> RemoteClient:
-        """Return the client of a request that has come on a line."""
+    def client_of(self, connection: ClientConnection, uuid: str, timeout: float | None) -> RemoteClient:
+        """Return the client of a request that has come on a connection."""
         client = self._clients.get(uuid)
         if client is None:
             if len(self._clients) >= _MOST:
                 self.forget(min(self._clients.values(), key=lambda each: each.last_seen))
             self._created += 1
-            client = RemoteClient(self._door, self._door.host.shared, self._created, timeout or _TIMEOUT)
+            client = RemoteClient(self._server, self._server.host.shared, self._created, timeout or _TIMEOUT)
             self._clients[uuid] = client
             self._modules[uuid] = RemoteSim(self._runner, client)
             self._note(True)
-        if line.client is not client:
-            before, line.client = line.client, client
+        if connection.client is not client:
+            before, connection.client = connection.client, client
             if before is not None:
-                before.lines.pop(line.identity, None)
-                if not before.lines:  # nothing can reach it any more
+                before.connections.pop(connection.identity, None)
+                if not before.connections:  # nothing can reach it any more
                     self.forget(before)
-            client.lines[line.identity] = line
+            client.connections[connection.identity] = connection
         client.last_seen = time.monotonic()
         return client
 
@@ -84,10 +84,10 @@ class Clients:
         for uuid in [uuid for uuid, known in self._clients.items() if known is client]:
             del self._clients[uuid], self._modules[uuid]
         self._note(bool(self._clients))
-        for line in list(client.lines.values()):
-            line.client = None
-            line.clear()
-        client.lines.clear()
+        for connection in list(client.connections.values()):
+            connection.client = None
+            connection.clear()
+        client.connections.clear()
         end_programs(client.programs)
         client.programs = []
         for release in client.at_leave.values():
@@ -97,6 +97,19 @@ class Clients:
                 write_line(sys.stderr, f"warning: the end of {client.object_path}: {error}")
         client.at_leave.clear()
         self.stepping_changed()
+
+    def lose(self, connection: ClientConnection) -> bool:
+        """Note that a connection is lost; return whether its client does not wait for a time any more."""
+        client = connection.client
+        if client is None:
+            return False
+        client.connections.pop(connection.identity, None)
+        if not client.connections:
+            self.forget(client)
+        elif client.waits_for_time:  # perhaps on this connection
+            client.waits_for_time = False
+            return True
+        return False
 
     def end_programs(self) -> None:
         """End the programs that clients have started."""
@@ -127,8 +140,8 @@ class Clients:
 
     def _may_step(self) -> bool:
         now = time.monotonic()
-        if now > self._next_look:
-            self._next_look = now + _BETWEEN_LOOKS
+        if now > self._next_check:
+            self._next_check = now + _PERIOD
             if any(_is_silent(client, now) for client in self):
                 self._runner.post(self._forget_silent)  # not here: it may remove this gate
         return all(client.granted or client.waits_for_time for client in self._stepping)
@@ -145,4 +158,6 @@ class Clients:
 
 
 def _is_silent(client: RemoteClient, now: float) -> bool:
-    return now - client.last_seen > client.timeout and not any(line.is_open for line in client.lines.values())
+    return now - client.last_seen > client.timeout and not any(
+        connection.is_open for connection in client.connections.values()
+    )

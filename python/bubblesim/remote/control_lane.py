@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stops and pauses a simulation whose thread does not serve the door: a script that does not return keeps it.
+"""Stops and pauses a simulation whose thread does not serve the remote API: a script that does not return keeps it.
 
-A thread of its own owns a second socket, beside that of the door in the folder that only this user may enter. It hands
-over commands, which the runner carries out between steps; a script that is stuck is interrupted for a pending stop.
+A thread of its own owns a second socket, beside that of the remote API in the folder that only this user may enter. It
+hands over commands, which the runner carries out between steps; a script that is stuck is interrupted for a pending
+stop.
 """
 
 from __future__ import annotations
@@ -15,31 +16,31 @@ import zmq
 
 from bubblesim.remote import protocol
 
-_LOOK = 250  # ms between two looks for the end
+_PERIOD = 250  # ms between two checks for the end
 COMMANDS: dict[str, Callable[[Any], object]] = {
     "window.stop": lambda runner: runner.stop(wait=False),
     "window.pause": lambda runner: runner.pause(wait=False),
 }
-"""By the names that the functions of the window have in the door."""
+"""By the names that the functions of the window have in the remote API."""
 
 
-def path_of(door: str) -> str:
-    """Return the path of the lane's socket beside that of a door."""
-    return f"{door}-control"
+def path_of(path: str) -> str:
+    """Return the path of the lane's socket beside that of the remote API, at ``path``."""
+    return f"{path}-control"
 
 
 class ControlLane:
     """Hands commands to the runner of the scene that runs."""
 
-    def __init__(self, context: zmq.Context[Any], door: str) -> None:
-        """Listen beside the Unix domain socket of a door."""
+    def __init__(self, context: zmq.Context[Any], path: str) -> None:
+        """Listen beside the Unix domain socket at ``path``."""
         self._runner: Any = None
         self._guard = threading.Lock()  # of the runner, which must not end while a command is handed over
         self._ending = threading.Event()
         self._socket = context.socket(zmq.REP)
         self._socket.setsockopt(zmq.LINGER, 0)
         self._socket.setsockopt(zmq.MAXMSGSIZE, 1 << 16)
-        self._socket.bind(f"ipc://{path_of(door)}")
+        self._socket.bind(f"ipc://{path_of(path)}")
         self._thread = threading.Thread(target=self._run, name="control lane", daemon=True)
         self._thread.start()
 
@@ -56,7 +57,7 @@ class ControlLane:
 
     def _run(self) -> None:
         while not self._ending.is_set():
-            if self._socket.poll(_LOOK):
+            if self._socket.poll(_PERIOD):
                 self._socket.send(self._answer(self._socket.recv()))
 
     def _answer(self, message: bytes) -> bytes:

@@ -12,6 +12,8 @@ import numpy as np
 import numpy.typing as npt
 import zmq
 
+from bubblesim.remote.frame_publisher import request_of
+
 Floats = npt.NDArray[np.float32]
 
 
@@ -35,23 +37,23 @@ class Frame:
 
 def read_frames(context: zmq.Context[Any], host: str, timeout: float, call: Callable[..., Any]) -> Iterator[Frame]:
     """Yield the last frame again and again, each one once; see Connection.frames."""
-    socket = context.socket(zmq.SUB)
+    socket = context.socket(zmq.REQ)
     try:
-        socket.setsockopt(zmq.CONFLATE, 1)  # only the last frame is kept
         socket.setsockopt(zmq.LINGER, 0)
-        socket.setsockopt(zmq.SUBSCRIBE, b"")
-        socket.connect(f"tcp://{host}:{call('frames.open')}")
-        known = last = None
+        port, secret = call("frames.open")
+        socket.connect(f"tcp://{host}:{port}")
+        known = None
+        number = 0
         links: list[str] = []
         joints: list[tuple[str, int]] = []
         while True:
+            socket.send(request_of(secret, number))
             if not socket.poll(int(1000 * timeout)):
                 raise TimeoutError(f"no frame from {host} in {timeout:g} s")
-            data = socket.recv()
-            if data == last:  # sent again as a sign of life
+            message = cbor2.loads(socket.recv())
+            if message["number"] == number:  # sent again as a sign of life
                 continue
-            last = data
-            message = cbor2.loads(data)
+            number = message["number"]
             shown = (message["scene"], message["revision"])
             if shown != known:
                 layout = call("frames.layout")

@@ -26,11 +26,11 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
             raise ImportError(f"module '{wanted}' not found: remote clients have the module sim")
         return None if name == "require" else info()
     if request.function == "frames.open":
-        return client.door.publish_frames()
+        return client.server.publish_frames()
     if request.function == "frames.layout":
         return layout(client)
     if module == "window":
-        return window_functions.call(client, name, request.arguments)
+        return window_functions.call(client.server.host, client, name, request.arguments)
     if module != "sim" or name.startswith("_"):
         raise AttributeError(f"there is no function '{request.function}': remote clients have those of sim")
     function = getattr(sim, name)

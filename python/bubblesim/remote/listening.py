@@ -8,8 +8,8 @@ import sys
 
 import zmq
 
-from bubblesim.addresses import is_loopback
-from bubblesim.output import write_line
+from bubblesim.program.addresses import is_loopback
+from bubblesim.program.output import write_line
 from bubblesim.remote import protocol
 
 
@@ -27,7 +27,7 @@ def listen(
     socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
     socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
     socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
-    socket.setsockopt(zmq.SNDHWM, 16)  # replies that are not read
+    socket.setsockopt(zmq.SNDHWM, 2)  # replies that are not read
     socket.setsockopt(zmq.ROUTER_MANDATORY, 1)  # sending to a client that is gone is an error
     socket.setsockopt(zmq.HEARTBEAT_IVL, 10_000)  # ms; finds machines that are gone
     socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30_000)

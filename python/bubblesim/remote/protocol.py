@@ -21,6 +21,10 @@ class RequestError(ValueError):
     """A message that is not a request."""
 
 
+class Reply(bytes):
+    """A reply that is encoded already."""
+
+
 class Request(NamedTuple):
     """A call of a function by a client."""
 
@@ -46,7 +50,7 @@ def decode(data: bytes) -> Request:
     except ValueError as error:
         raise RequestError(f"the message is not a CBOR map: {error}") from None
     if not isinstance(message, dict) or not isinstance(message.get("func"), str):
-        raise RequestError("the message is not a map with the text 'func'")
+        raise RequestError("the message is not a map with the string 'func'")
     arguments = message.get("args")
     if arguments is None:
         arguments = []
@@ -54,7 +58,7 @@ def decode(data: bytes) -> Request:
         raise RequestError(f"'args' is not a list but of type {type(arguments).__name__}")
     uuid = message.get("uuid", "")
     if not isinstance(uuid, str) or len(uuid) > 200:
-        raise RequestError("'uuid' is not a text of at most 200 characters")
+        raise RequestError("'uuid' is not a string of at most 200 characters")
     return Request(message["func"], arguments, uuid, _timeout(message.get("timeout")), message.get("token"))
 
 

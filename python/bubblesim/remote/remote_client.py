@@ -1,52 +1,69 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A remote client as a caller of `sim`, and what it waits for."""
+"""A remote client as a caller of `sim`, and its connections."""
 
 from __future__ import annotations
 
 import time
-from collections import deque
-from collections.abc import Callable, Generator, Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
 from bubblesim.remote import protocol
+from bubblesim.remote.callback_queue import CallbackQueue
+from bubblesim.remote.later_replies import Conversation, Pending
+from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.allowed_programs import is_allowed
-from bubblesim.scripting.caller import Hook, SharedData
+from bubblesim.scripting.caller import Hook
 
-_MOST_CALLBACKS = 1000
-_MOST_CALLBACK_BYTES = 16 * 1024 * 1024
 
-Conversation = Generator[tuple[str, tuple[Any, ...]], Any, Any]
-"""A call that calls functions of the client, yielding name and arguments; it returns the result of the call."""
+class Server(Protocol):
+    """The server, as its clients see it."""
+
+    steps: int
+    """Number of steps since the start of the server."""
+    host: Any
+    scenes: int
+    """Number of scenes since the start of the server."""
+    failure: str
+    """Why the scene that a client asked for is not there; empty if it is."""
+    fixed_scene: str
+    """Why clients cannot load another scene; empty if they can."""
+    trusted: bool
+    """Clients may start all programs and use all files."""
+    folders: list[Path]
+    """In which scenes are searched."""
+
+    def change_scene(self, scene: Any) -> None:
+        """Let the node go on with another ``bubblesim.Scene``."""
+
+    def publish_frames(self) -> tuple[int, bytes]:
+        """Publish frames from now on; return the port, and the secret that readers must know."""
+
+    def stepping_changed(self) -> None:
+        """A client has changed its level of stepping."""
+
+    def after_commands(self, done: Callable[[], None]) -> None:
+        """Call a function when the commands given so far have been carried out, and answer pending calls then."""
+
+    def deliver(self, client: RemoteClient) -> None:
+        """Send the callbacks of a client if it waits for a reply."""
 
 
 @dataclass
-class Pending:
-    """A call that is answered later."""
-
-    is_done: Callable[[], bool]
-    """Asked after each step and after commands."""
-    result: Callable[[], Any] = lambda: None
-    fits_the_end: bool = False
-    """The end of the simulator is what the client asked for."""
-    due: float | None = None
-    """Of ``time.monotonic``, s: when it is done at the latest, asked then, too; None: steps and commands suffice."""
-
-
-@dataclass
-class Line:
-    """A socket of a client. It has one call at a time."""
+class ClientConnection:
+    """A socket of a client. It has one call at a time, which may wait for the calls in its callbacks."""
 
     identity: bytes
     client: RemoteClient | None
     descriptor: int
-    """Of the connection, to find the line when it breaks."""
+    """Of the operating system, to find the connection when it breaks."""
     pending: Pending | None = None
     reply: bytes | None = None
     """Sent when the client has returned from the callbacks before it."""
     conversation: Conversation | None = None
     calls_back: bool = False
+    """A callback was sent, and the client has not returned from it."""
     has_token: bool = False
     """The client has sent the token, if one is wanted."""
     outer: list[tuple[Pending | None, bytes | None, Conversation | None]] = field(default_factory=list)
@@ -75,75 +92,11 @@ class Line:
         return self.calls_back or self.pending is not None or self.reply is not None or self.conversation is not None
 
 
-class Door(Protocol):
-    """The server, as its clients see it."""
-
-    steps: int
-    """Number of steps since the start of the server."""
-    host: Any
-    scenes: int
-    """Number of scenes since the start of the server."""
-    failure: str
-    """Why the scene that a client asked for is not there; empty if it is."""
-    fixed_scene: str
-    """Why clients cannot load another scene; empty if they can."""
-    trusted: bool
-    """Clients may start all programs and use all files."""
-    folders: list[Path]
-    """In which scenes are searched."""
-
-    def change_scene(self, scene: Any) -> None:
-        """Let the node go on with another ``bubblesim.Scene``."""
-
-    def publish_frames(self) -> int:
-        """Publish frames from now on, and return the port."""
-
-    def stepping_changed(self) -> None:
-        """A client has changed its level of stepping."""
-
-    def after_commands(self, done: Callable[[], None]) -> None:
-        """Call a function when the commands given so far have been carried out, and answer pending calls then."""
-
-    def deliver(self, client: RemoteClient) -> None:
-        """Send the callbacks of a client if it waits for a reply."""
-
-
-class CallbackQueue:
-    """Calls of a client's functions, as messages, until it waits for a reply. The oldest are dropped."""
-
-    def __init__(self) -> None:
-        """Create it empty."""
-        self._messages: deque[bytes] = deque()
-        self._bytes = 0
-
-    def __len__(self) -> int:
-        """Return the number of calls."""
-        return len(self._messages)
-
-    def put(self, message: bytes) -> None:
-        """Add a call."""
-        self._messages.append(message)
-        self._bytes += len(message)
-        while len(self._messages) > _MOST_CALLBACKS or (self._bytes > _MOST_CALLBACK_BYTES and len(self._messages) > 1):
-            self.take()
-
-    def take(self) -> bytes:
-        """Remove the oldest call and return it."""
-        message = self._messages.popleft()
-        self._bytes -= len(message)
-        return message
-
-    def clear(self) -> None:
-        """Remove all calls."""
-        self._messages.clear()
-        self._bytes = 0
-
-
 @dataclass(eq=False)
 class RemoteClient:
     """A program outside; see Caller."""
 
-    door: Door
+    server: Server
     shared: SharedData
     number: int
     timeout: float
@@ -154,7 +107,7 @@ class RemoteClient:
     at_leave: dict[Hashable, Callable[[], None]] = field(default_factory=dict)
     """What the client holds in this scene is released by these when it leaves, or its connection breaks."""
     programs: list[Any] = field(default_factory=list)
-    lines: dict[bytes, Line] = field(default_factory=dict)
+    connections: dict[bytes, ClientConnection] = field(default_factory=dict)
     callbacks: CallbackQueue = field(default_factory=CallbackQueue)
     level: int = 0
     """Of nested setStepping."""
@@ -171,12 +124,12 @@ class RemoteClient:
 
     def may_start(self, program: Path) -> bool:
         """Return whether the client may start this program: those that a Lua script may start, unless it is trusted."""
-        return self.door.trusted or is_allowed(program, self.door.host.allowed_programs)
+        return self.server.trusted or is_allowed(program, self.server.host.allowed_programs)
 
     @property
     def may_use_files(self) -> bool:
         """Whether the client may read and write all files."""
-        return self.door.trusted
+        return self.server.trusted
 
     def begin_scene(self, shared: SharedData) -> None:
         """Go on with another scene."""
@@ -215,4 +168,4 @@ class RemoteCallback:
         except TypeError as error:
             message = protocol.call(self.name, [str(error)])
         self.client.callbacks.put(message)
-        self.client.door.deliver(self.client)
+        self.client.server.deliver(self.client)

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim._core import RunState, Scene, cbor_decode
-from bubblesim.remote.remote_client import Conversation, Pending, RemoteCallback, RemoteClient
+from bubblesim.remote.later_replies import Conversation, Pending
+from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.sim.scene_files import stem
@@ -35,7 +36,7 @@ class RemoteSim(SimApi):
         client.level = before + 1 if enable else max(0, before - 1)
         if client.level == 0:
             client.granted = 0
-        client.door.stepping_changed()
+        client.server.stepping_changed()
         return before
 
     def step(self, wait: bool = True) -> Any:
@@ -98,7 +99,7 @@ class RemoteSim(SimApi):
         self._require_changeable_scene("sim.loadScene")
         if not file:
             return self._change_scene(Scene.empty())
-        places = [folder / f"{stem(file)}.sdf" for folder in self._caller.door.folders]
+        places = [folder / f"{stem(file)}.sdf" for folder in self._caller.server.folders]
         own = Path(self._simulation.scene_file)
         if stem(file) == own.stem:  # also of another format than .sdf
             places.insert(0, own)
@@ -134,13 +135,13 @@ class RemoteSim(SimApi):
         return bool(self._runner.state == RunState.STOPPED)
 
     def _after_step(self) -> Pending:
-        door = self._caller.door
-        before = door.steps
-        return Pending(lambda: door.steps > before or self._stopped())
+        server = self._caller.server
+        before = server.steps
+        return Pending(lambda: server.steps > before or self._stopped())
 
     def _after_commands(self, *, fits_the_end: bool = False) -> Pending:
         carried_out = threading.Event()
-        self._caller.door.after_commands(carried_out.set)
+        self._caller.server.after_commands(carried_out.set)
         return Pending(carried_out.is_set, fits_the_end=fits_the_end)
 
     def _wait_for_wall_time(self, seconds: float) -> Pending:
@@ -150,18 +151,18 @@ class RemoteSim(SimApi):
         return Pending(lambda: time.monotonic() >= due, lambda: 0.0, due=due)
 
     def _require_changeable_scene(self, function: str) -> None:
-        if why := self._caller.door.fixed_scene:
+        if why := self._caller.server.fixed_scene:
             raise RuntimeError(f"{function}: the scene cannot be changed: {why}")
 
     def _change_scene(self, scene: Any) -> Pending:
-        door = self._caller.door
-        before = door.scenes
+        server = self._caller.server
+        before = server.scenes
 
         def result() -> int:
-            if door.failure:
-                raise RuntimeError(door.failure)
+            if server.failure:
+                raise RuntimeError(server.failure)
             return 1
 
         self._runner.stop(wait=False)
-        door.after_commands(lambda: door.change_scene(scene))
-        return Pending(lambda: door.scenes > before, result)
+        server.after_commands(lambda: server.change_scene(scene))
+        return Pending(lambda: server.scenes > before, result)

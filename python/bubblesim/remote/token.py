@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The text that remote clients must know, in a file that only its owner can read."""
+"""The secret that remote clients must know, in a file that only its owner can read."""
 
 from __future__ import annotations
 

@@ -7,60 +7,61 @@ from collections.abc import Callable
 
 from bubblesim.remote import protocol
 from bubblesim.remote.alarm import Alarm
-from bubblesim.remote.remote_client import Line, Pending
+from bubblesim.remote.later_replies import Pending
+from bubblesim.remote.remote_client import ClientConnection
 
 
 class WaitingCalls:
-    """By the identity of their line. All methods are for the simulating thread."""
+    """By the identity of their connection. All methods are for the simulating thread."""
 
-    def __init__(self, answer: Callable[[Line], None], wake: Callable[[], None]) -> None:
+    def __init__(self, answer: Callable[[ClientConnection], None], wake: Callable[[], None]) -> None:
         """Begin without calls.
 
-        :param answer: sends the reply of a line.
+        :param answer: sends the reply of a connection.
         :param wake: called in another thread when a time has passed; ``answer_due`` must follow.
         """
         self._answer = answer
-        self._lines: dict[bytes, Line] = {}  # those with a pending call; perhaps some others
+        self._connections: dict[bytes, ClientConnection] = {}  # those with a pending call; perhaps some others
         self._alarm = Alarm(wake)
 
-    def add(self, line: Line, pending: Pending) -> None:
-        """Let the call of a line wait."""
-        line.pending = pending
-        self._lines[line.identity] = line
+    def add(self, connection: ClientConnection, pending: Pending) -> None:
+        """Let the call of a connection wait."""
+        connection.pending = pending
+        self._connections[connection.identity] = connection
         if pending.due is not None:
             self._alarm.set(pending.due)
 
-    def discard(self, line: Line) -> None:
-        """Forget the call of a line that is gone."""
-        self._lines.pop(line.identity, None)
+    def discard(self, connection: ClientConnection) -> None:
+        """Forget the call of a connection that is gone."""
+        self._connections.pop(connection.identity, None)
 
     def answer_done(self) -> None:
         """Answer the calls that need not wait any more."""
-        for line in list(self._lines.values()):
-            if self.settle(line):
-                self._answer(line)
+        for connection in list(self._connections.values()):
+            if self.settle(connection):
+                self._answer(connection)
 
     def answer_due(self) -> None:
         """Answer likewise, and wait for the next time."""
         self.answer_done()
-        for line in self._lines.values():
-            if line.pending is not None and line.pending.due is not None:
-                self._alarm.set(line.pending.due)
+        for connection in self._connections.values():
+            if connection.pending is not None and connection.pending.due is not None:
+                self._alarm.set(connection.pending.due)
 
-    def settle(self, line: Line) -> bool:
+    def settle(self, connection: ClientConnection) -> bool:
         """Turn a pending call into its reply if it is done."""
-        pending = line.pending
+        pending = connection.pending
         try:
             if pending is not None and not pending.is_done():
                 return False
-            self._lines.pop(line.identity, None)
+            self._connections.pop(connection.identity, None)
             if pending is None:
                 return False
-            line.reply = protocol.result(pending.result())
+            connection.reply = protocol.result(pending.result())
         except Exception as error:
-            self._lines.pop(line.identity, None)
-            line.reply = protocol.error_of(error)
-        line.pending = None
+            self._connections.pop(connection.identity, None)
+            connection.reply = protocol.error_of(error)
+        connection.pending = None
         return True
 
     def close(self) -> None:

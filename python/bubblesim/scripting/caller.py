@@ -1,82 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The callers of ``sim``, ``simROS`` and ``simROS2``, and the data they share."""
+"""The callers of ``sim``, ``simROS`` and ``simROS2``."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from bubblesim.scripting.drawings import Drawings
-from bubblesim.scripting.dummies import Dummies
-from bubblesim.scripting.graphs import Graphs
-from bubblesim.scripting.log import Log
-from bubblesim.scripting.object_collections import Collections
-from bubblesim.scripting.scene_edits import SceneEdits
-from bubblesim.scripting.stored_values import StoredValues
+from bubblesim.scene_state.shared_data import SharedData
 
 Hook = Callable[[], object]
-
-
-class Scripts(Protocol):
-    """The child scripts, for calls between callers."""
-
-    def has_script(self, handle: int) -> bool:
-        """Return whether a script is attached to an object."""
-
-    def script_functions(self, handle: int) -> list[str]:
-        """Return the names of the global functions of an object's script."""
-
-    def call_script(self, handle: int, function: str, arguments: tuple[Any, ...]) -> Any:
-        """Call a global function of an object's script; raise RuntimeError if that fails."""
-
-    def remove_model(self, model: int) -> None:
-        """Remove a model and its scripts."""
-
-    def descriptions(self) -> list[dict[str, Any]]:
-        """Return handle, object, file, language and state of all scripts."""
-
-    def text_of(self, handle: int) -> str:
-        """Return the text of the file of an object's script."""
-
-    def restart_script(self, handle: int) -> bool:
-        """Load an object's script again from its file; return whether it runs."""
-
-    def problems(self) -> dict[str, Any]:
-        """Return the warnings of the scene's files and the problems of scripts, with their revision."""
-
-
-@dataclass
-class SharedData:
-    """Data shared by all callers of one simulation."""
-
-    has_ros: bool
-    scripts: Scripts | None = None
-    """None outside of the node."""
-    dummies: Dummies = field(default_factory=Dummies)
-    drawings: Drawings = field(default_factory=Drawings)
-    graphs: Graphs = field(default_factory=Graphs)
-    log: Log = field(default_factory=Log)
-    collections: Collections = field(default_factory=Collections)
-    edits: SceneEdits = field(default_factory=SceneEdits)
-    custom_data: StoredValues[tuple[int, str]] = field(default_factory=lambda: StoredValues("custom data"))
-    """By object, -12 for the scene, and name; stays after a stop."""
-    settings: StoredValues[tuple[type, int | str]] = field(default_factory=lambda: StoredValues("parameters"))
-    """Parameters that only store their value, by kind and number or name; stay after a stop."""
-    signals: StoredValues[tuple[type, str]] = field(default_factory=lambda: StoredValues("signals"))
-    """By kind and name."""
-    cleared_scans: dict[str, float] = field(default_factory=dict)
-    """Time of the last measurement, s, when a lidar's signal was cleared, by the signal's name."""
-
-    def clear(self) -> None:
-        """Delete what ends with a run."""
-        self.signals.clear()
-        self.dummies.end_run()
-        self.drawings.end_run()
-        self.collections.end_run()
-        self.edits.end_run()
-        self.cleared_scans.clear()
 
 
 class Caller(Protocol):

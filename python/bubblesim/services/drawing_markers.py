@@ -17,9 +17,9 @@ import numpy.typing as npt
 from bubblesim._core import NoMaster
 from bubblesim.geometry.poses import IDENTITY
 from bubblesim.ros_messages import pose_message
-from bubblesim.scripting.api.sim.object_tree import ObjectTree
-from bubblesim.scripting.caller import SharedData
-from bubblesim.scripting.drawings import Drawing
+from bubblesim.scene_state.drawings import Drawing
+from bubblesim.scene_state.object_tree import ObjectTree
+from bubblesim.scene_state.shared_data import SharedData
 
 TOPIC = "/bubblesim/drawings"
 _PERIOD = 0.05  # s of wall time between two messages

@@ -10,6 +10,7 @@ import itertools
 import os
 import shlex
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -21,7 +22,13 @@ from bubblesim.testing.simulator import Simulator
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let a closed terminal end the tests and their processes as Ctrl-C does."""
+    """Check that this Python can load bubblesim, and let a closed terminal end the tests as Ctrl-C does."""
+    try:
+        from bubblesim import _core  # noqa: F401
+    except ImportError as error:
+        raise pytest.UsageError(
+            f"{sys.executable} cannot load bubblesim: {error} -- `bubblesim test` runs tests with a Python that can"
+        ) from None
     if signal.getsignal(signal.SIGHUP) == signal.SIG_DFL:
         signal.signal(signal.SIGHUP, signal.default_int_handler)
 

@@ -3,7 +3,7 @@
 
 import sys
 
-from bubblesim.program import run_program
+from bubblesim.program.run import run_program
 from bubblesim.web.program import main
 
 sys.exit(run_program(main))

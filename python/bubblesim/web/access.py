@@ -11,12 +11,12 @@ from urllib.parse import quote, urlsplit
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from bubblesim.addresses import is_loopback
+from bubblesim.program.addresses import is_loopback
 from bubblesim.web.connections import Connections
 
 # sim.check... measures, which changes the reading of a sensor and its noise.
-_LOOKING = re.compile(r"sim\.(get|read|is)[A-Z]\w*|window\.(share|events|models|mesh|texture|get\w+|read\w*)")
-_NOT_LOOKING = {"sim.getRandom"}  # draws from the scene's random numbers
+_READ_ONLY = re.compile(r"sim\.(get|read|is)[A-Z]\w*|window\.(share|events|models|mesh|texture|get\w+|read\w*)")
+_WRITING = {"sim.getRandom"}  # draws from the scene's random numbers
 _NO_TOKEN = 4401  # the close code that the page knows
 _NEEDS_TOKEN = b"This address needs a token: open the whole address that the simulator has printed"
 _TOO_MANY = b"Too many pages show this simulation: close one"
@@ -33,9 +33,9 @@ _HEADERS = {
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
-def is_looking(function: str) -> bool:
-    """Return whether a function of the door changes nothing."""
-    return bool(_LOOKING.fullmatch(function)) and function not in _NOT_LOOKING
+def is_read_only(function: str) -> bool:
+    """Return whether a function of the node changes nothing."""
+    return bool(_READ_ONLY.fullmatch(function)) and function not in _WRITING
 
 
 class Access:

@@ -45,4 +45,4 @@ def _folder() -> Path:
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     if Path(runtime).is_absolute() and os.access(runtime, os.W_OK):  # after su it may be that of another user
         return Path(runtime) / "bubblesim"
-    return Path.home() / ".ros" / "bubblesim"
+    return Path(os.environ.get("ROS_HOME") or Path.home() / ".ros") / "bubblesim"

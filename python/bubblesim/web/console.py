@@ -2,7 +2,7 @@
 """The prompt of the page: one call of a function of ``sim``.
 
 A line such as ``sim.getObjectPosition(sim.getObject('/Tricycle'), -1)`` is parsed, never evaluated as Python: arguments
-are numbers, texts, lists, dicts, constants of ``sim`` and further calls. Lua's ``{1, 2, 3}`` is a list, too.
+are numbers, strings, lists, dicts, constants of ``sim`` and further calls. Lua's ``{1, 2, 3}`` is a list, too.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 from bubblesim.scripting.api.functions import MODULES
 from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # register it
-from bubblesim.web.access import is_looking
+from bubblesim.web.access import is_read_only
 
 _MOST_CHARACTERS = 10_000
 _MOST_CALLS = 20
@@ -24,7 +24,7 @@ class CommandError(ValueError):
 
 
 async def run(page: Any, line: str) -> str:
-    """Carry out a line and return its result as a text."""
+    """Carry out a line and return its result as a string."""
     return shown(await _value(page, parse(line)))
 
 
@@ -61,7 +61,7 @@ def _check(node: ast.expr, *, top: bool = False) -> None:
     elif isinstance(node, ast.Dict):
         for key, value in zip(node.keys, node.values, strict=True):
             if not isinstance(key, ast.Constant):
-                raise CommandError("the names of a table are texts")
+                raise CommandError("the names of a table are strings")
             _check(value)
     elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
         _check(node.operand)
@@ -85,9 +85,9 @@ def _is_word(node: ast.expr) -> bool:
 async def _value(page: Any, node: ast.expr) -> Any:
     if isinstance(node, ast.Call):
         function = f"sim.{_name_in_sim(node.func)}"
-        if not page.may_edit and not is_looking(function):
-            raise CommandError(f"{function}: this window may only look")
-        return await page.door.call(function, *[await _value(page, argument) for argument in node.args])
+        if not page.may_edit and not is_read_only(function):
+            raise CommandError(f"{function}: this window is read-only")
+        return await page.node.call(function, *[await _value(page, argument) for argument in node.args])
     if isinstance(node, ast.Constant):
         return node.value
     if isinstance(node, ast.List | ast.Tuple | ast.Set):
@@ -117,7 +117,7 @@ def _number(value: Any) -> Any:
 
 
 def shown(value: Any, depth: int = 0) -> str:
-    """Return a result as a text: few digits, and bytes as their number."""
+    """Return a result as a string: few digits, and bytes as their number."""
     if isinstance(value, bytes):
         return f"<{len(value)} bytes>"
     if isinstance(value, float):

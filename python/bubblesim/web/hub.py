@@ -13,10 +13,10 @@ from typing import Any
 import zmq.asyncio
 
 from bubblesim._core import FrameReader
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.remote.control_lane import path_of
 from bubblesim.remote.token import read
-from bubblesim.web.door_line import DoorClient, NoAnswerError
+from bubblesim.web.node_client import NoAnswerError, NodeClient
 
 _PERIOD = 1 / 60  # s between two looks at the frames
 _IDLE = 0.25  # s, without pages
@@ -29,15 +29,15 @@ class Hub:
     """Follows one simulator."""
 
     def __init__(self, address: str, token_file: Path | None = None) -> None:
-        """Remember the address of the door and the file of the token that it wants; ``run`` does the work."""
+        """Remember the address of the node's remote API server and the file of its token; ``run`` does the work."""
         self.context = zmq.asyncio.Context()
         self.address = address
         self.token = ""
         self._token_file = token_file  # a node that begins makes it
-        self.control: DoorClient | None = None
+        self.control: NodeClient | None = None
         """The lane for what a script that does not return must not hold up; None through a port, which has none."""
         if address.startswith("ipc://"):
-            self.control = DoorClient(self.context, path_of(address))
+            self.control = NodeClient(self.context, path_of(address))
         self.scene: dict[str, Any] = {}
         """What window.share returns; empty while there is no simulator."""
         self.session = 0
@@ -49,15 +49,15 @@ class Hub:
         self.events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
         self.next_event = 0
         self.pages = 0
-        self._door = self.connect()
+        self._node = self.connect()
         self._reader: FrameReader | None = None
         self._packed: tuple[int, bytes] | None = None
         self._kept: dict[tuple[str, int], bytes] = {}
         self._problem = ""
 
-    def connect(self) -> DoorClient:
-        """Return a new client of the door."""
-        return DoorClient(self.context, self.address, lambda: self.token)
+    def connect(self) -> NodeClient:
+        """Return a new client of the node."""
+        return NodeClient(self.context, self.address, lambda: self.token)
 
     async def run(self) -> None:
         """Follow the simulator until cancelled."""
@@ -88,7 +88,7 @@ class Hub:
             if not self._token_file.exists():
                 raise NoAnswerError(f"{self._token_file} is not there yet")
             self.token = read(self._token_file)
-        scene = await self._door.call("window.share", timeout=_ANSWER)
+        scene = await self._node.call("window.share", timeout=_ANSWER)
         self._reader = FrameReader(scene["frames"])
         self._kept.clear()
         self._packed = None  # each scene counts its frames from 1
@@ -112,7 +112,7 @@ class Hub:
                     return
                 if now_notices != notices:
                     notices = now_notices
-                    news = await self._door.call("window.events", next_event, timeout=_ANSWER)
+                    news = await self._node.call("window.events", next_event, timeout=_ANSWER)
                     next_event = news["next"]
                     for name, data in news["events"]:
                         self.emit(name, data)
@@ -148,7 +148,7 @@ class Hub:
         key = (function, number)
         if key not in self._kept:
             session = self.session
-            reply = await self._door.forward(function, [number], line="meshes")
+            reply = await self._node.forward(function, [number], connection="meshes")
             if session != self.session:
                 return reply
             self._kept[key] = reply
@@ -166,7 +166,7 @@ class Hub:
     async def close(self) -> None:
         """Leave the simulator."""
         with contextlib.suppress(zmq.ZMQError):
-            self._door.close()
+            self._node.close()
             if self.control is not None:
                 self.control.close()
             self.context.destroy(0)

@@ -7,7 +7,7 @@ import logging
 import sys
 import time
 
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 _MOST = 10  # records in a period
 _PERIOD = 60.0  # s

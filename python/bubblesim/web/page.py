@@ -2,8 +2,8 @@
 """The connection of one page: its calls, the frames and the events.
 
 The first message of a page is the token, as text. All others are binary. Those of the page are CBOR lists:
-``[number, function, arguments, line]`` is a call, ``[count]`` says that a frame was drawn. Those of the server are
-frames, which begin with a zero byte (see FrameReader.packed), and CBOR lists: ``[number, reply]`` answers a call,
+``[number, function, arguments, connection]`` is a call, ``[count]`` says that a frame was drawn. Those of the server
+are frames, which begin with a zero byte (see FrameReader.packed), and CBOR lists: ``[number, reply]`` answers a call,
 ``[null, name, data]`` is an event.
 """
 
@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Coroutine
 from typing import Any
 
 import cbor2
@@ -19,9 +18,9 @@ from aiohttp import WSMsgType, web
 
 from bubblesim._core import cbor_decode
 from bubblesim.remote.control_lane import COMMANDS
-from bubblesim.web.access import Access, is_looking
-from bubblesim.web.door_line import DoorError
+from bubblesim.web.access import Access, is_read_only
 from bubblesim.web.hub import Hub
+from bubblesim.web.node_client import NodeError
 from bubblesim.web.ros_markers import PageMarkers
 from bubblesim.web.ros_topics import PageTopics
 from bubblesim.web.served import SERVED
@@ -56,7 +55,7 @@ class Page:
         """
         self.hub = hub
         self.may_edit = may_edit
-        self.door = hub.connect()
+        self.node = hub.connect()
         self.topics = PageTopics()
         self.markers = PageMarkers()
         self._socket = socket
@@ -68,13 +67,13 @@ class Page:
         async with contextlib.AsyncExitStack() as ends:
             ends.push_async_callback(self.topics.close)
             ends.push_async_callback(self.markers.close)
-            ends.callback(self.door.close)
+            ends.callback(self.node.close)
             async with asyncio.TaskGroup() as tasks:
                 await self._receive_all(tasks)
 
     async def _receive_all(self, tasks: asyncio.TaskGroup) -> None:
         self.hub.pages += 1
-        news = tasks.create_task(self._guarded(self._send_news()))
+        news = tasks.create_task(self._send_news())
         try:
             async for message in self._socket:
                 if message.type == WSMsgType.BINARY:
@@ -96,34 +95,34 @@ class Page:
                     self.hub.changed.notify_all()
             case [int(number), str(), list(), str()] if len(self._calls) >= _MOST_CALLS:
                 error = f"this page waits for the answers of {_MOST_CALLS} calls: it can call more when they are there"
-                await self._guarded(self._send_reply(number, _encode({"err": error})))
-            case [int(number), str(function), list(arguments), str(line)]:
-                call = tasks.create_task(self._guarded(self._answer(number, function, arguments, line)))
+                await self._send_reply(number, _encode({"err": error}))
+            case [int(number), str(function), list(arguments), str(connection)]:
+                call = tasks.create_task(self._answer(number, function, arguments, connection))
                 self._calls.add(call)
                 call.add_done_callback(self._calls.discard)
 
-    async def _answer(self, number: int, function: str, arguments: list[Any], line: str) -> None:
-        await self._send_reply(number, await self._reply(function, arguments, line))
+    async def _answer(self, number: int, function: str, arguments: list[Any], connection: str) -> None:
+        await self._send_reply(number, await self._reply(function, arguments, connection))
 
     async def _send_reply(self, number: int, reply: bytes) -> None:
-        await self._socket.send_bytes(b"\x82" + cbor2.dumps(number) + reply)
+        await self._send(b"\x82" + cbor2.dumps(number) + reply)
 
-    async def _reply(self, function: str, arguments: list[Any], line: str) -> bytes:
+    async def _reply(self, function: str, arguments: list[Any], connection: str) -> bytes:
         """Return the reply to a call as CBOR, a map with ``ret`` or ``err``."""
         try:
             if function in _SERVED:
                 served = _SERVED[function]
                 if served.edits and not self.may_edit:
-                    raise DoorError(f"{function}: this window may only look")
+                    raise NodeError(f"{function}: this window is read-only")
                 value = await served.call(self, *arguments)
                 return _encode({"ret": [value]})
-            if not self.may_edit and not is_looking(function):
-                raise DoorError(f"{function}: this window may only look")
+            if not self.may_edit and not is_read_only(function):
+                raise NodeError(f"{function}: this window is read-only")
             if function in COMMANDS and self.hub.control is not None:
                 return await self.hub.control.forward(function, [])
             if function in _KEPT:
                 return await self.hub.kept(function, int(arguments[0]))
-            return await self.door.forward(function, arguments, line)
+            return await self.node.forward(function, arguments, connection)
         except Exception as error:
             return _encode({"err": str(error) or type(error).__name__})
 
@@ -147,7 +146,7 @@ class Page:
                 if frame is not None:
                     last = now
                     self._sent.append(int.from_bytes(frame[4:8], "little"))
-                    await self._socket.send_bytes(frame)
+                    await self._send(frame)
                     continue
             async with hub.changed:
                 if hub.next_event == next_event:
@@ -155,11 +154,11 @@ class Page:
                         await asyncio.wait_for(hub.changed.wait(), 1.0)
 
     async def _event(self, name: str, data: Any) -> None:
-        await self._socket.send_bytes(cbor2.dumps([None, name, data]))
+        await self._send(cbor2.dumps([None, name, data]))
 
-    async def _guarded(self, work: Coroutine[Any, Any, None]) -> None:
-        with contextlib.suppress(ConnectionError):  # the page has closed
-            await work
+    async def _send(self, message: bytes) -> None:
+        with contextlib.suppress(ConnectionError):  # the page has closed: ``serve`` ends
+            await self._socket.send_bytes(message)
 
 
 def _encode(reply: dict[str, Any]) -> bytes:

@@ -16,8 +16,8 @@ from pathlib import Path
 
 from aiohttp import web
 
-from bubblesim.addresses import is_loopback
-from bubblesim.output import write_line
+from bubblesim.program.addresses import is_loopback
+from bubblesim.program.output import write_line
 from bubblesim.running.places import page_folder
 from bubblesim.web.access import Access
 from bubblesim.web.address_file import write_address
@@ -57,7 +57,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "programs as you, over a connection that is not encrypted",
     )
     parser.add_argument(
-        "--look", action="store_true", help="pages may look, and change nothing: no scripts, files or programs"
+        "--look",
+        action="store_true",
+        help="pages are read-only: no scripts, files or programs",
     )
     parser.add_argument("--until-closed", metavar="DESCRIPTOR", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--browser", action="store_true", help="open the page in a browser, if there is a display")
@@ -78,7 +80,7 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         loop.add_signal_handler(number, ending.set)
     if options.until_closed is not None:  # by the end of the program that has started this
         loop.add_reader(options.until_closed, ending.set)
-    hub = Hub(_door_address(options.door), Path(options.door_token) if options.door_token else None)
+    hub = Hub(_node_address(options.door), Path(options.door_token) if options.door_token else None)
     application = web.Application()
     runner = web.AppRunner(application, access_log=None, keepalive_timeout=5.0)
     connections = Connections()
@@ -143,9 +145,9 @@ def _show_address(options: argparse.Namespace, access: Access) -> Path | None:
     return file
 
 
-def _door_address(door: str) -> str:
+def _node_address(place: str) -> str:
     """Return the ZeroMQ address of a port of this machine, or of the path of a socket."""
-    return f"tcp://127.0.0.1:{door}" if door.isdigit() else f"ipc://{Path(door).absolute()}"
+    return f"tcp://127.0.0.1:{place}" if place.isdigit() else f"ipc://{Path(place).absolute()}"
 
 
 async def _listen(

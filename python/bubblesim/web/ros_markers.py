@@ -123,7 +123,7 @@ class PageMarkers:
 
 
 def _plain(marker: Any) -> dict[str, Any]:
-    """Return a marker as numbers, texts and bytes (32 bit floats)."""
+    """Return a marker as numbers, strings and bytes (32 bit floats)."""
     place, turn, size, colour = marker.pose.position, marker.pose.orientation, marker.scale, marker.color
     points = [(p.x, p.y, p.z) for p in marker.points[:_MOST_POINTS]]
     colours = [(c.r, c.g, c.b) for c in marker.colors[:_MOST_POINTS]]

@@ -10,7 +10,7 @@ import time
 from collections import deque
 from typing import Any
 
-from bubblesim.controllers.keyboard_teleop import STANDING, Velocity
+from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
 from bubblesim.web.threads import in_thread
 
 _lock = threading.Lock()
@@ -35,7 +35,7 @@ class NoRosError(RuntimeError):
 def _started() -> Any:
     import rospy
 
-    # Without /rosout: a page that may only look makes this a node, too, and must not publish.
+    # Without /rosout: a read-only page makes this a node, too, and must not publish.
     rospy.init_node("bubblesim_window", anonymous=True, disable_signals=True, disable_rosout=True)
     return rospy
 
@@ -154,13 +154,13 @@ class Driver:
         self._moving = False
         self._last = 0.0
 
-    def send(self, velocity: Velocity) -> None:
+    def send(self, velocity: BaseVelocity) -> None:
         """Publish a velocity."""
         self._publisher.publish(self._message(velocity))
         self._moving = velocity != STANDING
         self._last = time.monotonic()
 
-    def _message(self, velocity: Velocity) -> Any:
+    def _message(self, velocity: BaseVelocity) -> Any:
         from bubblesim.nodes.twist_commands import velocity_message
 
         return velocity_message(velocity, stamped=self._stamped)
@@ -216,7 +216,7 @@ class PageTopics:
         if found is not None:
             await in_thread(found.close)
 
-    async def drive(self, topic: str, velocity: Velocity) -> None:
+    async def drive(self, topic: str, velocity: BaseVelocity) -> None:
         """Publish a velocity; without another one within 0.4 s, zero follows."""
         async with self._driving:
             driver = self._driver

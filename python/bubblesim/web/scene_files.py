@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from bubblesim.scripting.saved_scene import write_scene
+from bubblesim.scene_state.saved_scene import write_scene
 from bubblesim.web.threads import in_thread
 
 _SUFFIXES = (".sdf", ".world")
@@ -33,7 +33,7 @@ async def save(page: Any, folder: str, name: str, overwrite: bool) -> dict[str, 
     if not name or name.startswith(".") or Path(name).name != name:
         raise ValueError(f"'{name}' is not the name of a file: give a name without a folder")
     file = Path(folder, name if name.endswith(_SUFFIXES) else f"{name}.sdf")
-    text = await page.door.call("window.get_scene_text", folder)
+    text = await page.node.call("window.get_scene_text", folder)
     try:
         await in_thread(partial(write_scene, text, file, overwrite=overwrite is True))
     except FileExistsError:

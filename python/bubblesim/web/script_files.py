@@ -15,13 +15,13 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from bubblesim.scene_state.problems import of_source
 from bubblesim.scripting.api import reference
 from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.host.callback_names import HOOKS
 from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
-from bubblesim.scripting.problems import of_source
 from bubblesim.web.threads import in_thread
 
 _CHECKED = "checked_script"  # name of the module that a script has during a check
@@ -48,7 +48,7 @@ async def save(page: Any, handle: int, text: str, version: str) -> dict[str, Any
     if version and _version(read_text(file)) != version:
         raise FileExistsError(f"{file} was changed by another program since it was opened here")
     await in_thread(_replace, file, text)
-    running = await page.door.call("sim.initScript", handle)
+    running = await page.node.call("sim.initScript", handle)
     return {"version": _version(text), "running": bool(running)}
 
 
@@ -114,7 +114,7 @@ def _member(name: str) -> Any:
 
 
 async def _find(page: Any, handle: int) -> dict[str, Any]:
-    for script in await page.door.call("sim.getScripts"):
+    for script in await page.node.call("sim.getScripts"):
         if script["handle"] == handle:
             return dict(script)
     raise ValueError(f"the object {handle} has no child script")

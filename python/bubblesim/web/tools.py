@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from bubblesim.controllers.keyboard_teleop import Velocity
+from bubblesim.controllers.base_velocity import BaseVelocity
 from bubblesim.web import console, ros_markers, ros_topics, scene_files, script_files
 from bubblesim.web.bag_recording import recording
 from bubblesim.web.served import Served
@@ -27,7 +27,7 @@ async def _unwatch(page: Any, number: int) -> None:
 
 
 async def _drive(page: Any, topic: str, forward: float, left: float, turn: float) -> None:
-    await page.topics.drive(topic, Velocity(float(forward), float(left), float(turn)))
+    await page.topics.drive(topic, BaseVelocity(float(forward), float(left), float(turn)))
 
 
 async def _state(_page: Any) -> dict[str, Any]:

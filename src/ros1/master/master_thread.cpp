@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "advertised_address.hpp"
-#include "interrupt.hpp"
+#include "console/log_line.hpp"
+#include "master/interrupt.hpp"
 #include "master/quiet_thread.hpp"
-#include "status/say.hpp"
 
 namespace bubblesim {
 namespace {
@@ -33,6 +33,8 @@ constexpr auto kLetMasterAnswer = 1000ms;
 constexpr auto kGiveUp = 1900ms;
 constexpr auto kInterruptInterval = 2ms;
 constexpr auto kEndingLook = 50ms;
+constexpr auto kReportLoss = 5s;  // more than a restart of the master takes
+constexpr auto kReportAgain = 10s;
 
 /// Returns the result of `function`; false if it throws, as roscpp does for responses that it does not understand.
 template <class Function>
@@ -58,6 +60,8 @@ struct MasterThread::Shared {
   std::atomic<State> state{State::kTrying};   // written under the mutex, for the condition variable
   std::uint64_t answers = 0;                  // of the master, counted by check()
   std::optional<std::uint64_t> silent_after;  // number of answers at the last timeout of run()
+  Clock::time_point last_answer = Clock::now();
+  Clock::time_point reported = last_answer;  // when a silence was reported
   bool said_absent = false;
   bool first_answer_taken = false;  // wait_for_first_answer() has returned
   std::string refusal;
@@ -65,14 +69,24 @@ struct MasterThread::Shared {
   bool finished = false;
   std::mutex stop_mutex;
   std::thread thread;
+  std::thread reporter;
 
   void set_state(State next);
   void set_absent(std::unique_lock<std::mutex>& lock);
   void set_refused(std::unique_lock<std::mutex>& lock, std::string why);
+  void note_answer();
   bool find_master();
   void work();
   void run();
+  Clock::time_point next_report() const;
+  void report_silence();
 };
+
+/// Requires the mutex.
+void MasterThread::Shared::note_answer() {
+  ++answers;
+  last_answer = Clock::now();
+}
 
 /// Requires the mutex.
 void MasterThread::Shared::set_state(State next) {
@@ -95,7 +109,7 @@ void MasterThread::Shared::set_refused(std::unique_lock<std::mutex>& lock, std::
   set_state(State::kAbsent);
   if (!is_news) return;
   lock.unlock();
-  say("not registered: " + refusal);
+  log_line("not registered: " + refusal);
   lock.lock();
 }
 
@@ -106,6 +120,7 @@ bool MasterThread::Shared::find_master() {
     std::unique_lock lock(mutex);
     if (stopping) return false;
     if (found) {
+      note_answer();
       if (refusal.empty()) set_state(State::kStarting);
       lock.unlock();
       std::string why;
@@ -142,7 +157,7 @@ void MasterThread::Shared::work() {
       const std::lock_guard lock(mutex);
       if (stopping) return;
       if (!found) continue;
-      ++answers;
+      note_answer();
       if (!jobs.empty()) {
         job = std::move(jobs.front());
         jobs.pop_front();
@@ -177,10 +192,33 @@ void MasterThread::Shared::run() {
   changed.notify_all();
 }
 
+/// Requires the mutex. The first silence of all is reported by on_absent().
+Clock::time_point MasterThread::Shared::next_report() const {
+  if (reported > last_answer) return reported + kReportAgain;
+  return last_answer + (answers > 0 ? kReportLoss : kReportAgain);
+}
+
+/// On a thread of its own, because the other one waits for a master that hangs.
+void MasterThread::Shared::report_silence() {
+  std::unique_lock lock(mutex);
+  while (!stopping) {
+    if (Clock::now() < next_report()) {
+      changed.wait_until(lock, next_report(), [this] { return stopping; });
+      continue;
+    }
+    reported = Clock::now();
+    const bool had_master = answers > 0;
+    lock.unlock();
+    hooks.on_silence(had_master);
+    lock.lock();
+  }
+}
+
 MasterThread::MasterThread(Hooks hooks) : shared_(std::make_shared<Shared>()) { shared_->hooks = std::move(hooks); }
 
 void MasterThread::start() {
   shared_->thread = start_without_signals([shared = shared_] { shared->run(); });
+  shared_->reporter = start_without_signals([shared = shared_] { shared->report_silence(); });
 }
 
 MasterThread::~MasterThread() { stop(); }
@@ -264,6 +302,7 @@ bool MasterThread::stop() {
   }
   const bool finished = shared_->finished;
   lock.unlock();
+  shared_->reporter.join();
   for (std::thread* thread : {&shutdown, &shared_->thread}) {
     if (!thread->joinable()) continue;
     if (finished) {

@@ -26,7 +26,9 @@ class MasterThread {
     std::function<bool()> check;
     /// Called once a master answers, before roscpp starts: why this node must not register there, or empty.
     std::function<std::string()> refusal;
-    Job on_absent;     ///< once, if the first try fails or takes too long
+    Job on_absent;  ///< once, if the first try fails or takes too long
+    /// Without an answer for 5 s, if there was a master, and then every 10 s. Called on another thread.
+    std::function<void(bool had_master)> on_silence;
     Job on_connected;  ///< once after roscpp is started, before any job
     Job on_idle;       ///< while connected, after each successful check
     Job on_leaving;    ///< before roscpp is shut down, if connected and the master answered the last check

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "master/master_call.hpp"
-#include "peers/own_links.hpp"
+#include "master/own_links.hpp"
 
 namespace bubblesim {
 namespace {

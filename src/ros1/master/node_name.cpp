@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "master/master_call.hpp"
-#include "peers/timed_socket.hpp"
+#include "master/timed_socket.hpp"
 
 namespace bubblesim {
 namespace {

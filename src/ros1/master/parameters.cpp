@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "master/master_thread.hpp"
-#include "topics/endpoint_table.hpp"
+#include "master/names.hpp"
 
 namespace bubblesim {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using messages::ParameterValue;
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::milliseconds kPatience{1000};
+constexpr std::chrono::milliseconds kTimeout{1000};
 
 ParameterValue to_parameter(XmlRpcValue& value) {
   switch (value.getType()) {
@@ -71,7 +71,7 @@ std::optional<std::string> Parameters::search(const std::string& name) {
 
 RpcAnswer Parameters::ask(const char* method, const std::string& argument) {
   const auto answer = std::make_shared<RpcAnswer>();  // shared with the job, which may outlive this call
-  const bool asked = master_.run([answer, method, argument] { *answer = ask_master(method, {argument}); }, kPatience);
+  const bool asked = master_.run([answer, method, argument] { *answer = ask_master(method, {argument}); }, kTimeout);
   if (!asked || !answer->answered)
     throw messages::NoMaster("the ROS master at " + ros::master::getURI() + " does not answer");
   return *answer;

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <vector>
 
+#include "console/log_line.hpp"
 #include "master/master_call.hpp"
-#include "peers/own_links.hpp"
+#include "master/own_links.hpp"
 #include "peers/publisher_probe.hpp"
-#include "status/say.hpp"
 
 namespace bubblesim {
 namespace {
@@ -27,8 +27,8 @@ std::vector<std::string> others(XmlRpc::XmlRpcValue& nodes) {
 void ask(const std::string& topic, const std::string& node, const std::string& uri, const TypeVersion& ours) {
   probe_publisher(topic, uri, [topic, node, ours](const TypeVersion& theirs) {
     if (theirs.md5 == ours.md5 || theirs.md5 == "*") return;
-    say("topic '" + topic + "': node " + node + " publishes " + shown(theirs) + ", but this node subscribes to " +
-        shown(ours) + ", so no messages arrive from it; " + cure(theirs, ours));
+    log_line("topic '" + topic + "': node " + node + " publishes " + shown(theirs) + ", but this node subscribes to " +
+             shown(ours) + ", so no messages arrive from it; " + cure(theirs, ours));
   });
 }
 

@@ -12,7 +12,7 @@
 #include <mutex>
 #include <utility>
 
-#include "topics/arrivals.hpp"
+#include "callbacks/arrivals.hpp"
 
 namespace bubblesim {
 

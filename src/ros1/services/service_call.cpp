@@ -13,7 +13,7 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "master/master_call.hpp"
-#include "peers/timed_socket.hpp"
+#include "master/timed_socket.hpp"
 
 namespace bubblesim {
 namespace {

@@ -11,8 +11,9 @@
 
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
+#include "master/names.hpp"
 #include "master/quiet_thread.hpp"
-#include "peers/timed_socket.hpp"
+#include "master/timed_socket.hpp"
 #include "services/service_call.hpp"
 
 namespace bubblesim {

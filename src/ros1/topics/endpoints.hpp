@@ -17,8 +17,8 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "status/counting_queue.hpp"
-#include "topics/callback_guard.hpp"
+#include "callbacks/callback_guard.hpp"
+#include "callbacks/counting_queue.hpp"
 
 namespace bubblesim {
 

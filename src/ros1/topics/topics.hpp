@@ -9,8 +9,8 @@
 #include <unordered_map>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "callbacks/callback_guard.hpp"
 #include "peers/publisher_check.hpp"
-#include "topics/callback_guard.hpp"
 #include "topics/endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 

@@ -8,8 +8,8 @@
 #include "check/checker.hpp"
 #include "check/checks.hpp"
 #include "check/scene_check.hpp"
-#include "physics/joints/joint.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_types.hpp"
 
 namespace bubblesim {
 namespace {
@@ -125,20 +125,20 @@ void check_joint(Checker& checker, const ModelDescription& model, const JointDes
   checker.check_link_name(model, joint.child, "child");
   if (joint.parent == joint.child) checker.report("connects the link '" + joint.parent + "' with itself");
   std::vector<std::string> types;
-  const JointKind* kind = nullptr;
-  for (const JointKind& known : joint_kinds()) {
-    types.emplace_back(known.type);
-    if (joint.type == known.type) kind = &known;
+  const JointType* type = nullptr;
+  for (const JointType& known : joint_types()) {
+    types.emplace_back(known.name);
+    if (joint.type == known.name) type = &known;
   }
-  if (kind == nullptr) {
+  if (type == nullptr) {
     std::string list;
-    for (const std::string& type : types) list += (list.empty() ? "" : ", ") + type;
+    for (const std::string& known : types) list += (list.empty() ? "" : ", ") + known;
     checker.report("joint type '" + joint.type + "' is not supported; supported types: " + list);
     return;
   }
-  if (static_cast<int>(joint.axes.size()) != kind->axes) {
+  if (static_cast<int>(joint.axes.size()) != type->axes) {
     checker.report("the number of axes is " + std::to_string(joint.axes.size()) + ", it must be " +
-                   std::to_string(kind->axes) + " for a " + joint.type + " joint");
+                   std::to_string(type->axes) + " for a " + joint.type + " joint");
     return;
   }
   for (const AxisDescription& axis : joint.axes) {

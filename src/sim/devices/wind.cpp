@@ -7,11 +7,11 @@
 #include <string>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/sensor_noise.hpp"
 #include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
 #include "scene/fnv1a.hpp"
-#include "sensors/noise.hpp"
 
 namespace bubblesim {
 namespace {

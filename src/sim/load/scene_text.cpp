@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/scene_text.hpp"
 
-#include "load/file_text.hpp"
+#include "files/file_text.hpp"
 #include "load/urdf/xacro.hpp"
 
 namespace bubblesim {

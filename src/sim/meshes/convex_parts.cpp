@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "meshes/growing_hull.hpp"
 #include "meshes/mesh_piece.hpp"
 
 namespace bubblesim {
@@ -32,6 +34,18 @@ double hull_volume(const Hull& hull) {
   return enclosed_volume(hull.triangles, [&](std::uint32_t i) { return hull.corners[i]; });
 }
 
+double joined_volume(const Hull& a, const Hull& b) {
+  Eigen::AlignedBox3d bounds;
+  for (const Hull* hull : {&a, &b}) {
+    for (const Vector3& p : hull->corners) bounds.extend(p);
+  }
+  GrowingHull both(bounds.diagonal().norm());
+  for (const Hull* hull : {&a, &b}) {
+    for (const Vector3& p : hull->corners) both.add(p);
+  }
+  return both.volume();
+}
+
 class Divider {
  public:
   explicit Divider(const TriangleMesh& mesh) : all_(whole(mesh)) {
@@ -44,10 +58,10 @@ class Divider {
 
   bool closed() const { return closed_; }
 
-  ConvexParts divide(std::size_t most) {
+  ConvexParts divide(const PartLimits& limits) {
     complete(all_);
     pieces_.push_back(all_);
-    while (pieces_.size() < most && excess() > kEnough) {
+    while (excess() > (pieces_.size() < limits.usual ? kEnough : limits.excess) && pieces_.size() < limits.most) {
       const auto worst = std::max_element(pieces_.begin(), pieces_.end(),
                                           [](const MeshPiece& a, const MeshPiece& b) { return a.excess < b.excess; });
       const std::optional<Plane> plane = best_plane(*worst);
@@ -112,35 +126,59 @@ class Divider {
     return some;
   }
 
+  /// The volumes of the hulls of what is on one side of each plane. From plane to plane the hull only grows.
+  static std::vector<double> side_volumes(const MeshPiece& piece, const std::vector<PieceEdge>& edges, std::size_t axis,
+                                          const std::vector<float>& planes, bool upper) {
+    const auto height = [&](float at) { return upper ? -at : at; };
+    std::vector<float> reached(piece.points.size(), std::numeric_limits<float>::infinity());  // by polygons at a point
+    for (const std::vector<std::uint32_t>& polygon : piece.polygons) {
+      float lowest = std::numeric_limits<float>::infinity();
+      for (const std::uint32_t i : polygon) lowest = std::min(lowest, height(piece.points[i][axis]));
+      for (const std::uint32_t i : polygon) reached[i] = std::min(reached[i], lowest);
+    }
+    std::vector<std::uint32_t> order(piece.points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return height(piece.points[a][axis]) < height(piece.points[b][axis]);
+    });
+    GrowingHull hull(std::hypot(length_along(piece, 0), length_along(piece, 1), length_along(piece, 2)));
+    const auto add = [&](const MeshPoint& p) { hull.add({p[0], p[1], p[2]}); };
+    std::vector<double> volumes(planes.size());
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      const std::size_t plane = upper ? planes.size() - 1 - k : k;
+      const float at = planes[plane];
+      for (; next < order.size() && height(piece.points[order[next]][axis]) < height(at); ++next) {
+        add(piece.points[order[next]]);
+      }
+      for (std::size_t i = next; i < order.size() && piece.points[order[i]][axis] == at; ++i) {
+        if (reached[order[i]] < height(at)) add(piece.points[order[i]]);
+      }
+      for (const auto& [from, to] : edges) {
+        const MeshPoint& a = piece.points[from];
+        const MeshPoint& b = piece.points[to];
+        if ((a[axis] < at && b[axis] > at) || (a[axis] > at && b[axis] < at)) add(crossing(a, b, axis, at));
+      }
+      volumes[plane] = hull.volume();
+    }
+    return volumes;
+  }
+
   std::optional<Plane> best_plane(const MeshPiece& piece) const {
     const std::vector<PieceEdge> edges = piece.edges();
     std::optional<Plane> best;
     double least = std::numeric_limits<double>::infinity();
     const double longest = std::max({length_along(piece, 0), length_along(piece, 1), length_along(piece, 2)});
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const float at : candidates(piece, axis)) {
-        std::vector<MeshPoint> lower;
-        std::vector<MeshPoint> upper;
-        const Sides sides = sides_of(piece, axis, at);
-        for (std::size_t i = 0; i < piece.points.size(); ++i) {
-          if (sides.lower[i]) lower.push_back(piece.points[i]);
-          if (sides.upper[i]) upper.push_back(piece.points[i]);
-        }
-        for (const auto& [from, to] : edges) {
-          const MeshPoint& a = piece.points[from];
-          const MeshPoint& b = piece.points[to];
-          if ((a[axis] < at) == (b[axis] < at) || a[axis] == at || b[axis] == at) continue;
-          const MeshPoint point = crossing(a, b, axis, at);
-          lower.push_back(point);
-          upper.push_back(point);
-        }
-        const double below = hull_volume(convex_hull(cloud(std::move(lower))));
-        const double above = hull_volume(convex_hull(cloud(std::move(upper))));
-        const double cost = below + above + kBalance * std::abs(below - above) +
+      const std::vector<float> planes = candidates(piece, axis);
+      const std::vector<double> below = side_volumes(piece, edges, axis, planes, false);
+      const std::vector<double> above = side_volumes(piece, edges, axis, planes, true);
+      for (std::size_t i = 0; i < planes.size(); ++i) {
+        const double cost = below[i] + above[i] + kBalance * std::abs(below[i] - above[i]) +
                             kLongest * piece.volume * (1 - length_along(piece, axis) / longest);
         if (cost >= least) continue;
         least = cost;
-        best = Plane{axis, at};
+        best = Plane{axis, planes[i]};
       }
     }
     return best;
@@ -154,16 +192,17 @@ class Divider {
     }
     for (std::size_t i = 0; i < hulls.size(); ++i) {
       for (std::size_t j = i + 1; j < hulls.size(); ++j) {
+        if (joined_volume(hulls[i], hulls[j]) - hull_volume(hulls[i]) - hull_volume(hulls[j]) >
+            kMerge * std::abs(volume_)) {
+          continue;
+        }
         std::vector<MeshPoint> points;
         for (const Hull* hull : {&hulls[i], &hulls[j]}) {
           for (const Vector3& p : hull->corners) {
             points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
           }
         }
-        Hull both = convex_hull(cloud(std::move(points)));
-        const double added = hull_volume(both) - hull_volume(hulls[i]) - hull_volume(hulls[j]);
-        if (added > kMerge * std::abs(volume_)) continue;
-        hulls[i] = std::move(both);
+        hulls[i] = convex_hull(cloud(std::move(points)));
         hulls.erase(hulls.begin() + static_cast<std::ptrdiff_t>(j));
         j = i;  // again with all after it
       }
@@ -179,11 +218,11 @@ class Divider {
 
 }  // namespace
 
-ConvexParts convex_parts(const TriangleMesh& mesh, std::size_t most) {
+ConvexParts convex_parts(const TriangleMesh& mesh, const PartLimits& limits) {
   if (mesh.triangles.empty()) return {{}, std::numeric_limits<double>::infinity()};
   Divider divider(mesh);
   if (!divider.closed()) return {{}, std::numeric_limits<double>::infinity()};
-  return divider.divide(most);
+  return divider.divide(limits);
 }
 
 }  // namespace bubblesim

@@ -59,19 +59,6 @@ MeshPiece whole(const TriangleMesh& mesh) {
   return piece;
 }
 
-Sides sides_of(const MeshPiece& piece, std::size_t axis, float at) {
-  Sides sides{std::vector<bool>(piece.points.size()), std::vector<bool>(piece.points.size())};
-  for (const std::vector<std::uint32_t>& polygon : piece.polygons) {
-    const bool below = reaches(piece, polygon, axis, at, false);
-    const bool above = reaches(piece, polygon, axis, at, true);
-    for (const std::uint32_t i : polygon) {
-      if (below && piece.points[i][axis] <= at) sides.lower[i] = true;
-      if (above && piece.points[i][axis] >= at) sides.upper[i] = true;
-    }
-  }
-  return sides;
-}
-
 MeshPiece cut(const MeshPiece& piece, std::size_t axis, float at, bool upper) {
   MeshPiece half;
   half.low = piece.low;

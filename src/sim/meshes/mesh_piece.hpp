@@ -33,13 +33,6 @@ MeshPiece whole(const TriangleMesh& mesh);
 /// The half of a piece on one side of a plane; without polygons in the plane, whose corners others have too.
 MeshPiece cut(const MeshPiece& piece, std::size_t axis, float at, bool upper);
 
-/// Which points belong to the halves of a piece. A point in the plane may be a corner of the solid on one side only.
-struct Sides {
-  std::vector<bool> lower;
-  std::vector<bool> upper;
-};
-Sides sides_of(const MeshPiece& piece, std::size_t axis, float at);
-
 /// Where an edge crosses a plane.
 MeshPoint crossing(const MeshPoint& a, const MeshPoint& b, std::size_t axis, float at);
 

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "load/find/library_folder.hpp"
+#include "files/library_folder.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_limits.hpp"
 #include "meshes/mesh_stream.hpp"

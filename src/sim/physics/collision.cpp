@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collision detection and contact joints.
+// Collision detection.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "physics/contact_cone.hpp"
 #include "physics/contact_defaults.hpp"
 #include "physics/contact_points.hpp"
 #include "physics/contact_thinning.hpp"
+#include "physics/round_contacts.hpp"
 #include "physics/surface_pair.hpp"
 #include "physics/world_state.hpp"
 
@@ -74,6 +74,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   const int most = std::max(std::min(surface_a.max_contacts, surface_b.max_contacts), 1);
   const int count = std::min(find_contact_points(first, second, points), most);
   if (count == 0) return;
+  place_on_round_shape(first, second, count, points.data());
   state.islands.touch(a.island, b.island, count);
   state.found.pairs.push_back({&a, &b, state.found.points.size(), count});
   SurfacePair pair = combine(surface_a, surface_b, step);
@@ -104,12 +105,6 @@ void sort(std::vector<FoundPair>& pairs) {
   if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
 }
 
-void join(World::State& state, const FoundPair& pair, FoundContact& point) {
-  dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &point.contact);
-  dJointAttach(joint, pair.first->link->body.get(), pair.second->link->body.get());
-  dJointSetFeedback(joint, &point.feedback);
-}
-
 void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
 
 dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
@@ -121,6 +116,9 @@ void search(World::State& state, double step) {
   state.islands.clear(state.moving.size());
   for (std::size_t i = 0; i < state.moving.size(); ++i) {
     if (is_jointed(*state.moving[i])) state.islands.set_jointed(static_cast<int>(i));
+  }
+  if (std::all_of(state.moving.begin(), state.moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) {
+    return;
   }
   SearchData data{state, step};
   // Collide models with each other; shapes of one model collide only with self_collide.
@@ -141,41 +139,6 @@ void find_contacts(World::State& state, double step) {
   while (wake_touched(state)) search(state, step);
   sort(state.found.pairs);
   if (state.islands.may_be_beyond_limit()) thin_out(state.found, state.islands);
-}
-
-void join_contacts(World::State& state, double step) {
-  Recollection recollection(state.memory);
-  for (const FoundPair& pair : state.found.pairs) {
-    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
-    const RememberedPair* remembered = recollection.pair(pair);
-    FoundContact* points = &state.found.points[pair.begin];
-    limit_friction(pair, remembered, state.memory, step,
-                   state.islands.is_beyond_limit(state.islands.of(pair.first->island)), points);
-    for (int i = 0; i < pair.count; ++i) join(state, pair, points[i]);
-  }
-}
-
-namespace {
-
-/// The resistance to rolling and spinning that ODE applied, by the place of the body after the substep: the torque is
-/// used at rest only.
-Vector3 torque_about_point(const FoundPair& pair, const FoundContact& point) {
-  const Vector3 centre = to_vector(dBodyGetPosition(pair.first->link->body.get()));
-  return to_vector(point.feedback.t1) - (to_vector(point.contact.geom.pos) - centre).cross(point.force);
-}
-
-}  // namespace
-
-void gather_contacts(World::State& state) {
-  for (const FoundPair& pair : state.found.pairs) {
-    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
-    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
-      FoundContact& point = state.found.points[i];
-      point.force = to_vector(point.feedback.f1);  // the first shape has a body
-      if (point.contact.surface.rho > 0) point.torque = torque_about_point(pair, point);
-    }
-  }
-  remember_contacts(state.found, state.memory, state.memory_before);
 }
 
 }  // namespace bubblesim

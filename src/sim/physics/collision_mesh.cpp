@@ -23,8 +23,7 @@ constexpr double kConvex = 0.001;
 constexpr std::size_t kTooManyInCubicMetre = 10'000;
 constexpr std::size_t kFewInCubicMetre = 3'000;
 // Of the division of a concave mesh into convex parts: a contact takes a few microseconds for each pair of parts.
-constexpr std::size_t kMostParts = 16;
-constexpr double kMostExcess = 0.05;          // of the mesh's volume, that the parts may add
+constexpr PartLimits kPartLimits;
 constexpr std::size_t kMostToDivide = 5'000;  // triangles; these take a few tenths of a second
 
 /// Merges corners with equal positions: files repeat them, and each would make its own contacts.
@@ -67,20 +66,29 @@ void make_coarser(CollisionMesh& mesh) {
                  " triangles, which deviate up to about " + millimetres + " mm; use a simpler collision mesh";
 }
 
+TriangleMesh::Point to_point(const Vector3& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
 std::string percent(double fraction) { return std::to_string(std::lround(100 * fraction)) + " %"; }
 
 /// Divides a concave mesh into convex parts; false when they do not fit it and must.
 bool take_parts(const TriangleMesh& mesh, bool must_fit, CollisionMesh& result) {
   const bool too_many = must_fit && mesh.triangles.size() > kMostToDivide;
-  const ConvexParts parts = too_many ? ConvexParts{} : convex_parts(mesh, kMostParts);
-  if (!too_many && !parts.hulls.empty() && (!must_fit || parts.excess <= kMostExcess)) {
-    for (const Hull& hull : parts.hulls) result.parts.push_back(make_part(hull));
+  const ConvexParts parts = too_many ? ConvexParts{} : convex_parts(mesh, kPartLimits);
+  if (!too_many && !parts.hulls.empty() && (!must_fit || parts.excess <= kPartLimits.excess)) {
+    TriangleMesh corners;
+    for (const Hull& hull : parts.hulls) {
+      result.parts.push_back(make_part(hull));
+      for (const Vector3& p : hull.corners) corners.vertices.push_back(to_point(p));
+    }
+    if (parts.hulls.size() > 1) result.hull = std::make_unique<ConvexPart>(make_part(convex_hull(corners)));
     return true;
   }
   const std::string reason = too_many ? "it has more than " + std::to_string(kMostToDivide) + " triangles"
-                             : std::isfinite(parts.excess)
-                                 ? std::to_string(kMostParts) + " convex parts add " + percent(parts.excess) + " to it"
-                                 : "its surface is not closed";
+                             : std::isfinite(parts.excess) ? std::to_string(kPartLimits.most) + " convex parts add " +
+                                                                 percent(parts.excess) + " to it"
+                                                           : "its surface is not closed";
   result.remark = "concave mesh that moves, collides as triangles (" + reason +
                   "): another mesh of triangles may throw it; use several simpler shapes, or <bubblesim:convex>";
   return false;

@@ -19,11 +19,14 @@ namespace bubblesim {
 /// Has either convex parts or triangles. Must live as long as ODE's mesh, which reads the arrays.
 struct CollisionMesh {
   std::vector<ConvexPart> parts;
-  std::vector<double> coordinates;  // of the corners of the triangles
+  std::unique_ptr<const ConvexPart> hull;  // of the parts; null when there are not several
+  std::vector<double> coordinates;         // of the corners of the triangles
   std::vector<dTriIndex> indices;
   ode::TriMeshDataHandle data;
   std::string remark;  // warning about simplification beyond rounding; or empty
 
+  /// The hull of the parts.
+  const ConvexPart& whole() const { return hull == nullptr ? parts.front() : *hull; }
   /// The triangles, for contacts with convex shapes. Made at the first call, which may come from any thread.
   const TriangleTree& tree() const;
 

@@ -45,9 +45,13 @@ bool is_isotropic(const dContact& contact) {
   return surface.mu2 == surface.mu && (surface.mode & (dContactFDir1 | dContactSlip1 | dContactSlip2)) == 0;
 }
 
-void direct_along_slip(const FoundPair& pair, dContact& contact) {
+Vector3 slip_at(const FoundPair& pair, const dContact& contact) {
   const dReal* position = contact.geom.pos;
-  const Vector3 slip = tangential(velocity_at(*pair.first, position) - velocity_at(*pair.second, position), contact);
+  return tangential(velocity_at(*pair.first, position) - velocity_at(*pair.second, position), contact);
+}
+
+void direct_along_slip(const FoundPair& pair, dContact& contact) {
+  const Vector3 slip = slip_at(pair, contact);
   if (slip.norm() > kSlides) direct_along(slip, contact);
 }
 
@@ -65,7 +69,7 @@ void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dCont
   double least = kRollsAcross;
   if (along.norm() < kRolls) {
     along = tangential(expected.torque, contact);
-    const double limit = surface.rho * expected.normal;
+    const double limit = surface.rho * expected.limit;
     const double share = limit > 0 ? std::min(along.norm() / limit, 1.0) : 0;
     least = std::max(std::sqrt(1 - share * share), kRollsAcross);
   }
@@ -82,9 +86,10 @@ void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dCont
   surface.rho *= std::max(first, least);
 }
 
-void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool iterative, dContact& contact) {
+void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool iterative, FoundContact& point) {
+  dContact& contact = point.contact;
   dSurfaceParameters& surface = contact.surface;
-  const double limit = surface.mu * expected.normal;
+  const double limit = surface.mu * expected.limit;
   double first = 1;  // parts of the limit
   double second = 1;
   const bool isotropic = is_isotropic(contact);
@@ -104,18 +109,23 @@ void limit_point(const FoundPair& pair, const ExpectedContact& expected, bool it
   surface.mode |= dContactMu2;
   limit_rolling(pair, expected, contact);
   if (iterative) return;
+  point.limit.normal = expected.limit;
   surface.mode &= ~dContactApprox1;
-  surface.mu *= expected.normal;
-  surface.mu2 *= expected.normal;
-  surface.rho *= expected.normal;
-  surface.rho2 *= expected.normal;
-  surface.rhoN *= expected.normal;
+  surface.mu *= expected.limit;
+  surface.mu2 *= expected.limit;
+  surface.rho *= expected.limit;
+  surface.rho2 *= expected.limit;
+  surface.rhoN *= expected.limit;
 }
 
 }  // namespace
 
 void limit_friction(const FoundPair& pair, const RememberedPair* remembered, const ContactMemory& memory, double step,
                     bool iterative, FoundContact* points) {
+  for (int i = 0; i < pair.count; ++i) {
+    const dSurfaceParameters& surface = points[i].contact.surface;
+    points[i].limit = {surface.mode, surface.mu, surface.mu2, surface.rho, surface.rhoN};
+  }
   if (remembered == nullptr || !is_settled(*remembered)) {
     for (int i = 0; i < pair.count; ++i) {
       if (is_isotropic(points[i].contact)) direct_along_slip(pair, points[i].contact);
@@ -124,8 +134,38 @@ void limit_friction(const FoundPair& pair, const RememberedPair* remembered, con
     return;
   }
   const ExpectedContacts expected = expect(memory, *remembered, pair, points, step);
-  for (int i = 0; i < pair.count; ++i)
-    limit_point(pair, expected[static_cast<std::size_t>(i)], iterative, points[i].contact);
+  for (int i = 0; i < pair.count; ++i) limit_point(pair, expected[static_cast<std::size_t>(i)], iterative, points[i]);
 }
+
+void limit_friction(const FoundPair& pair, double normal, FoundContact& point) {
+  dSurfaceParameters& surface = point.contact.surface;
+  const FrictionLimit& given = point.limit;
+  surface.mode = given.mode;
+  surface.mu = given.mu;
+  surface.mu2 = given.mu2;
+  surface.rho = surface.rho2 = given.rolling;
+  surface.rhoN = given.torsion;
+  limit_point(pair, {normal, tangential(point.force, point.contact), point.torque, normal}, false, point);
+}
+
+double needed_normal(const FoundContact& point) {
+  const dContact& contact = point.contact;
+  const FrictionLimit& surface = point.limit;
+  const Vector3 friction = tangential(to_vector(point.feedback.f1), contact);
+  if (surface.mu2 == surface.mu) return surface.mu > 0 ? friction.norm() / surface.mu : 0;
+  dVector3 along;
+  dVector3 across;
+  if ((surface.mode & dContactFDir1) != 0) {
+    std::copy(contact.fdir1, contact.fdir1 + 3, along);
+  } else {
+    dPlaneSpace(contact.geom.normal, along, across);  // as ODE
+  }
+  const double first = friction.dot(to_vector(along));
+  const double second = std::sqrt(std::max(friction.squaredNorm() - first * first, 0.0));
+  const auto needed = [](double force, double mu) { return mu > 0 ? std::abs(force) / mu : 0; };
+  return std::max(needed(first, surface.mu), needed(second, surface.mu2));
+}
+
+bool slides(const FoundPair& pair, const FoundContact& point) { return slip_at(pair, point.contact).norm() > kSlides; }
 
 }  // namespace bubblesim

@@ -13,4 +13,13 @@ namespace bubblesim {
 void limit_friction(const FoundPair& pair, const RememberedPair* remembered, const ContactMemory& memory, double step,
                     bool iterative, FoundContact* points);
 
+/// Likewise by another normal force in N, and along the force of the last solution.
+void limit_friction(const FoundPair& pair, double normal, FoundContact& point);
+
+/// The normal force in N that the tangential force of a contact needs.
+double needed_normal(const FoundContact& point);
+
+/// Whether the shapes slide on each other at a point.
+bool slides(const FoundPair& pair, const FoundContact& point);
+
 }  // namespace bubblesim

@@ -32,6 +32,12 @@ Vector3 shift(const FoundPair& pair) {
   return second == nullptr ? first : (first + to_vector(dBodyGetLinearVel(second))) / 2;
 }
 
+/// Half of the way from the last limit to the normal force, which converges where friction lowers the normal force by
+/// up to three times as much, and where it raises it by less.
+double next_limit(const FoundContact& point, double normal) {
+  return point.limit.relied == FrictionLimit::kNone ? normal : (normal + point.limit.relied) / 2;
+}
+
 }  // namespace
 
 void ContactMemory::clear() {
@@ -48,8 +54,8 @@ void ContactMemory::add_to(Fnv1a& hash) const {
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
       const RememberedPoint& point = points[i];
       const double values[] = {point.position.x(), point.position.y(), point.position.z(), point.normal,
-                               point.friction.x(), point.friction.y(), point.friction.z()};
-      hash.add(values, 7);
+                               point.friction.x(), point.friction.y(), point.friction.z(), point.limit};
+      hash.add(values, 8);
       if (point.torque == Vector3::Zero()) continue;
       const double torque[] = {point.torque.x(), point.torque.y(), point.torque.z()};
       hash.add(torque, 3);
@@ -87,7 +93,7 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
       least = distance;
       nearest = &other;
     }
-    expected[static_cast<std::size_t>(i)] = {nearest->normal, nearest->friction, nearest->torque};
+    expected[static_cast<std::size_t>(i)] = {nearest->normal, nearest->friction, nearest->torque, nearest->limit};
     sum += nearest->normal;
   }
   if (pair.count == remembered.count || sum <= 0) return expected;
@@ -96,6 +102,7 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
     contact.normal *= remembered.load / sum;
     contact.friction *= remembered.load / sum;
     contact.torque *= remembered.load / sum;
+    contact.limit *= remembered.load / sum;
   }
   return expected;
 }
@@ -140,8 +147,8 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
       const FoundContact& point = found.points[pair.begin + static_cast<std::size_t>(i)];
       const Vector3 normal = to_vector(point.contact.geom.normal);
       const double load = std::max(point.force.dot(normal), 0.0);
-      memory.points.push_back(
-          {to_vector(point.contact.geom.pos), load, point.force - normal * point.force.dot(normal), point.torque});
+      memory.points.push_back({to_vector(point.contact.geom.pos), load, point.force - normal * point.force.dot(normal),
+                               point.torque, next_limit(point, load)});
       now.load += load;
     }
     memory.pairs.push_back(now);

@@ -19,6 +19,7 @@ struct RememberedPoint {
   double normal = 0;  ///< N, normal force
   Vector3 friction;   ///< N, on the first shape, in world axes
   Vector3 torque;     ///< N m, likewise: resistance to rolling and spinning
+  double limit = 0;   ///< N, normal force by which the next substep limits the friction
 };
 
 struct RememberedPair {
@@ -44,6 +45,7 @@ struct ExpectedContact {
   double normal = 0;  ///< N
   Vector3 friction;   ///< N, on the first shape
   Vector3 torque;     ///< N m, likewise: resistance to rolling and spinning
+  double limit = 0;   ///< N, normal force by which the friction is limited
 };
 
 /// Looks pairs up in their order; a pair that is asked for must come after the one asked for before.

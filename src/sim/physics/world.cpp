@@ -11,8 +11,8 @@
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
 #include "physics/world_state.hpp"
-#include "run/prepared.hpp"
 #include "scene/fnv1a.hpp"
+#include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
 

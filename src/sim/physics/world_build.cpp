@@ -44,7 +44,7 @@ dGeomID make_geom(const Geometry& geometry, const CollisionMesh* mesh, const Pos
 
    private:
     dGeomID surface() const {
-      if (!mesh->parts.empty()) return create_convex(mesh->parts);
+      if (!mesh->parts.empty()) return create_convex(*mesh);
       return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
     }
   };
@@ -69,7 +69,7 @@ ode::BodyHandle make_body(dWorldID world, const LinkDescription& link, const Pos
 
 bool is_watched(const LinkDescription& link, const std::string& collision) {
   return std::any_of(link.sensors.begin(), link.sensors.end(), [&](const SensorDescription& sensor) {
-    const auto* contact = std::get_if<ContactDescription>(&sensor.kind);
+    const auto* contact = sensor.kind.get_if<ContactDescription>();
     return contact != nullptr && watches(*contact, collision);
   });
 }
@@ -132,7 +132,7 @@ class ModelBuilder {
   }
 
   void add_link_sensor(const Link& link, const SensorDescription& sensor) {
-    const auto* imu = std::get_if<ImuDescription>(&sensor.kind);
+    const auto* imu = sensor.kind.get_if<ImuDescription>();
     if (imu != nullptr && link.body != nullptr) {
       const Pose in_body(sensor.pose.position - link.centre_of_mass, sensor.pose.orientation);
       model_.motion_meters.emplace(model_.sensors.size(), MotionMeter(link.body.get(), in_body, imu->bandwidth));
@@ -207,7 +207,7 @@ class ModelBuilder {
       joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
     }
     for (const SensorDescription& sensor : description.sensors) {
-      const auto* force_torque = std::get_if<ForceTorqueDescription>(&sensor.kind);
+      const auto* force_torque = sensor.kind.get_if<ForceTorqueDescription>();
       if (joint.meter != nullptr && force_torque != nullptr) {
         WrenchSignal& signal = joint.meter->signals.emplace_back(*force_torque);
         signal.sensor = model_.sensors.size();

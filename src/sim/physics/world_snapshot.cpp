@@ -37,7 +37,9 @@ void transfer_memory(StateArchive& archive, const World::State& state, ContactMe
       throw InvalidInput("the saved state names a contact that is not there");
     }
   }
-  for (RememberedPoint& point : memory.points) archive(point.position, point.normal, point.friction, point.torque);
+  for (RememberedPoint& point : memory.points) {
+    archive(point.position, point.normal, point.friction, point.torque, point.limit);
+  }
 }
 
 void transfer_touches(StateArchive& archive, World::State& state) {

@@ -23,10 +23,11 @@ void enable(const Bodies& bodies) {
 bool step_exactly(World::State& state, double step) {
   std::vector<KeptBody>& kept = state.bodies_before;
   kept.clear();
-  for (const PlacedModel* model : state.moving) {
-    for (const Link& link : model->links) {
+  for (std::size_t i = 0; i < state.moving.size(); ++i) {
+    const int island = state.islands.of(static_cast<int>(i));
+    for (const Link& link : state.moving[i]->links) {
       dBodyID body = link.body.get();
-      if (dBodyIsEnabled(body) != 0) kept.push_back({body, numbers_of(body)});
+      if (dBodyIsEnabled(body) != 0) kept.push_back({body, island, numbers_of(body)});
     }
   }
   dWorldStep(state.world.get(), step);
@@ -88,7 +89,8 @@ Split split(World::State& state, bool iterate_all) {
   return made;
 }
 
-void step_by_islands(World::State& state, double step, bool iterate_all) {
+/// Returns whether islands with few contacts got the exact solver.
+bool step_by_islands(World::State& state, double step, bool iterate_all) {
   const Split bodies = split(state, iterate_all);
   if (!bodies.exact.empty()) {
     disable(bodies.iterated);
@@ -101,6 +103,7 @@ void step_by_islands(World::State& state, double step, bool iterate_all) {
     ode::step_iteratively(state.world.get(), step, state.random);
     enable(bodies.exact);
   }
+  return !iterate_all;
 }
 
 }  // namespace
@@ -108,8 +111,9 @@ void step_by_islands(World::State& state, double step, bool iterate_all) {
 void solve(World::State& state, double step) {
   solve_free_contacts(state, step);
   const bool is_exact = !state.islands.may_be_beyond_limit();
-  if (is_exact && step_exactly(state, step)) return;
-  step_by_islands(state, step, is_exact);
+  if ((is_exact && step_exactly(state, step)) || step_by_islands(state, step, is_exact)) {
+    state.friction_iteration.run(state, step);
+  }
 }
 
 }  // namespace bubblesim

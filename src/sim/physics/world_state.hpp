@@ -19,6 +19,7 @@
 #include "physics/contact_memory.hpp"
 #include "physics/contact_solver.hpp"
 #include "physics/found_contacts.hpp"
+#include "physics/friction_iteration.hpp"
 #include "physics/impact.hpp"
 #include "physics/islands.hpp"
 #include "physics/joints/joint.hpp"
@@ -185,6 +186,7 @@ using Wrenches = std::map<ObjectId, Wrench>;
 /// A body as it was before a step.
 struct KeptBody {
   dBodyID body;
+  int island;
   BodyNumbers numbers;
 };
 
@@ -230,6 +232,7 @@ struct World::State {
   std::vector<double> least_rest;                    // s, by island; working memory
   std::vector<FreePair> free_pairs;                  // of the last substep, by islands
   ContactSolver contact_solver;                      // of islands without joints
+  FrictionIteration friction_iteration;              // of islands with joints
   std::vector<KeptBody> bodies_before;               // of the last exact step; working memory
   Islands islands;                                   // of the last substep; models by index
   double bottom = 0;                  // m along gravity, lowest initial position of all models and static shapes

@@ -8,7 +8,7 @@
 #include "rays/housing.hpp"
 #include "rays/packet_math.hpp"
 #include "rays/ray_shapes.hpp"
-#include "run/prepared.hpp"
+#include "scene/prepared.hpp"
 
 namespace bubblesim {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "check/scene_check.hpp"
 #include "physics/world_state.hpp"
-#include "run/prepared.hpp"
+#include "rays/prepared_rays.hpp"
+#include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
 
@@ -49,13 +50,15 @@ Scene::~Scene() = default;
 
 const rays::PreparedRays& Scene::Prepared::rays(const Scene& scene) const {
   std::call_once(rays_made_, [&] {
+    auto made = std::make_shared<rays::PreparedRays>();
     for (std::size_t i = 0; i < scene.description().models.size(); ++i) {
-      rays_.models.push_back(
+      made->models.push_back(
           rays::prepare_rays(*scene.tree(), scene.tree()->models()[i], scene.description().models[i]));
     }
-    rays_.statics = rays::gather_statics(rays_.models);
+    made->statics = rays::gather_statics(made->models);
+    rays_ = std::move(made);
   });
-  return rays_;
+  return *rays_;
 }
 
 std::uint64_t Scene::hash() const { return prepared_->hash(*this); }

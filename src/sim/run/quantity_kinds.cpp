@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <variant>
 
 namespace bubblesim {
 namespace {
@@ -11,14 +10,7 @@ namespace {
 using Kind = Quantities::Kind;
 using Place = Kind::Place;
 using Shape = Kind::Shape;
-using Sizes = std::vector<std::size_t>;
 
-void put(Row& row, const Vector3& v) {
-  for (const double value : {v.x(), v.y(), v.z()}) row.put(value);
-}
-void put(Row& row, const Quaternion& q) {
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) row.put(value);
-}
 Vector3 take_vector(Row& row) {
   const double x = row.take();
   const double y = row.take();
@@ -94,64 +86,9 @@ Shape of_moving_model(const World& world, ObjectId object) {
   return Sizes{3};
 }
 
-template <class Description>
-const Description* sensor_of(const World& world, ObjectId object) {
-  if (world.tree().at(object).kind != ObjectKind::kSensor) return nullptr;
-  return std::get_if<Description>(&world.sensor_description(object).kind);
-}
-
 Shape of_any_sensor(const World& world, ObjectId object) {
   if (world.tree().at(object).kind != ObjectKind::kSensor) return std::nullopt;
   return Sizes{};
-}
-
-template <class Description, std::size_t... kSizes>
-Shape of_sensor(const World& world, ObjectId object) {
-  if (sensor_of<Description>(world, object) == nullptr) return std::nullopt;
-  return Sizes{kSizes...};
-}
-
-Shape of_lidar(const World& world, ObjectId object) {
-  const auto* lidar = sensor_of<LidarDescription>(world, object);
-  if (lidar == nullptr) return std::nullopt;
-  const auto rings = static_cast<std::size_t>(lidar->vertical.samples);
-  const auto samples = static_cast<std::size_t>(lidar->horizontal.samples);
-  return rings == 1 ? Sizes{samples} : Sizes{rings, samples};
-}
-
-Shape of_pixels(const World& world, ObjectId object, bool color) {
-  const auto* camera = sensor_of<CameraDescription>(world, object);
-  if (camera == nullptr || (color && !camera->color)) return std::nullopt;
-  Sizes sizes{static_cast<std::size_t>(camera->height), static_cast<std::size_t>(camera->width)};
-  if (color) sizes.push_back(3);
-  return sizes;
-}
-Shape of_image(const World& world, ObjectId object) { return of_pixels(world, object, true); }
-Shape of_depth(const World& world, ObjectId object) { return of_pixels(world, object, false); }
-
-/// Calls `use` with the sensor's reading of its kind.
-template <class Measured, class Use>
-void with_reading(Simulation& simulation, ObjectId sensor, const Use& use) {
-  const std::shared_ptr<const Reading> reading = simulation.read(sensor);
-  use(std::get<Measured>(reading->measurement));
-}
-
-template <class Measured, auto kMember>
-void observe_all(Simulation& simulation, const Place& place, Row& row) {
-  with_reading<Measured>(simulation, place.object, [&](const Measured& measured) {
-    for (const auto value : measured.*kMember) row.put(static_cast<double>(value));
-  });
-}
-
-template <class Measured, auto kMember>
-void observe_member(Simulation& simulation, const Place& place, Row& row) {
-  with_reading<Measured>(simulation, place.object, [&](const Measured& measured) {
-    if constexpr (std::is_class_v<std::decay_t<decltype(measured.*kMember)>>) {
-      put(row, measured.*kMember);
-    } else {
-      row.put(static_cast<double>(measured.*kMember));
-    }
-  });
 }
 
 template <double (World::*kGet)(ObjectId, int) const>
@@ -185,18 +122,18 @@ std::vector<Kind> motions() {
       {"pose", of_any<7>,
        [](Simulation& s, const Place& place, Row& row) {
          const Pose pose = pose_of(s.world(), place);
-         put(row, pose.position);
-         put(row, pose.orientation);
+         row.put(pose.position);
+         row.put(pose.orientation);
        },
        [](Simulation& s, ObjectId object, Row& row) { s.world().set_pose(object, take_pose(row)); }, true},
       {"position", of_any<3>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).position); },
+       [](Simulation& s, const Place& place, Row& row) { row.put(pose_of(s.world(), place).position); },
        [](Simulation& s, ObjectId object, Row& row) {
          s.world().set_pose(object, {take_vector(row), s.world().pose(object).orientation});
        },
        true},
       {"orientation", of_any<4>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, pose_of(s.world(), place).orientation); }, nullptr,
+       [](Simulation& s, const Place& place, Row& row) { row.put(pose_of(s.world(), place).orientation); }, nullptr,
        true},
       {"yaw", of_any<0>,
        [](Simulation& s, const Place& place, Row& row) { row.put(to_rpy(pose_of(s.world(), place).orientation).z()); },
@@ -207,15 +144,15 @@ std::vector<Kind> motions() {
       {"velocity", of_any<6>,
        [](Simulation& s, const Place& place, Row& row) {
          const Twist twist = velocity_of(s.world(), place);
-         put(row, twist.linear);
-         put(row, twist.angular);
+         row.put(twist.linear);
+         row.put(twist.angular);
        },
        [](Simulation& s, ObjectId object, Row& row) { s.world().set_velocity(object, take_twist(row)); }, true},
       {"linear_velocity", of_any<3>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, velocity_of(s.world(), place).linear); }, nullptr,
+       [](Simulation& s, const Place& place, Row& row) { row.put(velocity_of(s.world(), place).linear); }, nullptr,
        true},
       {"angular_velocity", of_any<3>,
-       [](Simulation& s, const Place& place, Row& row) { put(row, velocity_of(s.world(), place).angular); }, nullptr,
+       [](Simulation& s, const Place& place, Row& row) { row.put(velocity_of(s.world(), place).angular); }, nullptr,
        true},
   };
 }
@@ -245,68 +182,18 @@ std::vector<Kind> efforts() {
   };
 }
 
-/// Quantities of sensors.
-std::vector<Kind> readings() {
+/// Quantities of sensors of any kind.
+std::vector<Kind> settings() {
   return {
       {"noise_scale", of_any_sensor,
        [](Simulation& s, const Place& place, Row& row) { row.put(s.noise_scale(place.object)); },
        [](Simulation& s, ObjectId object, Row& row) { s.set_noise_scale(object, row.take()); }},
-      {"ranges", of_lidar, observe_all<LidarScan, &LidarScan::ranges>, nullptr},
-      {"intensities", of_lidar, observe_all<LidarScan, &LidarScan::intensities>, nullptr},
-      {"image", of_image, observe_all<CameraImage, &CameraImage::rgb>, nullptr},
-      {"depth", of_depth, observe_all<CameraImage, &CameraImage::depth>, nullptr},
-      {"detected", of_sensor<SonarDescription>, observe_member<ProximityReading, &ProximityReading::detected>, nullptr},
-      {"distance", of_sensor<SonarDescription>,
-       [](Simulation& s, const Place& place, Row& row) {
-         const ProximityReading reading = s.read_proximity(place.object);
-         row.put(reading.detected
-                     ? reading.distance
-                     : std::get<SonarDescription>(s.world().sensor_description(place.object).kind).max_range);
-       },
-       nullptr},
-      {"gyroscope", of_sensor<ImuDescription, 3>, observe_member<ImuReading, &ImuReading::angular_velocity>, nullptr},
-      {"accelerometer", of_sensor<ImuDescription, 3>, observe_member<ImuReading, &ImuReading::linear_acceleration>,
-       nullptr},
-      {"geographic_position", of_sensor<NavSatDescription, 3>,
-       [](Simulation& s, const Place& place, Row& row) {
-         with_reading<NavSatReading>(s, place.object, [&](const NavSatReading& reading) {
-           for (const double value : {reading.latitude, reading.longitude, reading.altitude}) row.put(value);
-         });
-       },
-       nullptr},
-      {"height", of_sensor<AltimeterDescription>, observe_member<AltimeterReading, &AltimeterReading::height>, nullptr},
-      {"magnetic_field", of_sensor<MagnetometerDescription, 3>,
-       observe_member<MagnetometerReading, &MagnetometerReading::field>, nullptr},
-      {"wrench", of_sensor<ForceTorqueDescription, 6>,
-       [](Simulation& s, const Place& place, Row& row) {
-         with_reading<ForceTorqueReading>(s, place.object, [&](const ForceTorqueReading& reading) {
-           put(row, reading.force);
-           put(row, reading.torque);
-         });
-       },
-       nullptr},
-      {"contacts", of_sensor<ContactDescription>,
-       [](Simulation& s, const Place& place, Row& row) {
-         with_reading<ContactReading>(s, place.object, [&](const ContactReading& reading) {
-           row.put(static_cast<double>(reading.contacts.size()));
-         });
-       },
-       nullptr},
-      {"contact_force", of_sensor<ContactDescription, 3>,
-       [](Simulation& s, const Place& place, Row& row) {
-         with_reading<ContactReading>(s, place.object, [&](const ContactReading& reading) {
-           Vector3 sum;
-           for (const Contact& contact : reading.contacts) sum += contact.force;
-           put(row, sum);
-         });
-       },
-       nullptr},
   };
 }
 
 std::vector<Kind> all() {
   std::vector<Kind> kinds = motions();
-  for (const auto& more : {efforts(), readings()}) kinds.insert(kinds.end(), more.begin(), more.end());
+  for (const auto& more : {efforts(), settings()}) kinds.insert(kinds.end(), more.begin(), more.end());
   return kinds;
 }
 
@@ -315,7 +202,7 @@ std::vector<Kind> all() {
 const std::vector<Kind>& world_quantity_kinds() {
   static const std::vector<Kind> kinds = {
       {"time", of_any<0>, [](Simulation& s, const Place&, Row& row) { row.put(s.state_time()); }, nullptr},
-      {"gravity", of_any<3>, [](Simulation& s, const Place&, Row& row) { put(row, s.world().gravity()); },
+      {"gravity", of_any<3>, [](Simulation& s, const Place&, Row& row) { row.put(s.world().gravity()); },
        [](Simulation& s, ObjectId, Row& row) { s.world().set_gravity(take_vector(row)); }},
       {"brightness", of_any<0>, [](Simulation& s, const Place&, Row& row) { row.put(s.brightness()); },
        [](Simulation& s, ObjectId, Row& row) { s.set_brightness(row.take()); }},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quantities that a batch knows.
+// The quantities that a batch knows, besides those that kinds of sensors have (SensorDefinition::quantities).
 #pragma once
 
 #include <optional>

@@ -41,7 +41,7 @@ void RunLoop::run() {
   ending_ = false;
   while (!ends()) {
     carry_out_commands();
-    files_.serve_without_wait();
+    descriptors_.serve_without_wait();
     meter_.note(simulation_, state_, may_step());
     if (ending_) break;
     if (state_ != RunState::kRunning) pacer_.restart();
@@ -107,16 +107,16 @@ void RunLoop::wait_for_input() {
     if (const StepGate* closed = closed_gate()) order_.fail(closed->why_closed());
   }
   const Clock::time_point end = Clock::now() + kIdlePeriod;
-  while (wait_until(end, Inbox::WaitFor::kInput) == InputFiles::Event::kFile) {
-    files_.serve();
+  while (wait_until(end, Inbox::WaitFor::kInput) == Descriptors::Event::kReadable) {
+    descriptors_.serve();
     publish_frame();
     if (step_is_due() || Clock::now() >= end) return;
   }
 }
 
-InputFiles::Event RunLoop::wait_until(Clock::time_point end, Inbox::WaitFor what) {
+Descriptors::Event RunLoop::wait_until(Clock::time_point end, Inbox::WaitFor what) {
   const AccessLock::Pause others_may_use_it(simulation_.world().access());
-  return files_.wait(inbox_, what, end);
+  return descriptors_.wait(inbox_, what, end);
 }
 
 /// Waits until the next step is due in real time. Returns false when something else is to be done first.
@@ -127,8 +127,8 @@ bool RunLoop::wait_for_time() {
     const Clock::time_point due = pacer_.due(simulation_.time(), now);
     if (due <= now) return true;
     if (longest <= now) return false;
-    if (wait_until(std::min(due, longest), Inbox::WaitFor::kCommands) == InputFiles::Event::kInbox) return false;
-    files_.serve();
+    if (wait_until(std::min(due, longest), Inbox::WaitFor::kCommands) == Descriptors::Event::kInbox) return false;
+    descriptors_.serve();
     if (!step_is_due()) return false;
     now = Clock::now();
   }

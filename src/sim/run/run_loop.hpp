@@ -11,8 +11,8 @@
 #include "bubblesim/frame.hpp"
 #include "bubblesim/frame_memory.hpp"
 #include "bubblesim/runner.hpp"
+#include "run/descriptors.hpp"
 #include "run/inbox.hpp"
-#include "run/input_files.hpp"
 #include "run/pacer.hpp"
 #include "run/run_meter.hpp"
 #include "run/step_order.hpp"
@@ -32,7 +32,7 @@ class RunLoop {
   void remove_gates() { gates_.clear(); }
   FrameMemory& share_frames();
   void set_speed(double speed);
-  InputFiles& files() { return files_; }
+  Descriptors& descriptors() { return descriptors_; }
 
   // What commands do:
   RunState start();
@@ -57,7 +57,7 @@ class RunLoop {
   bool step_is_due() const;
   const StepGate* closed_gate() const;
   void wait_for_input();
-  InputFiles::Event wait_until(Inbox::Clock::time_point end, Inbox::WaitFor what);
+  Descriptors::Event wait_until(Inbox::Clock::time_point end, Inbox::WaitFor what);
   bool wait_for_time();
   void run_step();
   void publish_frame();
@@ -66,7 +66,7 @@ class RunLoop {
   const RunnerOptions& options_;
   Inbox inbox_;
   std::atomic<double> speed_;  // that of pacer_, for other threads
-  InputFiles files_;
+  Descriptors descriptors_;
   Pacer pacer_;
   RunMeter meter_;
   std::map<GateId, StepGate> gates_;

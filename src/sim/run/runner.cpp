@@ -161,14 +161,14 @@ void Runner::remove_gates() {
   impl_->loop.remove_gates();
 }
 
-void Runner::add_file(std::shared_ptr<WatchedFile> file) {
+void Runner::add_descriptor(std::shared_ptr<WatchedDescriptor> descriptor) {
   impl_->check_thread("watched files");
-  impl_->loop.files().add(std::move(file));
+  impl_->loop.descriptors().add(std::move(descriptor));
 }
 
-void Runner::remove_file(const WatchedFile& file) {
+void Runner::remove_descriptor(const WatchedDescriptor& descriptor) {
   impl_->check_thread("watched files");
-  impl_->loop.files().remove(file);
+  impl_->loop.descriptors().remove(descriptor);
 }
 
 void Runner::run() {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/sensor_definition.hpp"
 #include "rays/ray_scene.hpp"
 #include "run/sensor_slot.hpp"
 #include "scene/describe.hpp"
@@ -124,13 +124,13 @@ std::shared_ptr<const Reading> Simulation::measure(ObjectId sensor) {
 
 void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>& rgb) {
   SensorSlot& found = slot(camera, "camera");
-  const auto* image = std::get_if<CameraImage>(&found.sensor->reading()->measurement);
+  const auto* image = found.sensor->reading()->measurement.get_if<CameraImage>();
   if (image == nullptr) {
     throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
                       ", not a camera");
   }
   const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
-  const bool has_color = std::get<CameraDescription>(world_.sensor_description(camera).kind).color;
+  const bool has_color = world_.sensor_description(camera).kind.get<CameraDescription>().color;
   const std::size_t bytes = has_color ? 3 * pixels : 0;
   if (rgb.size() != bytes) {
     throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +
@@ -160,23 +160,23 @@ double Simulation::noise_scale(ObjectId sensor) { return slot(sensor).noise_scal
 double Simulation::reading_time(ObjectId sensor) { return slot(sensor).time; }
 
 std::string_view Simulation::sensor_kind(ObjectId sensor) {
-  return kind_name(slot(sensor).sensor->reading()->measurement);
+  return definition_of(slot(sensor).sensor->reading()->measurement).name;
 }
 
 void Simulation::require_proximity(ObjectId sensor) {
-  if (std::holds_alternative<ProximityReading>(slot(sensor, "proximity sensor").sensor->reading()->measurement)) return;
+  if (slot(sensor, "proximity sensor").sensor->reading()->measurement.holds<ProximityReading>()) return;
   throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
                     ", not a proximity sensor");
 }
 
 ProximityReading Simulation::read_proximity(ObjectId sensor) {
   require_proximity(sensor);
-  return std::get<ProximityReading>(read(sensor)->measurement);
+  return read(sensor)->measurement.get<ProximityReading>();
 }
 
 ProximityReading Simulation::measure_proximity(ObjectId sensor) {
   require_proximity(sensor);
-  return std::get<ProximityReading>(measure(sensor)->measurement);
+  return measure(sensor)->measurement.get<ProximityReading>();
 }
 
 }  // namespace bubblesim

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bubblesim/sensor_definition.hpp"
 #include "bubblesim/triangle_mesh.hpp"
 #include "scene/fnv1a.hpp"
 
@@ -90,25 +91,52 @@ class DescriptionHash {
     (*this)(l.direction, l.diffuse, l.cast_shadows, l.kind, l.position, l.range, l.constant_attenuation,
             l.linear_attenuation, l.quadratic_attenuation, l.inner_angle, l.outer_angle, l.falloff);
   }
-  void add(const NoiseDescription& n) { (*this)(n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision); }
-  void add(const ScanAngles& a) { (*this)(a.samples, a.min, a.max); }
-  void add(const SonarDescription& s) { (*this)(s.min_range, s.max_range, s.half_angle, s.volume); }
-  void add(const LidarDescription& s) {
-    (*this)(s.horizontal, s.vertical, s.min_range, s.max_range, s.resolution, s.noise, s.signal);
+  void add(const SensorKind& kind) {
+    add(hash_number(definition_of(kind)));
+    add_members(*kind.table(), kind.data());
   }
-  void add(const CameraDescription& s) {
-    (*this)(s.width, s.height, s.horizontal_fov, s.near, s.far, s.color, s.antialias, s.noise);
+  void add_members(const MemberTable& table, const void* record) {
+    for (const Member& member : table.members) {
+      if (member.is_stored()) add_member(member, member.get(record));
+    }
   }
-  void add(const ImuDescription& s) { (*this)(s.angular_velocity_noise, s.linear_acceleration_noise, s.bandwidth); }
-  void add(const NavSatDescription& s) {
-    (*this)(s.horizontal_position_noise, s.vertical_position_noise, s.horizontal_velocity_noise,
-            s.vertical_velocity_noise);
+  void add_member(const Member& member, const void* value) {
+    switch (member.type) {
+      case MemberType::kFlag:
+        return add(*static_cast<const bool*>(value));
+      case MemberType::kInteger:
+      case MemberType::kChoice: {
+        std::int32_t number = 0;
+        std::memcpy(&number, value, sizeof number);
+        return add(number);
+      }
+      case MemberType::kNumber:
+        return add(*static_cast<const double*>(value));
+      case MemberType::kText:
+        return add(*static_cast<const std::string*>(value));
+      case MemberType::kTexts:
+        return add(*static_cast<const std::vector<std::string>*>(value));
+      case MemberType::kVector:
+        return add(*static_cast<const Vector3*>(value));
+      case MemberType::kRotation:
+        return add(*static_cast<const Quaternion*>(value));
+      case MemberType::kBytes:
+        return add(*static_cast<const std::vector<std::uint8_t>*>(value));
+      case MemberType::kIntegers:
+        return add(*static_cast<const std::vector<std::int32_t>*>(value));
+      case MemberType::kFloats:
+        return add(*static_cast<const std::vector<float>*>(value));
+      case MemberType::kNumbers:
+        return add(*static_cast<const std::vector<double>*>(value));
+      case MemberType::kRecord:
+      case MemberType::kRecords:
+        return add_records(member.records, value);
+    }
   }
-  void add(const AltimeterDescription& s) { (*this)(s.position_noise, s.velocity_noise); }
-  void add(const MagnetometerDescription& s) { add(s.field_noise); }
-  void add(const ContactDescription& s) { add(s.collisions); }
-  void add(const ForceTorqueDescription& s) {
-    (*this)(s.frame, s.of_child, s.force_noise, s.torque_noise, s.bandwidth);
+  void add_records(const RecordList& list, const void* value) {
+    const std::size_t size = list.size(value);
+    if (list.resize != nullptr) add(size);
+    for (std::size_t i = 0; i < size; ++i) add_members(list.table(), list.at(value, i));
   }
   void add(const PluginParameter& p) { (*this)(p.name, p.text, p.children); }
   void add(const PluginDescription& p) { (*this)(p.name, p.filename, p.parameters); }

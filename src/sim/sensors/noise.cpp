@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/noise.hpp"
-
 #include <cmath>
 #include <cstring>
 
+#include "bubblesim/sensor_noise.hpp"
+#include "check/checks.hpp"
 #include "scene/fnv1a.hpp"
 
 namespace bubblesim {
@@ -31,6 +31,31 @@ NoiseDescription scaled_noise(NoiseDescription description, double scale) {
 }
 
 }  // namespace
+
+const MemberTable& NoiseDescription::members() {
+  using D = NoiseDescription;
+  const std::string deviation = "the noise's standard deviation or precision";
+  static const MemberTable table = member_table<D>(
+      "NoiseDescription", "Gaussian noise of a measured value.",
+      {
+          member<&D::mean>("mean", "", "mean")
+              .with_title("the noise's mean")
+              .with_limits(-kMaxSize, kMaxSize, "finite"),
+          member<&D::stddev>("stddev", "", "standard deviation")
+              .with_title(deviation)
+              .with_limits(0, kMaxSize, "0 or more"),
+          member<&D::bias_mean>("bias_mean", "", "mean of a bias, which is drawn once")
+              .with_title("the bias's mean")
+              .with_limits(-kMaxSize, kMaxSize, "finite"),
+          member<&D::bias_stddev>("bias_stddev", "", "standard deviation of the bias")
+              .with_title(deviation)
+              .with_limits(0, kMaxSize, "0 or more"),
+          member<&D::precision>("precision", "", "values are rounded to multiples of it; 0: not rounded")
+              .with_title(deviation)
+              .with_limits(0, kMaxSize, "0 or more"),
+      });
+  return table;
+}
 
 double NormalSource::uniform() {
   std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);

@@ -3,8 +3,9 @@
 
 #include <utility>
 
-#include "sensors/kinds.hpp"
-#include "sensors/reading_state.hpp"
+#include "bubblesim/sensor_definition.hpp"
+#include "bubblesim/state_archive.hpp"
+#include "scene/record_state.hpp"
 
 namespace bubblesim {
 
@@ -38,13 +39,13 @@ void Sensor::transfer(StateArchive& archive) {
     reading_ = std::make_shared<Reading>();
     reading_->measurement = empty_;
   }
-  archive(reading_->time, reading_->measurement);
+  archive(reading_->time);
+  transfer_record(archive, reading_->measurement);
 }
 
 std::unique_ptr<Sensor> make_sensor(const SensorDescription& description, const Environment& environment, ObjectId id,
                                     const World& world) {
-  const SensorSite site{id, world, environment};
-  return std::visit([&site](const auto& kind) { return make_kind(kind, site); }, description.kind);
+  return definition_of(description.kind).make_sensor(description.kind, {id, world, environment});
 }
 
 }  // namespace bubblesim

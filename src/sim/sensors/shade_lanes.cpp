@@ -9,9 +9,10 @@
 namespace bubblesim::lanes {
 namespace {
 
-/// Some places on a checkerboard lie on a border between squares: half a millionth of a square keeps them from
-/// flickering.
+/// A face of a shape may lie on a border between squares: half a millionth of a square, and the rounding of the ray's
+/// length, keep its places from flickering.
 constexpr double kCheckerTolerance = 5e-7;
+constexpr double kRounding = 2.5e-7;  // of a length in single precision, and of the direction
 
 double floor_mod(double value, double count) { return value - count * std::floor(value / count); }
 
@@ -105,15 +106,16 @@ BUBBLESIM_SIMD void paint(const Color& color, const Mask& mask, Colors& colors) 
   }
 }
 
-BUBBLESIM_SIMD void paint_checker(const Material& material, const Places& in_shape, const Mask& mask, Colors& colors) {
+BUBBLESIM_SIMD void paint_checker(const Material& material, const Places& in_shape, const float* distances,
+                                  const Mask& mask, Colors& colors) {
   const double size = material.checker_size;
   const Color even = material.diffuse;
   const Color odd = material.checker_color;
   alignas(64) float parity[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const double squares = std::floor(in_shape.x[i] / size + kCheckerTolerance) +
-                           std::floor(in_shape.y[i] / size + kCheckerTolerance) +
-                           std::floor(in_shape.z[i] / size + kCheckerTolerance);
+    const double tolerance = kCheckerTolerance + kRounding * static_cast<double>(distances[i]) / size;
+    const double squares = std::floor(in_shape.x[i] / size + tolerance) + std::floor(in_shape.y[i] / size + tolerance) +
+                           std::floor(in_shape.z[i] / size + tolerance);
     parity[i] = static_cast<float>(squares - 2 * std::floor(squares / 2));
   }
   for (std::size_t i = 0; i < kLanes; ++i) {

@@ -48,8 +48,9 @@ void smooth_normals(const CornerNormals& corners, const Turn& turn, const Mask& 
 void into_frame(const Turn& turn, const Vector3& position, Places& places);
 
 void paint(const Color& color, const Mask& mask, Colors& colors);
-/// A checkerboard of the material's two colours.
-void paint_checker(const Material& material, const Places& in_shape, const Mask& mask, Colors& colors);
+/// A checkerboard of the material's two colours. `distances` are the lengths of the rays.
+void paint_checker(const Material& material, const Places& in_shape, const float* distances, const Mask& mask,
+                   Colors& colors);
 /// An image that repeats; colours are interpolated between pixel centres.
 void paint_texture(const Texture& texture, const ImagePlaces& places, const Mask& mask, Colors& colors);
 /// Each face of a box shows the whole image: upright on the sides, the upper edge at +x on top and bottom.

@@ -84,7 +84,7 @@ struct Painter {
     if (material.texture != nullptr && find_image_places(mask, places)) {
       lanes::paint_texture(*material.texture, places, mask, surfaces.diffuse);
     } else if (material.checker_size > 0) {
-      lanes::paint_checker(material, in_shape(), mask, surfaces.diffuse);
+      lanes::paint_checker(material, in_shape(), packet.data.ray.tfar, mask, surfaces.diffuse);
     } else {
       lanes::paint(material.diffuse, mask, surfaces.diffuse);
     }

@@ -9,7 +9,7 @@ from typing import Any
 import bubblesim
 
 from .experiment import Experiment, Tolerance, product_of
-from .mechanics import crossings
+from .mechanics import crossings, recorded
 from .scene import GRAVITY, Body, Joint, Model, Scene, box, box_inertia, cylinder_inertia, sphere
 
 
@@ -75,11 +75,7 @@ def heaving_theory(mass: float) -> float:
 def heaving(engine: Any, mass: float) -> float:
     """Return the mean period of a raft that was pushed down by 5 cm."""
     world = raft(engine, mass, 0.0, draught_theory(mass) + 0.05)
-    times, rates = [], []
-    while world.time < 10:
-        world.run(0.005)
-        times.append(world.time)
-        rates.append(float(world.velocity("raft")[2]))
+    times, rates = recorded(world, 10.0, 0.005, lambda: world.velocity("raft")[2])
     turns = crossings(times, rates)
     return 2 * (turns[-1] - turns[0]) / (len(turns) - 1)
 

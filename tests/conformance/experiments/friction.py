@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .experiment import Experiment, Tolerance, lowest, product_of
+from .mechanics import rate_of
 from .scene import (
     GRAVITY,
     Body,
@@ -16,20 +17,13 @@ from .scene import (
     Model,
     Scene,
     Shape,
-    Vector,
     box,
     box_inertia,
-    cylinder_inertia,
+    roller,
     sphere_inertia,
+    tilted,
     turned,
 )
-
-
-def tilted(slope: float, heading: float) -> Vector:
-    """Return gravity on a plane that falls by `slope` in the direction `heading`, degrees."""
-    s, turn = math.radians(slope), math.radians(heading)
-    down = GRAVITY * math.sin(s)
-    return (down * math.cos(turn), down * math.sin(turn), -GRAVITY * math.cos(s))
 
 
 def incline_theory(mu: float, heading: float, yaw: float) -> float:
@@ -62,9 +56,7 @@ def sliding(engine: Any, heading: float) -> float:
     """Return the acceleration of a box on a slope."""
     world = engine(Scene((box("box", (0.4, 0.4, 0.1), (0, 0, 0.05), mu=0.5),), gravity=tilted(35, heading)))
     world.run(0.3)
-    before = world.velocity("box")
-    world.run(0.5)
-    return float(np.linalg.norm(world.velocity("box") - before)) / 0.5
+    return float(np.linalg.norm(rate_of(world, 0.5, lambda: world.velocity("box"))))
 
 
 FOOT = 0.005  # m, radius of the ladder's feet
@@ -144,24 +136,7 @@ def torsion(engine: Any, coefficient: float, patch: float) -> float:
     world.run(0.2)
     world.set_velocity("ball", (0, 0, 0), (0, 0, 50))
     world.run(0.05)
-    before = world.spin("ball")[2]
-    world.run(0.1)
-    return float(before - world.spin("ball")[2]) / 0.1
-
-
-def roller(shape: str, heading: float, coefficient: float, *, jointed: bool) -> Model:
-    """Return a ball or a cylinder of 1 kg and 0.1 m that rolls towards a heading; a joint makes it a robot."""
-    form, inertia = Shape("sphere", (0.1,)), sphere_inertia(1.0, 0.1)
-    if shape == "cylinder":
-        form = Shape("cylinder", (0.1, 0.3), orientation=turned((1, 0, 0), math.pi / 2))
-        inertia = cylinder_inertia(1.0, 0.1, 0.3, axis=1)
-    bodies = [Body("body", 1.0, inertia, (form,), mu=0.8, rolling=coefficient)]
-    joints = []
-    if jointed:
-        bodies.append(Body("core", 1e-4, (1e-8, 1e-8, 1e-8)))
-        joints.append(Joint("fixed", "fixed", "body", "core"))
-    facing = turned((0, 0, 1), math.radians(heading))
-    return Model("body", tuple(bodies), tuple(joints), position=(0, 0, 0.1), orientation=facing)
+    return -float(rate_of(world, 0.1, lambda: world.spin("ball")[2]))
 
 
 def rolling_theory(shape: str, heading: float, coefficient: float, jointed: bool) -> float:
@@ -171,14 +146,12 @@ def rolling_theory(shape: str, heading: float, coefficient: float, jointed: bool
 
 def rolling(engine: Any, shape: str, heading: float, coefficient: float, jointed: bool) -> float:
     """Return the deceleration of a rolling body against its direction."""
-    world = engine(Scene((roller(shape, heading, coefficient, jointed=jointed),)))
+    world = engine(Scene((roller(shape, heading, mu=0.8, rolling=coefficient, jointed=jointed),)))
     world.run(0.2)
     way = np.array((math.cos(math.radians(heading)), math.sin(math.radians(heading)), 0))
     world.set_velocity("body", tuple(3 * way), (-30 * way[1], 30 * way[0], 0))
     world.run(0.2)
-    before = way @ world.velocity("body")
-    world.run(0.5)
-    return float(before - way @ world.velocity("body")) / 0.5
+    return -float(rate_of(world, 0.5, lambda: way @ world.velocity("body")))
 
 
 def holding_theory(heading: float, jointed: bool) -> float:
@@ -190,7 +163,7 @@ def holding(engine: Any, heading: float, jointed: bool) -> float:
     """Return the least slope at which a ball rolls by a centimetre in 1.2 s (0.2 degrees steeper: 1.5 cm)."""
 
     def rolls(slope: float) -> bool:
-        model = roller("sphere", heading, 0.01, jointed=jointed)
+        model = roller("sphere", heading, mu=0.8, rolling=0.01, jointed=jointed)
         world = engine(Scene((model,), gravity=tilted(slope, heading)))
         world.run(0.2)
         start = world.position("body")

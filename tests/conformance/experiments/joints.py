@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .experiment import Experiment, Tolerance, product_of
-from .mechanics import rotation
+from .mechanics import recorded, rotation
 from .scene import Body, Joint, Model, Scene, box_inertia, turned
 
 
@@ -18,18 +18,20 @@ def inelastic(**case: Any) -> float:
     return 0.0
 
 
-def stop(engine: Any, kind: str, step: float) -> float:
-    """Let an arm or a slider fall against its stop; return the greatest speed back over that of the impact."""
+def above_its_stop(engine: Any, kind: str, step: float) -> Any:
+    """Return a world in which an arm or a slider falls against the stop of its joint."""
     place = (0.5, 0.0, 0.0) if kind == "revolute" else (0.0, 0.0, 0.0)
     axis = (0.0, 1.0, 0.0) if kind == "revolute" else (0.0, 0.0, -1.0)
     arm = Body("arm", 2.0, box_inertia(2.0, (1.0, 0.1, 0.1)), position=place)
     joint = Joint("joint", kind, "world", "arm", axis, (0.0, 0.0, 0.0), lower=-2.0, upper=1.0)
-    world = engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
-    speeds = [0.0]
-    while world.time < 1.5:
-        world.run(step)
-        speeds.append(world.joint_velocity("joint"))
-    return -min(speeds) / max(speeds)
+    return engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
+
+
+def stop(engine: Any, kind: str, step: float) -> float:
+    """Return the greatest speed back from the stop over that of the impact."""
+    world = above_its_stop(engine, kind, step)
+    _, speeds = recorded(world, 1.5, step, lambda: world.joint_velocity("joint"))
+    return -min(0.0, *speeds) / max(speeds)
 
 
 def reached_theory(kind: str, step: float) -> float:
@@ -39,11 +41,7 @@ def reached_theory(kind: str, step: float) -> float:
 
 def reached(engine: Any, kind: str, step: float) -> float:
     """Return the position 1.5 s after the impact."""
-    place = (0.5, 0.0, 0.0) if kind == "revolute" else (0.0, 0.0, 0.0)
-    axis = (0.0, 1.0, 0.0) if kind == "revolute" else (0.0, 0.0, -1.0)
-    arm = Body("arm", 2.0, box_inertia(2.0, (1.0, 0.1, 0.1)), position=place)
-    joint = Joint("joint", kind, "world", "arm", axis, (0.0, 0.0, 0.0), lower=-2.0, upper=1.0)
-    world = engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
+    world = above_its_stop(engine, kind, step)
     world.run(2.0)
     return float(world.joint_position("joint"))
 

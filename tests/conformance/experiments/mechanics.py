@@ -72,3 +72,20 @@ def runge_kutta(
         state = state + step / 6 * (a + 2 * b + 2 * c + d)
         states.append(state)
     return states
+
+
+def recorded(world: Any, until: float, step: float, value: Callable[[], float]) -> tuple[list[float], list[float]]:
+    """Run a world until a time, s; return the times and the values after each step."""
+    times, values = [], []
+    while world.time < until:
+        world.run(step)
+        times.append(world.time)
+        values.append(float(value()))
+    return times, values
+
+
+def rate_of(world: Any, seconds: float, value: Callable[[], Any]) -> Any:
+    """Run a world for some seconds; return the mean rate at which a value has changed."""
+    before = value()
+    world.run(seconds)
+    return (value() - before) / seconds

@@ -4,22 +4,26 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from .experiment import Experiment, Tolerance, product_of
+from .experiment import Experiment, Tolerance, lowest, product_of
+from .mechanics import rate_of, recorded
 from .scene import (
     GRAVITY,
     Body,
+    Joint,
     Model,
     Scene,
     Shape,
-    Vector,
     box,
     box_inertia,
-    cylinder_inertia,
+    roller,
     sphere,
+    sphere_inertia,
+    tilted,
     turned,
 )
 
@@ -45,11 +49,37 @@ def bounce_theory(restitution: float, step: float) -> float:
 def bounce(engine: Any, restitution: float, step: float) -> float:
     """Drop a ball from a metre; return the ratio of the speeds."""
     world = engine(Scene((sphere("ball", 0.1, (0, 0, 1.1), bounce=restitution),), step=step))
-    speeds = [0.0]
-    while world.time < 1:
-        world.run(step)
-        speeds.append(float(world.velocity("ball")[2]))
-    return max(speeds) / -min(speeds)
+    _, speeds = recorded(world, 1.0, step, lambda: world.velocity("ball")[2])
+    return max(0.0, *speeds) / -min(speeds)
+
+
+def turntable_theory(table: str, step: float) -> float:
+    """A ball that rolls on a turntable runs in a circle at 2/7 of its rate (E. A. Milne, Vectorial Mechanics, 1948)."""
+    return 2 / 7
+
+
+def turntable(engine: Any, table: str, step: float) -> float:
+    """Return the rate of the ball's circle, in that of the table: 1 rad/s."""
+    size = (2.0, 0.1) if table == "cylinder" else (4.0, 4.0, 0.1)
+    disc = Body("disc", 100.0, (100.0, 100.0, 200.0), (Shape(table, size),))
+    spindle = Joint("spindle", "revolute", "world", "disc", (0, 0, 1), (0, 0, 0), "velocity", 1e4)
+    ball = Model(
+        "ball",
+        (Body("ball", 1.0, sphere_inertia(1.0, 0.1), (Shape("sphere", (0.1,)),), mu=1.0),),
+        position=(0.5, 0, 0.1),
+    )
+    world = engine(Scene((Model("table", (disc,), (spindle,), (0, 0, -0.05)), ball), ground=False, step=step))
+    world.set_target("spindle", 1.0)
+    world.run(0.5)
+    x, y, _ = world.position("ball")
+    world.set_velocity("ball", (0.3, 0, 0), (x / 0.1, (0.3 + y) / 0.1, 0))  # as fast as the table where they touch
+    headings = []
+    for _ in range(31):
+        world.run(0.1)
+        velocity = world.velocity("ball")
+        headings.append(math.atan2(velocity[1], velocity[0]))
+    turns = [math.remainder(after - before, 2 * math.pi) for before, after in pairwise(headings)]
+    return sum(turns) / 3.0
 
 
 def rolling_theory(shape: str, heading: float) -> float:
@@ -59,22 +89,9 @@ def rolling_theory(shape: str, heading: float) -> float:
 
 def rolling(engine: Any, shape: str, heading: float) -> float:
     """Let a body roll down a slope, which is a tilted gravity; return its acceleration."""
-    slope, turn = math.radians(10), math.radians(heading)
-    gravity = (
-        GRAVITY * math.sin(slope) * math.cos(turn),
-        GRAVITY * math.sin(slope) * math.sin(turn),
-        -GRAVITY * math.cos(slope),
-    )
-    model = sphere("body", 0.1, (0, 0, 0.1))
-    if shape == "cylinder":
-        form = Shape("cylinder", (0.1, 0.3), orientation=turned((1, 0, 0), math.pi / 2))
-        body = Body("body", 1.0, cylinder_inertia(1.0, 0.1, 0.3, axis=1), (form,))
-        model = Model("body", (body,), position=(0, 0, 0.1), orientation=turned((0, 0, 1), turn))
-    world = engine(Scene((model,), gravity=gravity))
+    world = engine(Scene((roller(shape, heading),), gravity=tilted(10, heading)))
     world.run(0.5)
-    before = np.linalg.norm(world.velocity("body")[:2])
-    world.run(1.0)
-    return float(np.linalg.norm(world.velocity("body")[:2]) - before)
+    return float(rate_of(world, 1.0, lambda: np.linalg.norm(world.velocity("body")[:2])))
 
 
 def skidding_theory(mu: float) -> float:
@@ -100,22 +117,13 @@ def tipping(engine: Any, heading: float) -> float:
     """Tilt gravity until the box falls."""
 
     def falls(slope: float) -> bool:
-        s, turn = math.radians(slope), math.radians(heading)
-        gravity: Vector = (
-            GRAVITY * math.sin(s) * math.cos(turn),
-            GRAVITY * math.sin(s) * math.sin(turn),
-            -GRAVITY * math.cos(s),
-        )
-        tall = box("tall", (0.2, 0.2, 0.4), (0, 0, 0.2), mu=5, orientation=turned((0, 0, 1), turn))
-        world = engine(Scene((tall,), gravity=gravity))
+        facing = turned((0, 0, 1), math.radians(heading))
+        tall = box("tall", (0.2, 0.2, 0.4), (0, 0, 0.2), mu=5, orientation=facing)
+        world = engine(Scene((tall,), gravity=tilted(slope, heading)))
         world.run(3.0)
         return float(world.position("tall")[2]) < 0.15
 
-    low, high = 20.0, 35.0
-    while high - low > 0.05:
-        middle = (low + high) / 2
-        low, high = (low, middle) if falls(middle) else (middle, high)
-    return (low + high) / 2
+    return lowest(falls, 20.0, 35.0, 0.05)
 
 
 def zero(**case: Any) -> float:
@@ -192,6 +200,15 @@ EXPERIMENTS = [
         Tolerance("the speed before the impact is that of a whole step: g dt / v = 1 % at 5 ms", relative=0.012),
         product_of(restitution=(0.3, 0.6, 0.9), step=(0.001, 0.005)),
         peers=("PyBullet",),
+    ),
+    Experiment(
+        "turntable",
+        "Ball on a turntable, rate of its circle over that of the table",
+        "",
+        turntable_theory,
+        turntable,
+        Tolerance("the ball falls outwards by v dt / 2 in a substep", relative=1e-3),
+        product_of(table=("box", "cylinder", "mesh"), step=(0.005, 0.001)),
     ),
     Experiment(
         "rolling",

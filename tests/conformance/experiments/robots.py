@@ -58,7 +58,7 @@ def braked(engine: Any) -> float:
     """Return the relative difference of a braking cart's ways in 0.5 s."""
     ways = []
     for others in ((), heap()):
-        model = cart(brake_height(), locked="rear")
+        model = cart(brake_height(0.6), locked="rear")
 
         def with_others(scene: Scene, others: Any = others) -> Any:
             return engine(Scene((*scene.models, *others), step=scene.step))

@@ -16,6 +16,7 @@ from .mechanics import (
     complete_elliptic_integral,
     crossings,
     kinetic_energy,
+    recorded,
     rotation,
     spin_in_body,
 )
@@ -52,11 +53,7 @@ def dzhanibekov_theory(step: float) -> float:
 def dzhanibekov(engine: Any, step: float) -> float:
     """Return the interval between flips within 20 s that differs most from the theory."""
     world = in_space(engine, TENNIS_RACKET, START, step)
-    times, middle = [], []
-    while world.time < 20:
-        world.run(step)
-        times.append(world.time)
-        middle.append(float(spin_in_body(world, TENNIS_RACKET)[1]))
+    times, middle = recorded(world, 20.0, step, lambda: spin_in_body(world, TENNIS_RACKET)[1])
     flips = crossings(times, middle)
     intervals = [b - a for a, b in itertools.pairwise(flips)]
     theory = dzhanibekov_theory(step)

@@ -19,6 +19,13 @@ ALONG_Y: Quaternion = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))  # turns a shap
 GRAVITY = 9.81  # m/s^2
 
 
+def tilted(slope: float, heading: float) -> Vector:
+    """Return the gravity in the frame of a plane that falls by `slope` in the direction `heading`, degrees."""
+    s, turn = math.radians(slope), math.radians(heading)
+    down = GRAVITY * math.sin(s)
+    return (down * math.cos(turn), down * math.sin(turn), -GRAVITY * math.cos(s))
+
+
 def turned(axis: Vector, angle: float) -> Quaternion:
     """Return the rotation about a unit vector."""
     s = math.sin(angle / 2)
@@ -171,3 +178,18 @@ def sphere(
     """Return a free sphere."""
     body = Body(name, mass, sphere_inertia(mass, radius), (Shape("sphere", (radius,)),), mu=mu, bounce=bounce)
     return Model(name, (body,), position=position)
+
+
+def roller(shape: str, heading: float, *, mu: float = 1.0, rolling: float = 0.0, jointed: bool = False) -> Model:
+    """Return a ball or a cylinder of 1 kg and 0.1 m that rolls towards a heading, degrees; a joint makes it a robot."""
+    form, inertia = Shape("sphere", (0.1,)), sphere_inertia(1.0, 0.1)
+    if shape == "cylinder":
+        form = Shape("cylinder", (0.1, 0.3), orientation=turned((1, 0, 0), math.pi / 2))
+        inertia = cylinder_inertia(1.0, 0.1, 0.3, axis=1)
+    bodies = [Body("body", 1.0, inertia, (form,), mu=mu, rolling=rolling)]
+    joints = []
+    if jointed:
+        bodies.append(Body("core", 1e-4, (1e-8, 1e-8, 1e-8)))
+        joints.append(Joint("fixed", "fixed", "body", "core"))
+    facing = turned((0, 0, 1), math.radians(heading))
+    return Model("body", tuple(bodies), tuple(joints), position=(0, 0, 0.1), orientation=facing)

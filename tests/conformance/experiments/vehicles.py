@@ -22,6 +22,7 @@ def cart(
     heading: float = 0.0,
     locked: str = "front rear left right",
     motor: str = "velocity",
+    torque: float = 5.0,
 ) -> Model:
     """Return four spheres of 0.1 m under a chassis whose centre of mass is at `height`; heading in degrees."""
     wheels, joints = [], []
@@ -33,7 +34,7 @@ def cart(
             wheels.append(Body(name, 1.0, sphere_inertia(1.0, 0.1), shape, position=place, mu=mu))
             held = along in locked.split() or side in locked.split()
             joints.append(
-                Joint(f"{name}_axle", "revolute", "chassis", name, (0, 1, 0), place, motor if held else "", 5.0)
+                Joint(f"{name}_axle", "revolute", "chassis", name, (0, 1, 0), place, motor if held else "", torque)
             )
     chassis = Body("chassis", mass, box_inertia(mass, (base, track, 0.1)))
     turn = turned((0, 0, 1), math.radians(heading))
@@ -66,9 +67,23 @@ def stopping(engine: Any, heading: float) -> float:
 WHEEL, WHEELS, CHASSIS, RADIUS, BASE = 1.0, 4, 10.0, 0.1, 0.6  # kg, count, kg, m, m
 
 
-def brake_height() -> float:
-    """Return the height of the chassis that puts the common centre of mass at 0.6 of the wheel base."""
-    return (0.6 * BASE * (CHASSIS + WHEELS * WHEEL) - WHEELS * WHEEL * RADIUS) / CHASSIS
+def brake_height(ratio: float) -> float:
+    """Return the height of the chassis that puts the common centre of mass at `ratio` of the wheel base."""
+    return (ratio * BASE * (CHASSIS + WHEELS * WHEEL) - WHEELS * WHEEL * RADIUS) / CHASSIS
+
+
+def brake_loads(wheels: str, mu: float, ratio: float) -> tuple[float, float, float]:
+    """Return the deceleration and the loads of the leading and of the trailing axle: see braking_theory()."""
+    total = CHASSIS + WHEELS * WHEEL
+    inertia = 2 * 0.4 * WHEEL * RADIUS**2
+    front, rear = (mu, 0.0) if wheels == "front" else (0.0, mu)
+    matrix = [
+        [total + inertia / RADIUS**2, -front, -rear],
+        [0, 1, 1],
+        [ratio * BASE * total + inertia / RADIUS, -BASE / 2, BASE / 2],
+    ]
+    deceleration, leading, trailing = np.linalg.solve(matrix, [0, total * GRAVITY, 0])
+    return float(deceleration), float(leading), float(trailing)
 
 
 def braking_theory(wheels: str, heading: float) -> float:
@@ -78,24 +93,52 @@ def braking_theory(wheels: str, heading: float) -> float:
     inertia of the two free wheels, whose spin slows down with the cart. With I = 0 this is the textbook's
     mu g (L / 2) / (L +- mu h) (Gillespie, Fundamentals of Vehicle Dynamics, chapter 3).
     """
-    total = CHASSIS + WHEELS * WHEEL
-    inertia, mu = 2 * 0.4 * WHEEL * RADIUS**2, 0.5
-    front, rear = (mu, 0.0) if wheels == "front" else (0.0, mu)
-    matrix = [
-        [total + inertia / RADIUS**2, -front, -rear],
-        [0, 1, 1],
-        [0.6 * BASE * total + inertia / RADIUS, -BASE / 2, BASE / 2],
-    ]
-    return float(np.linalg.solve(matrix, [0, total * GRAVITY, 0])[0])
+    return brake_loads(wheels, 0.5, 0.6)[0]
 
 
-def braking(engine: Any, wheels: str, heading: float) -> float:
-    """Return the deceleration of a cart with one locked axle."""
-    world = driven(engine, cart(brake_height(), heading=heading, locked=wheels), 2.0)
+def decelerate(engine: Any, model: Model, speed: float, step: float = 0.005) -> float:
+    """Return the deceleration of a cart while it brakes, from 0.15 to 0.4 s."""
+    world = driven(engine, model, speed, step)
     world.run(0.15)
     before = np.linalg.norm(world.velocity("chassis")[:2])
     world.run(0.25)
     return float(before - np.linalg.norm(world.velocity("chassis")[:2])) / 0.25
+
+
+def braking(engine: Any, wheels: str, heading: float) -> float:
+    """Return the deceleration of a cart with one locked axle."""
+    return decelerate(engine, cart(brake_height(0.6), heading=heading, locked=wheels), 2.0)
+
+
+def load_transfer_theory(wheels: str, way: str, mu: float, ratio: float) -> float:
+    """The equations of braking_theory() with any mu and h / L.
+
+    `wheels` are those that brake, "front" being the axle that leads. The other axle must keep a load.
+    """
+    return brake_loads(wheels, mu, ratio)[0]
+
+
+def load_transfer(engine: Any, wheels: str, way: str, mu: float, ratio: float) -> float:
+    """Return the deceleration of a cart that drives forward or backward."""
+    sign = 1.0 if way == "forward" else -1.0
+    locked = wheels if way == "forward" else {"front": "rear", "rear": "front"}[wheels]
+    model = cart(brake_height(ratio), mu=mu, locked=locked, torque=50.0)
+    speed = 2 + 0.4 * load_transfer_theory(wheels, way, mu, ratio)
+    return decelerate(engine, model, sign * speed)
+
+
+def load_transfer_cases() -> tuple[dict[str, Any], ...]:
+    """Return the combinations in which the axle that does not brake keeps a tenth of the weight at least."""
+    cases = product_of(
+        wheels=("rear", "front"), way=("forward", "backward"), mu=(0.3, 0.6, 1.0, 1.5), ratio=(0.3, 0.45, 0.56, 0.7)
+    )
+    weight = GRAVITY * (CHASSIS + WHEELS * WHEEL)
+
+    def stands(case: dict[str, Any]) -> bool:
+        loads = brake_loads(case["wheels"], case["mu"], case["ratio"])[1:]
+        return bool(min(loads) > 0.1 * weight)
+
+    return tuple(dict(case) for case in cases if stands(dict(case)))
 
 
 def spot_rate(base: float, track: float, speed: float = 0.5) -> float:
@@ -154,6 +197,15 @@ EXPERIMENTS = [
         braking,
         Tolerance("the cart pitches by up to 1 mm of contact depth", relative=0.03),
         product_of(wheels=("rear", "front"), heading=(0.0, 45.0)),
+    ),
+    Experiment(
+        "load_transfer",
+        "Braking by one axle, forward and backward, mu 0.3 to 1.5, h/L 0.3 to 0.7, deceleration",
+        "m/s^2",
+        load_transfer_theory,
+        load_transfer,
+        Tolerance("the cart pitches by up to 1 mm of contact depth", relative=0.01),
+        load_transfer_cases(),
     ),
     Experiment(
         "skid_steer",

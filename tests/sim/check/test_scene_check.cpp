@@ -34,7 +34,7 @@ SceneDescription fine() {
 
 LinkDescription& base(SceneDescription& scene) { return scene.models[0].links[0]; }
 AxisDescription& first_axis(SceneDescription& scene) { return scene.models[0].joints[0].axes[0]; }
-SonarDescription& cone(SceneDescription& scene) { return std::get<SonarDescription>(base(scene).sensors[0].kind); }
+SonarDescription& cone(SceneDescription& scene) { return base(scene).sensors[0].kind.get<SonarDescription>(); }
 
 TEST(SceneCheck, FindsNothingInAFineScene) { EXPECT_TRUE(check_scene(fine()).empty()); }
 

@@ -30,7 +30,7 @@ Rgb seen(const Pose& pose, std::vector<ModelDescription> models, const std::vect
   described.environment.lights = lights;
   Simulation simulation(described);
   const auto reading = simulation.read(simulation.world().tree().find("/Camera"));
-  const auto& rgb = std::get<CameraImage>(reading->measurement).rgb;
+  const auto& rgb = reading->measurement.get<CameraImage>().rgb;
   return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
 }
 
@@ -239,7 +239,7 @@ TEST(Lamp, OfALinkGoesWithIt) {
   described.environment.ambient = {};
   Simulation simulation(described);
   const ObjectId eye = simulation.world().tree().find("/Camera");
-  const auto red = [&] { return int{std::get<CameraImage>(simulation.measure(eye)->measurement).rgb[0]}; };
+  const auto red = [&] { return int{simulation.measure(eye)->measurement.get<CameraImage>().rgb[0]}; };
   EXPECT_EQ(red(), 0);
   simulation.world().set_pose(simulation.world().tree().find("/Carrier"), Pose(0, 0, 1, 0, M_PI / 2, 0));
   EXPECT_EQ(red(), 255);

@@ -29,9 +29,9 @@ std::string completed(const std::string& xml) {
 }
 
 std::vector<Snippet> snippets() {
-  std::vector<fs::path> pages{fs::path(BUBBLESIM_DOCS) / "worlds" / "nested_models.md",
-                              fs::path(BUBBLESIM_DOCS) / "worlds" / "surfaces.md"};
-  for (const auto& entry : fs::directory_iterator(fs::path(BUBBLESIM_DOCS) / "joints")) pages.push_back(entry.path());
+  const fs::path docs = BUBBLESIM_DOCS;
+  const std::vector<fs::path> pages{docs / "joints.md", docs / "worlds" / "nested_models.md",
+                                    docs / "worlds" / "surfaces.md"};
   std::vector<Snippet> found;
   for (const fs::path& page : pages) {
     std::ifstream in(page);

@@ -201,7 +201,7 @@ TEST(LoadedScene, HoldsWhatTheFileSays) {
   EXPECT_EQ(a.collisions[0].pose.position, Vector3(0, 0, 1));
   EXPECT_EQ(a.collisions[0].surface.mu, 0.3);
   EXPECT_EQ(a.collisions[0].surface.collide_bitmask, 6);
-  const auto& cone = std::get<SonarDescription>(a.sensors[0].kind);
+  const auto& cone = a.sensors[0].kind.get<SonarDescription>();
   EXPECT_EQ(a.sensors[0].update_rate, 7);
   EXPECT_EQ(cone.min_range, 0.1);
   EXPECT_EQ(cone.max_range, 2);

@@ -31,7 +31,7 @@ TEST_P(LidarOfAnyName, HoldsWhatTheFileSays) {
   const SensorDescription sensor = loaded(lidar(GetParam().first, GetParam().second));
   EXPECT_EQ(sensor.pose, Pose(0, 0, 0.2, 0, 0, 1));
   EXPECT_EQ(sensor.update_rate, 10);
-  const auto& read = std::get<LidarDescription>(sensor.kind);
+  const auto& read = sensor.kind.get<LidarDescription>();
   EXPECT_EQ(read.horizontal.samples, 640);
   EXPECT_EQ(read.horizontal.min, -2);
   EXPECT_EQ(read.horizontal.max, 1.5);
@@ -57,8 +57,8 @@ TEST(Lidar, OfAFileMultipliesSamplesByTheirResolution) {
       "<sensor name='s' type='ray'><ray><scan><horizontal><samples>100</samples><resolution>0.5</resolution>"
       "<min_angle>0</min_angle><max_angle>1</max_angle></horizontal></scan><range><min>0</min><max>1</max></range>"
       "</ray></sensor>");
-  EXPECT_EQ(std::get<LidarDescription>(sensor.kind).horizontal.samples, 50);
-  EXPECT_EQ(std::get<LidarDescription>(sensor.kind).vertical.samples, 1);
+  EXPECT_EQ(sensor.kind.get<LidarDescription>().horizontal.samples, 50);
+  EXPECT_EQ(sensor.kind.get<LidarDescription>().vertical.samples, 1);
 }
 
 std::string camera(const std::string& type, const std::string& more = "") {
@@ -72,7 +72,7 @@ std::string camera(const std::string& type, const std::string& more = "") {
 TEST(Camera, OfAFileHoldsWhatTheFileSays) {
   const SensorDescription sensor = loaded(camera("camera", "<bubblesim:antialias>true</bubblesim:antialias>"));
   EXPECT_EQ(sensor.pose.position, Vector3(1, 2, 0));
-  const auto& read = std::get<CameraDescription>(sensor.kind);
+  const auto& read = sensor.kind.get<CameraDescription>();
   EXPECT_EQ(read.width, 64);
   EXPECT_EQ(read.height, 48);
   EXPECT_EQ(read.horizontal_fov, 1.2);
@@ -85,25 +85,26 @@ TEST(Camera, OfAFileHoldsWhatTheFileSays) {
 }
 
 TEST(Camera, ForDepthHasNoColor) {
-  EXPECT_FALSE(std::get<CameraDescription>(loaded(camera("depth_camera")).kind).color);
-  EXPECT_FALSE(std::get<CameraDescription>(loaded(camera("depth")).kind).color);
-  EXPECT_TRUE(std::get<CameraDescription>(loaded(camera("rgbd_camera")).kind).color);
-  EXPECT_TRUE(std::get<CameraDescription>(loaded(camera("segmentation")).kind).color);
+  EXPECT_FALSE(loaded(camera("depth_camera")).kind.get<CameraDescription>().color);
+  EXPECT_FALSE(loaded(camera("depth")).kind.get<CameraDescription>().color);
+  EXPECT_TRUE(loaded(camera("rgbd_camera")).kind.get<CameraDescription>().color);
+  EXPECT_TRUE(loaded(camera("segmentation")).kind.get<CameraDescription>().color);
 }
 
 TEST(Camera, ForDepthMayHaveAClipOfItsOwn) {
   const SensorDescription sensor =
       loaded(camera("depth_camera", "<depth_camera><clip><near>0.5</near><far>7</far></clip></depth_camera>"));
-  EXPECT_EQ(std::get<CameraDescription>(sensor.kind).near, 0.5);
-  EXPECT_EQ(std::get<CameraDescription>(sensor.kind).far, 7);
+  EXPECT_EQ(sensor.kind.get<CameraDescription>().near, 0.5);
+  EXPECT_EQ(sensor.kind.get<CameraDescription>().far, 7);
 }
 
 TEST(Sonar, OfAFileHasTheVolumeNamed) {
   const auto volume = [](const std::string& element) {
-    return std::get<SonarDescription>(loaded("<sensor name='s' type='sonar'><sonar><min>0</min><max>1</max>"
-                                             "<radius>0.1</radius>" +
-                                             element + "</sonar></sensor>")
-                                          .kind)
+    return loaded(
+               "<sensor name='s' type='sonar'><sonar><min>0</min><max>1</max>"
+               "<radius>0.1</radius>" +
+               element + "</sonar></sensor>")
+        .kind.get<SonarDescription>()
         .volume;
   };
   EXPECT_EQ(volume(""), ProximityVolume::kCone);
@@ -131,7 +132,7 @@ TEST(Altimeter, HoldsWhatTheFileSays) {
       "<sensor name='s' type='altimeter'><altimeter><vertical_position><noise type='gaussian'><stddev>0.1</stddev>"
       "</noise></vertical_position><vertical_velocity><noise type='gaussian'><stddev>0.2</stddev></noise>"
       "</vertical_velocity></altimeter></sensor>");
-  const auto& read = std::get<AltimeterDescription>(sensor.kind);
+  const auto& read = sensor.kind.get<AltimeterDescription>();
   EXPECT_EQ(read.position_noise.stddev, 0.1);
   EXPECT_EQ(read.velocity_noise.stddev, 0.2);
 }
@@ -140,7 +141,7 @@ TEST(Magnetometer, HoldsWhatTheFileSays) {
   const SensorDescription sensor = loaded(
       "<sensor name='s' type='magnetometer'><magnetometer><y><noise type='gaussian'><stddev>1e-7</stddev></noise></y>"
       "</magnetometer></sensor>");
-  const auto& read = std::get<MagnetometerDescription>(sensor.kind);
+  const auto& read = sensor.kind.get<MagnetometerDescription>();
   EXPECT_EQ(read.field_noise[0].stddev, 0);
   EXPECT_EQ(read.field_noise[1].stddev, 1e-7);
 }
@@ -159,7 +160,7 @@ TEST(Multicamera, IsACameraForEachOfItsOwn) {
   EXPECT_EQ(sensors[0].name, "eyes_left");
   EXPECT_EQ(sensors[1].name, "eyes_right");
   EXPECT_EQ(sensors[1].pose, Pose(1, -0.1, 0, 0, 0, 0));
-  EXPECT_EQ(std::get<CameraDescription>(sensors[1].kind).width, 8);
+  EXPECT_EQ(sensors[1].kind.get<CameraDescription>().width, 8);
 }
 
 }  // namespace

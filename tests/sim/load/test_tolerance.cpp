@@ -116,7 +116,7 @@ TEST(Gazebo, TurnsLasersRoundThatGoFromHighToLow) {
       read_sensor("ray",
                   "<ray><scan><horizontal><samples>9</samples><min_angle>1</min_angle><max_angle>-1</max_angle>"
                   "</horizontal></scan><range><min>0.1</min><max>9</max></range></ray>");
-  const auto& lidar = std::get<LidarDescription>(found.model().links.at(0).sensors.at(0).kind);
+  const auto& lidar = found.model().links.at(0).sensors.at(0).kind.get<LidarDescription>();
   EXPECT_EQ(lidar.horizontal.min, -1);
   EXPECT_EQ(lidar.horizontal.max, 1);
   expect_warning(found, "from low to high");
@@ -124,7 +124,7 @@ TEST(Gazebo, TurnsLasersRoundThatGoFromHighToLow) {
 
 TEST(Gazebo, TakesANarrowFieldOfView) {
   const Read found = read_sensor("camera", "<camera><horizontal_fov>0.088</horizontal_fov></camera>");
-  EXPECT_EQ(std::get<CameraDescription>(found.model().links.at(0).sensors.at(0).kind).horizontal_fov, 0.088);
+  EXPECT_EQ(found.model().links.at(0).sensors.at(0).kind.get<CameraDescription>().horizontal_fov, 0.088);
 }
 
 TEST(Gazebo, TakesNegativeNumbersOfLights) {

@@ -143,7 +143,7 @@ TEST(GazeboOfALink, RefersToCollisionsByTheirNamesInThatLink) {
   const std::string bumper =
       "<sensor name='s' type='contact'><contact><collision>tool_collision</collision></contact></sensor>";
   const LinkDescription read = base_of(bubblesim::test::read(arm(gazebo("tool", bumper))));
-  EXPECT_EQ(std::get<ContactDescription>(read.sensors.at(0).kind).collisions,
+  EXPECT_EQ(read.sensors.at(0).kind.get<ContactDescription>().collisions,
             std::vector<std::string>{"base_fixed_joint_lump__tool_collision_1"});
 }
 

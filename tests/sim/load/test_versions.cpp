@@ -41,7 +41,7 @@ TEST(Version10, HasAttributesForValues) {
   EXPECT_EQ(std::get<Box>(a.collisions.at(0).geometry).size, Vector3(1, 2, 3));
   EXPECT_EQ(a.collisions.at(0).surface.mu, 0.25);
   EXPECT_EQ(a.sensors.at(0).update_rate, 7);
-  EXPECT_EQ(std::get<LidarDescription>(a.sensors.at(0).kind).horizontal.samples, 9);
+  EXPECT_EQ(a.sensors.at(0).kind.get<LidarDescription>().horizontal.samples, 9);
   const JointDescription& joint = model.joints.at(0);
   EXPECT_EQ(joint.parent, "a");
   EXPECT_EQ(joint.axes.at(0).upper, 1);
@@ -82,7 +82,7 @@ TEST(Version15, HasOneNoiseForEachHalfOfAnImu) {
       "<sdf version='1.5'><world name='w'><model name='m'><link name='l'><sensor name='s' type='imu'><imu><noise>"
       "<type>gaussian</type><rate><mean>0</mean><stddev>0.1</stddev></rate><accel><mean>0</mean><stddev>0.2</stddev>"
       "<bias_mean>0.3</bias_mean></accel></noise></imu></sensor></link></model></world></sdf>");
-  const auto& imu = std::get<ImuDescription>(scene.models.at(0).links.at(0).sensors.at(0).kind);
+  const auto& imu = scene.models.at(0).links.at(0).sensors.at(0).kind.get<ImuDescription>();
   for (const NoiseDescription& noise : imu.angular_velocity_noise) EXPECT_EQ(noise.stddev, 0.1);
   for (const NoiseDescription& noise : imu.linear_acceleration_noise) {
     EXPECT_EQ(noise.stddev, 0.2);

@@ -85,36 +85,74 @@ std::vector<ModelDescription> heap() {
   return models;
 }
 
-double deceleration(bool rear, bool far_heap) {
-  // h / L = 0.6, the centre of mass in the middle.
+/// The deceleration by the rear or the front axle: of a cart with the common centre of mass in the middle, at a height
+/// of `ratio` times the wheelbase of 0.5 m. `sign`: 1 forward, -1 backward, where the rear axle leads.
+double deceleration(bool rear, bool far_heap, double mu = 0.5, double ratio = 0.6, double sign = 1) {
   std::vector<ModelDescription> models{
-      floor(), cart({{0.25, 0.2, !rear}, {0.25, -0.2, !rear}, {-0.25, 0.2, rear}, {-0.25, -0.2, rear}}, 0.3, 0.5)};
+      floor(mu), cart({{0.25, 0.2, !rear}, {0.25, -0.2, !rear}, {-0.25, 0.2, rear}, {-0.25, -0.2, rear}},
+                      (ratio * 0.5 * 10.2 - 0.2 * 0.1) / 10, mu)};
   if (far_heap) {
     for (ModelDescription& model : heap()) models.push_back(std::move(model));
   }
   World world(scene(std::move(models)), 0);
   const ObjectId id = world.tree().find("/Cart");
   world.advance(0.5, kStep);
+  const double speed = 10 * sign;
   for (int i = 0; i < 4; ++i) {
     const ObjectId wheel = world.tree().find("/wheel" + std::to_string(i));
-    world.set_velocity(wheel, {{4, 0, 0}, {0, (i < 2) == rear ? 40.0 : 0.0, 0}});
+    world.set_velocity(wheel, {{speed, 0, 0}, {0, (i < 2) == rear ? speed / 0.1 : 0.0, 0}});
   }
-  world.set_velocity(world.tree().find("/base"), {{4, 0, 0}, {}});
+  world.set_velocity(world.tree().find("/base"), {{speed, 0, 0}, {}});
   world.advance(0.1, kStep);
   const double before = world.velocity(id).linear.x();
   world.advance(0.5, kStep);
-  return (before - world.velocity(id).linear.x()) / 0.5;
+  return sign * (before - world.velocity(id).linear.x()) / 0.5;
 }
 
 TEST(Braking, FollowsTheLoadsOfTheAxles) {
-  // m a = mu N; N = m (g / 2 -+ a h / L)
-  EXPECT_NEAR(deceleration(true, false), 0.5 * kG / 2 / (1 + 0.5 * 0.6), 0.03 * 1.89);
-  EXPECT_NEAR(deceleration(false, false), 0.5 * kG / 2 / (1 - 0.5 * 0.6), 0.03 * 3.5);
+  // m a = mu N; N = m (g / 2 -+ a h / L): a = mu g / 2 / (1 +- mu h / L)
+  for (const double sign : {1.0, -1.0}) {
+    for (const double mu : {0.3, 0.5, 1.0, 1.5}) {
+      for (const double ratio : {0.3, 0.45, 0.56, 0.7}) {
+        const double trailing = mu * kG / 2 / (1 + mu * ratio);
+        EXPECT_NEAR(deceleration(sign > 0, false, mu, ratio, sign), trailing, 0.01 * trailing) << mu << " " << ratio;
+        if (mu * ratio > 0.46) continue;  // it would tip over
+        const double leading = mu * kG / 2 / (1 - mu * ratio);
+        EXPECT_NEAR(deceleration(sign < 0, false, mu, ratio, sign), leading, 0.01 * leading) << mu << " " << ratio;
+      }
+    }
+  }
 }
 
 TEST(Braking, DoesNotDependOnAPileFarAway) {
   EXPECT_EQ(deceleration(true, true), deceleration(true, false));
   EXPECT_EQ(deceleration(false, true), deceleration(false, false));
+}
+
+TEST(Landing, GivesNoMoreFrictionThanTheImpactAllows) {
+  // In each substep, |sum of friction| <= mu times the sum of the normal forces.
+  const double mu = 1;
+  for (const double speed : {0.5, 2.0, 6.0}) {
+    ModelDescription lands = cart({{0.25, 0.2}, {0.25, -0.2}, {-0.25, 0.2}, {-0.25, -0.2}}, 0.35, mu, at(0, 0, 0.1));
+    World world(scene({floor(mu), lands}), 0);
+    const auto momentum = [&] {
+      const ObjectId base = world.tree().find("/base");
+      const Twist velocity = world.velocity(base);  // of its origin; the centre of mass is at 0.35 m
+      Vector3 sum = (velocity.linear + velocity.angular.cross(world.pose(base).orientation * Vector3(0, 0, 0.35))) * 10;
+      for (int i = 0; i < 4; ++i) sum += world.velocity(world.tree().find("/wheel" + std::to_string(i))).linear * 0.05;
+      return sum;
+    };
+    world.set_velocity(world.tree().find("/Cart"), {{speed, 0, 0}, {}});
+    Vector3 before = momentum();
+    for (int i = 0; i < 200; ++i) {
+      world.advance(kStep, kStep);
+      const Vector3 now = momentum();
+      const double pressed = now.z() - before.z() + 10.2 * kG * kStep;
+      const double slowed = std::hypot(now.x() - before.x(), now.y() - before.y());
+      EXPECT_LE(slowed, 1.06 * mu * pressed + 1e-3) << speed << " " << i;
+      before = now;
+    }
+  }
 }
 
 double ladder_slides(bool jointed, double mu, double angle) {

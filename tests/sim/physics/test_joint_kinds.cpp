@@ -2,6 +2,9 @@
 // Universal joints, screws, gearboxes, springs and mimic joints, compared with theory.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "bubblesim/error.hpp"
 #include "scenes.hpp"
 
@@ -306,6 +309,30 @@ TEST(Mimic, FollowsByMultiplierAndOffset) {
   world.advance(2, kStep);
   EXPECT_NEAR(world.joint_position(follower), -0.5 * (world.joint_position(leader) - 0.1) + 0.25, 1e-3);
   EXPECT_NEAR(world.joint_velocity(follower), -0.3, 1e-3);
+}
+
+TEST(Mimic, FollowsBeyondHalfATurn) {
+  for (const double multiplier : {1.0, -1.0, 0.5, 3.0}) {
+    SceneDescription described = mimicking({"", 0, multiplier, 0, 0});
+    for (JointDescription& finger : described.models[0].joints) {
+      finger.axes[0].lower = -std::numeric_limits<double>::infinity();
+      finger.axes[0].upper = std::numeric_limits<double>::infinity();
+    }
+    World world(described, 0);
+    const ObjectId leader = world.tree().find("/leader");
+    const ObjectId follower = world.tree().find("/follower");
+    world.set_target_velocity(leader, 4);
+    double turned = 0;  // of the leader, with full turns
+    for (int i = 0; i < 600; ++i) {
+      world.advance(kStep, kStep);
+      turned += std::remainder(world.joint_position(leader) - turned, 2 * M_PI);
+      if (i < 60) continue;  // it catches up by a fifth in each substep
+      EXPECT_NEAR(world.joint_velocity(follower), 4 * multiplier, 1e-3 * std::abs(4 * multiplier))
+          << "at " << i * kStep << " s";
+      EXPECT_NEAR(std::remainder(world.joint_position(follower) - multiplier * turned, 2 * M_PI), 0, 1e-3);
+    }
+    EXPECT_NEAR(turned, 12, 0.1);
+  }
 }
 
 TEST(Mimic, StopsAtItsOwnLimit) {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bubblesim/file_watch.hpp"
+#include "bubblesim/descriptor_watch.hpp"
 #include "bubblesim/runner.hpp"
 #include "runs.hpp"
 #include "scenes.hpp"
@@ -187,12 +187,12 @@ TEST_F(Run, ItsGatesFilesAndFrameMemoryRefuseOtherThreadsWhileItRuns) {
   make(fast());
   const StepGate open{[] { return true; }, [] { return ""; }};
   const GateId gate = runner->add_gate(open);
-  auto file = std::make_unique<FileWatch>(*runner, STDIN_FILENO, [] { return false; });
+  auto file = std::make_unique<DescriptorWatch>(*runner, STDIN_FILENO, [] { return false; });
   runner->run_in_background();
   EXPECT_THROW(runner->add_gate(open), std::logic_error);
   EXPECT_THROW(runner->remove_gate(gate), std::logic_error);
   EXPECT_THROW(runner->remove_gates(), std::logic_error);
-  EXPECT_THROW(FileWatch(*runner, STDIN_FILENO, [] { return false; }), std::logic_error);
+  EXPECT_THROW(DescriptorWatch(*runner, STDIN_FILENO, [] { return false; }), std::logic_error);
   EXPECT_THROW(file->close(), std::logic_error);
   EXPECT_THROW(runner->share_frames(), std::logic_error);
   file.reset();  // leaves its end to the runner's thread

@@ -207,7 +207,7 @@ TEST(Sonar, DoesNotSeeItsOwnModel) {
 
 TEST(Sonar, SeesNothingNearerThanItsMinimalRange) {
   SceneDescription described = approach(0);
-  std::get<SonarDescription>(described.models[0].links[0].sensors[0].kind).min_range = 5.5;
+  described.models[0].links[0].sensors[0].kind.get<SonarDescription>().min_range = 5.5;
   Simulation simulation(described);
   EXPECT_FALSE(simulation.read_proximity(simulation.world().tree().find("/Sonar")).detected);
 }
@@ -215,7 +215,7 @@ TEST(Sonar, SeesNothingNearerThanItsMinimalRange) {
 TEST(Sonar, SeesWhatStandsAsideWithinItsCone) {
   for (const double side : {0.9, 1.2}) {
     SceneDescription described = approach(0);
-    std::get<SonarDescription>(described.models[0].links[0].sensors[0].kind).half_angle = 0.3;
+    described.models[0].links[0].sensors[0].kind.get<SonarDescription>().half_angle = 0.3;
     // A thin post at the edge of the cone: 3 m ahead, off the axis by the angle.
     described.models[1] = still(model("Post", link_with(Cylinder{0.1, 4}), at(3, 3 * std::tan(0.3 * side), 0)));
     Simulation simulation(described);

@@ -184,6 +184,38 @@ TEST(Snapshot, KeepsMassFrictionAndGravity) {
   EXPECT_EQ(other.world().friction(world.tree().find("/Box2")), 1);
 }
 
+/// Two hinges of one model, of which the second mimics the first; both may turn by some turns.
+SceneDescription winches() {
+  ModelDescription machine = model("Machine", link("drum"));
+  machine.links.push_back(link("dial", {1, 0, 0}));
+  machine.joints = {joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world", "drum"),
+                    joint("revolute", {axis(Vector3::UnitZ())}, {1, 0, 0}, "world", "dial")};
+  machine.joints[0].name = "winch";
+  machine.joints[1].name = "pointer";
+  machine.joints[0].axes[0].lower = -20;
+  machine.joints[0].axes[0].upper = 20;
+  MimicDescription mimic;
+  mimic.joint = "winch";
+  mimic.multiplier = 0.5;
+  machine.joints[1].axes[0].mimic = mimic;
+  return scene({machine}, Vector3::Zero());
+}
+
+TEST(Snapshot, KeepsFullTurns) {
+  const auto scene = std::make_shared<const Scene>(winches());
+  Simulation simulation(scene);
+  simulation.world().set_target_velocity(simulation.world().tree().find("/winch"), 4);
+  for (int i = 0; i < 50; ++i) simulation.step();  // 2.5 s
+  Simulation other(scene);
+  other.restore(simulation.save());
+  for (Simulation* each : {&simulation, &other}) {
+    for (int i = 0; i < 10; ++i) each->step();
+  }
+  EXPECT_NEAR(other.world().joint_position(other.world().tree().find("/winch")), 12, 0.05);
+  EXPECT_NEAR(other.world().joint_velocity(other.world().tree().find("/pointer")), 2, 2e-3);
+  EXPECT_TRUE(other.save() == simulation.save());
+}
+
 TEST(Snapshot, IsWhatAResetGoesBackTo) {
   const auto scene = std::make_shared<const Scene>(heap());
   Simulation simulation(scene, 3);
@@ -365,7 +397,7 @@ TEST(Snapshot, IsPutBackWhenADeviceRefusesItsPart) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 4) << "version";
+  EXPECT_EQ(static_cast<int>(saved[16]), 5) << "version";
   EXPECT_EQ(saved.size(), 723U) << "bytes";
 }
 

@@ -57,14 +57,14 @@ struct Mover {
   void check(const Reading& reading) const {
     const double ahead = kWall - kSpeed * reading.time;
     const double yaw = heading(reading.time);
-    if (const auto* scan = std::get_if<LidarScan>(&reading.measurement)) {
+    if (const auto* scan = reading.measurement.get_if<LidarScan>()) {
       EXPECT_NEAR(scan->ranges.at(0) * std::cos(yaw), ahead, kExact) << "lidar at " << reading.time;
-    } else if (const auto* echo = std::get_if<ProximityReading>(&reading.measurement)) {
+    } else if (const auto* echo = reading.measurement.get_if<ProximityReading>()) {
       EXPECT_NEAR(echo->distance * std::cos(yaw), ahead, kExact) << "sonar at " << reading.time;
-    } else if (const auto* image = std::get_if<CameraImage>(&reading.measurement)) {
+    } else if (const auto* image = reading.measurement.get_if<CameraImage>()) {
       EXPECT_NEAR(image->depth.at(4) * std::cos(yaw), ahead, kExact) << "camera at " << reading.time;
     } else {
-      const Quaternion& turned = std::get<ImuReading>(reading.measurement).orientation;
+      const Quaternion& turned = reading.measurement.get<ImuReading>().orientation;
       EXPECT_NEAR(to_rpy(turned).z(), yaw, kExact) << "IMU at " << reading.time;
     }
   }
@@ -209,19 +209,19 @@ TEST(OverriddenImage, IsNewAtTheRateOfTheCamera) {
     mover.simulation.step();
     EXPECT_EQ(mover.simulation.reading_time(camera) == mover.simulation.state_time(), i % 2 == 0) << i;
   }
-  EXPECT_EQ(std::get<CameraImage>(mover.simulation.read(camera)->measurement).rgb.at(0), 9);
+  EXPECT_EQ(mover.simulation.read(camera)->measurement.get<CameraImage>().rgb.at(0), 9);
 }
 
 TEST(Noise, IsThatOfTheTimeOfTheState) {
   SceneDescription described = scene_of_mover(0);
-  auto& lidar = std::get<LidarDescription>(described.models[0].links[0].sensors[0].kind);
+  auto& lidar = described.models[0].links[0].sensors[0].kind.get<LidarDescription>();
   lidar.noise.stddev = 0.1;
   Simulation simulation(described);
   Phases phases;
   std::vector<float> sensed;
   const auto range = [&] {
     const auto reading = simulation.measure(simulation.world().tree().find("/Lidar"));
-    return std::get<LidarScan>(reading->measurement).ranges.at(0);
+    return reading->measurement.get<LidarScan>().ranges.at(0);
   };
   phases.on_sense = [&](double) { sensed.push_back(range()); };
   simulation.add(phases);

@@ -20,7 +20,7 @@ SceneDescription carried(const Kind& kind, const Pose& pose) {
 
 template <class Kind>
 Kind measured(Simulation& simulation) {
-  return std::get<Kind>(simulation.measure(simulation.world().tree().find("/Sensor"))->measurement);
+  return simulation.measure(simulation.world().tree().find("/Sensor"))->measurement.get<Kind>();
 }
 
 TEST(Altimeter, TellsTheHeightAboveItsStartAndHowFastItClimbs) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "bubblesim/simulation.hpp"
 #include "scenes.hpp"
@@ -53,7 +54,7 @@ class Picture {
     Simulation simulation(scene);
     reading_ = simulation.read(simulation.world().tree().find("/Camera"));
   }
-  const CameraImage* operator->() const { return &std::get<CameraImage>(reading_->measurement); }
+  const CameraImage* operator->() const { return &reading_->measurement.get<CameraImage>(); }
   double depth(int column, int row) const { return (*this)->depth.at(index(column, row)); }
   ObjectId object(int column, int row) const { return (*this)->objects.at(index(column, row)); }
   Rgb rgb(int column, int row) const {
@@ -70,6 +71,37 @@ class Picture {
 Rgb bytes(double r, double g, double b) {
   const auto level = [](double value) { return static_cast<int>(std::lround(255 * value)); };
   return {level(r), level(g), level(b)};
+}
+
+/// Rows of pixels had the colours of the other squares: the ray's length is a number of single precision.
+TEST(Checkerboard, IsRightFromAnyHeight) {
+  constexpr double kSize = 0.5;     // m
+  constexpr double kPitch = 0.6;    // rad
+  constexpr double kBorder = 1e-3;  // of a square, within which either colour is right
+  VisualDescription ground = colored(Plane{}, {});
+  ground.material.checker_size = kSize;
+  ground.material.checker_color = {1, 1, 1};
+  for (double height = 0.5; height < 20; height += 0.31) {
+    SceneDescription scene = with_camera(camera(), {thing("Ground", ground)}, Pose(0.1, 0.2, height, 0, kPitch, 0.4));
+    scene.environment.ambient = {1, 1, 1};
+    const Picture picture(scene);
+    int wrong = 0;
+    for (int row = 0; row < kHeight; ++row) {
+      for (int column = 0; column < kWidth; ++column) {
+        if (picture.object(column, row) == kNoObject) continue;
+        const double left = (kWidth / 2.0 - column - 0.5) / (kWidth / 2.0);
+        const double up = (kHeight / 2.0 - row - 0.5) / (kWidth / 2.0);
+        const double forward = std::cos(kPitch) + std::sin(kPitch) * up;
+        const double length = height / (std::sin(kPitch) - std::cos(kPitch) * up);
+        const double x = (0.1 + length * (std::cos(0.4) * forward - std::sin(0.4) * left)) / kSize;
+        const double y = (0.2 + length * (std::sin(0.4) * forward + std::cos(0.4) * left)) / kSize;
+        if (std::abs(x - std::round(x)) < kBorder || std::abs(y - std::round(y)) < kBorder) continue;
+        const bool is_odd = std::fmod(std::abs(std::floor(x) + std::floor(y)), 2) == 1;
+        if (is_odd != (picture.rgb(column, row)[0] > 127)) ++wrong;
+      }
+    }
+    EXPECT_EQ(wrong, 0) << "from " << height << " m";
+  }
 }
 
 TEST(Depth, IsMeasuredAlongTheAxis) {
@@ -128,7 +160,7 @@ TEST(Picture, TellsTheLinkInEachPixel) {
                                                       thing("Right", colored(Box{{1, 50, 99}}, {}), at(4, -25, 0))});
   Simulation simulation(described);
   const auto reading = simulation.read(simulation.world().tree().find("/Camera"));
-  const auto& objects = std::get<CameraImage>(reading->measurement).objects;
+  const auto& objects = reading->measurement.get<CameraImage>().objects;
   EXPECT_EQ(objects[0], simulation.world().tree().find("/Left/link"));
   EXPECT_EQ(objects[kWidth - 1], simulation.world().tree().find("/Right/link"));
 }

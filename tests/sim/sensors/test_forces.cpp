@@ -45,7 +45,7 @@ TEST(ForceTorque, FastTurnIsMeasuredInItsAxesAtEachMoment) {
     const SceneTree& tree = simulation.world().tree();
     simulation.world().set_target_velocity(tree.find("/joint"), kTurn);
     for (int i = 0; i < 7; ++i) simulation.step();
-    const auto reading = std::get<ForceTorqueReading>(simulation.measure(tree.find("/Wrist"))->measurement);
+    const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
     expect_near(reading.force, {kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);  // m w^2 r, outwards
     expect_near(reading.torque, {}, 0.02 * 50 * 0.5);
   }
@@ -61,7 +61,7 @@ TEST(ForceTorque, BandwidthIsThatOfAFirstOrderLowPass) {
   for (int i = 1; i <= 3; ++i) {
     simulation.world().apply_wrench(tree.find("/Robot/*", kNoObject, 1), {{0, 0, 4}, {}});
     simulation.step();
-    const auto reading = std::get<ForceTorqueReading>(simulation.measure(tree.find("/Wrist"))->measurement);
+    const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
     EXPECT_NEAR(reading.force.z(), 4 * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i)), 1e-6);
   }
 }
@@ -77,7 +77,7 @@ ModelDescription box(const std::string& name, double z) {
 
 Vector3 force_between(Simulation& simulation, const std::string& sensor, const std::string& other) {
   const SceneTree& tree = simulation.world().tree();
-  const auto reading = std::get<ContactReading>(simulation.measure(tree.find(sensor))->measurement);
+  const auto reading = simulation.measure(tree.find(sensor))->measurement.get<ContactReading>();
   Vector3 sum;
   for (const Contact& contact : reading.contacts) {
     if (tree.path(tree.outermost_model_of(contact.other_link)) == other) sum += contact.force;

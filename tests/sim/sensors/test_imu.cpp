@@ -22,7 +22,7 @@ ModelDescription with_imu(LinkDescription link, const Pose& place, const Pose& p
 }
 
 ImuReading measured(Simulation& simulation) {
-  return std::get<ImuReading>(simulation.measure(simulation.world().tree().find("/Imu"))->measurement);
+  return simulation.measure(simulation.world().tree().find("/Imu"))->measurement.get<ImuReading>();
 }
 
 TEST(Imu, AtRestFeelsWhatHoldsItAgainstGravity) {

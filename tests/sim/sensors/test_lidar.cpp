@@ -24,7 +24,7 @@ class Scan {
     Simulation simulation(scene, seed);
     reading_ = simulation.read(simulation.world().tree().find("/Lidar"));
   }
-  const LidarScan* operator->() const { return &std::get<LidarScan>(reading_->measurement); }
+  const LidarScan* operator->() const { return &reading_->measurement.get<LidarScan>(); }
 
  private:
   std::shared_ptr<const Reading> reading_;
@@ -145,14 +145,14 @@ TEST(Lidar, SeesTheHousingOfAnotherLidar) {
     Simulation simulation(with_lidar(turn_of(361), room()));
     const auto ahead = [&] {
       const auto reading = simulation.measure(simulation.world().tree().find("/Lidar"));
-      return std::get<LidarScan>(reading->measurement).ranges[180];
+      return reading->measurement.get<LidarScan>().ranges[180];
     };
     for (int i = 0; i < 2; ++i) {
       EXPECT_NEAR(ahead(), 4, kExact);
       const ObjectId added = simulation.add_model(other);
       EXPECT_NEAR(ahead(), 1.75, kExact);
       const auto reading = simulation.measure(simulation.world().tree().find("/Housed"));
-      EXPECT_NEAR(std::get<LidarScan>(reading->measurement).ranges[1], 2, kExact) << "the left wall";
+      EXPECT_NEAR(reading->measurement.get<LidarScan>().ranges[1], 2, kExact) << "the left wall";
       simulation.remove_model(added);
     }
   }
@@ -209,7 +209,7 @@ const SceneDescription& inside_a_well() {
 
 TEST(LidarNoise, HasTheMeanAndDeviationAsked) {
   SceneDescription quiet = inside_a_well();
-  NoiseDescription& noise = std::get<LidarDescription>(quiet.models.back().links[0].sensors[0].kind).noise;
+  NoiseDescription& noise = quiet.models.back().links[0].sensors[0].kind.get<LidarDescription>().noise;
   noise = {};
   const Scan exact(quiet);
   noise = {0.05, 0.02, 0, 0, 0};
@@ -240,19 +240,19 @@ TEST(LidarNoise, IsAnotherInEachPassWhetherOrNotSomebodyReadBefore) {
   for (int i = 0; i < 3; ++i) {
     read_often.step();
     read_once.step();
-    scans.push_back(std::get<LidarScan>(read_often.measure(lidar)->measurement).ranges);
+    scans.push_back(read_often.measure(lidar)->measurement.get<LidarScan>().ranges);
   }
   EXPECT_NE(scans[0], scans[1]);
   EXPECT_NE(scans[1], scans[2]);
-  EXPECT_EQ(std::get<LidarScan>(read_once.measure(lidar)->measurement).ranges, scans[2]);
+  EXPECT_EQ(read_once.measure(lidar)->measurement.get<LidarScan>().ranges, scans[2]);
 }
 
 TEST(LidarNoise, DrawsItsBiasOnce) {
   SceneDescription biased = inside_a_well();
-  std::get<LidarDescription>(biased.models.back().links[0].sensors[0].kind).noise = {0, 0, 0.5, 0.1, 0};
+  biased.models.back().links[0].sensors[0].kind.get<LidarDescription>().noise = {0, 0, 0.5, 0.1, 0};
   Simulation simulation(biased, 11);
   const ObjectId lidar = simulation.world().tree().find("/Lidar");
-  const auto ahead = [&] { return std::get<LidarScan>(simulation.measure(lidar)->measurement).ranges[1000]; };
+  const auto ahead = [&] { return simulation.measure(lidar)->measurement.get<LidarScan>().ranges[1000]; };
   const float first = ahead();
   EXPECT_GT(std::abs(first - 10), 0.01);
   for (int i = 0; i < 5; ++i) {
@@ -265,11 +265,11 @@ TEST(Reading, StaysAsItIsWhileSomebodyHoldsIt) {
   Simulation simulation(inside_a_well());
   const ObjectId lidar = simulation.world().tree().find("/Lidar");
   const std::shared_ptr<const Reading> held = simulation.measure(lidar);
-  const std::vector<float> before = std::get<LidarScan>(held->measurement).ranges;
+  const std::vector<float> before = held->measurement.get<LidarScan>().ranges;
   simulation.step();
   const std::shared_ptr<const Reading> next = simulation.measure(lidar);
-  EXPECT_EQ(std::get<LidarScan>(held->measurement).ranges, before);
-  EXPECT_NE(std::get<LidarScan>(next->measurement).ranges, before);
+  EXPECT_EQ(held->measurement.get<LidarScan>().ranges, before);
+  EXPECT_NE(next->measurement.get<LidarScan>().ranges, before);
   EXPECT_EQ(held->time, 0);
   EXPECT_DOUBLE_EQ(next->time, 0.05);
 }

@@ -150,7 +150,7 @@ struct Taken {
   explicit Taken(const SceneDescription& scene, std::uint64_t seed = 0) : simulation(scene, seed) {
     reading = simulation.read(simulation.world().tree().find("/Camera"));
   }
-  const CameraImage& image() const { return std::get<CameraImage>(reading->measurement); }
+  const CameraImage& image() const { return reading->measurement.get<CameraImage>(); }
 
   Simulation simulation;
   std::shared_ptr<const Reading> reading;
@@ -251,11 +251,11 @@ TEST(Picture, IsTheSameWhenSeveralSensorsAreDueTogether) {
   for (const char* name : {"/Camera", "/Second"}) {
     const auto one = together.read(find(name));
     const auto other = alone.read(find(name));
-    EXPECT_EQ(std::get<CameraImage>(one->measurement).rgb, std::get<CameraImage>(other->measurement).rgb);
-    EXPECT_EQ(std::get<CameraImage>(one->measurement).depth, std::get<CameraImage>(other->measurement).depth);
+    EXPECT_EQ(one->measurement.get<CameraImage>().rgb, other->measurement.get<CameraImage>().rgb);
+    EXPECT_EQ(one->measurement.get<CameraImage>().depth, other->measurement.get<CameraImage>().depth);
   }
-  EXPECT_EQ(std::get<LidarScan>(together.read(find("/Lidar"))->measurement).ranges,
-            std::get<LidarScan>(alone.read(find("/Lidar"))->measurement).ranges);
+  EXPECT_EQ(together.read(find("/Lidar"))->measurement.get<LidarScan>().ranges,
+            alone.read(find("/Lidar"))->measurement.get<LidarScan>().ranges);
 }
 
 TEST(Picture, IsTheSameEachTimeAlsoWithNoise) {

@@ -24,7 +24,7 @@ class Models {
       const name = event.dataTransfer.getData("application/x-model");
       if (!name) return;
       event.preventDefault();
-      this.#add(name, app.view.ground(event.clientX, event.clientY));
+      this.#add(name, app.view.picker.ground(event.clientX, event.clientY));
     });
   }
 
@@ -51,7 +51,7 @@ class Models {
           event.dataTransfer.setData("application/x-model", name);
           event.dataTransfer.effectAllowed = "copy";
         },
-        ondblclick: () => link.mayEdit && this.#add(name, this.#app.view.controls.target.toArray().with(2, 0)),
+        ondblclick: () => link.mayEdit && this.#add(name, this.#app.view.viewpoint.controls.target.toArray().with(2, 0)),
       },
       h("div.picture"),
       h("figcaption", name),

@@ -97,7 +97,7 @@ class Properties {
       "header",
       h("h2", object.name),
       h("p.path", { title: "Click to copy", onclick: () => navigator.clipboard?.writeText(object.path) }, object.path),
-      h("p.kindline", icon(object.kind), kind, h("button.small", { title: "Look at it", onclick: () => app.view.look(object) }, "Look at")),
+      h("p.kindline", icon(object.kind), kind, h("button.small", { title: "Look at it", onclick: () => app.view.viewpoint.look(object) }, "Look at")),
     );
   }
 

@@ -73,7 +73,7 @@ class Tree {
         role: "treeitem",
         title: object.path,
         onclick: () => this.#app.selection.select(object),
-        ondblclick: () => this.#app.view.look(object),
+        ondblclick: () => this.#app.view.viewpoint.look(object),
       },
       twisty,
       icon(object.kind),
@@ -113,7 +113,7 @@ class Tree {
     else if (event.key === "ArrowUp" && place > 0) selection.select(this.#rows[place - 1].object);
     else if (event.key === "ArrowRight" && object?.children.length && !this.#open.has(object.handle)) this.#toggle(object);
     else if (event.key === "ArrowLeft" && object && this.#open.has(object.handle)) this.#toggle(object);
-    else if (event.key === "Enter" && object) this.#app.view.look(object);
+    else if (event.key === "Enter" && object) this.#app.view.viewpoint.look(object);
     else return;
     event.preventDefault();
     event.stopPropagation();

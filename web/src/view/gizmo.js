@@ -24,7 +24,7 @@ export class Gizmo {
     this.helper = this.#controls.getHelper();
     view.scene3d.add(this.#holder, this.helper);
     this.#controls.addEventListener("dragging-changed", ({ value }) => {
-      view.controls.enabled = !value;
+      view.viewpoint.controls.enabled = !value;
       this.#drag(value);
     });
     this.#controls.addEventListener("objectChange", () => this.#moved());
@@ -115,7 +115,7 @@ export class Gizmo {
       "pointerdown",
       (event) => {
         if (event.button !== 0 || !(this.mode === "pull" || event.ctrlKey) || !this.#app.link.mayEdit) return;
-        const hit = view.pick(event.clientX, event.clientY);
+        const hit = view.picker.pick(event.clientX, event.clientY);
         if (!hit || hit.link.static) return;
         event.stopImmediatePropagation();
         canvas.setPointerCapture(event.pointerId);
@@ -134,7 +134,7 @@ export class Gizmo {
     );
     canvas.addEventListener("pointermove", (event) => {
       if (!pull) return;
-      if (!view.rayThrough(event.clientX, event.clientY).intersectPlane(pull.plane, pull.target)) return;
+      if (!view.picker.rayThrough(event.clientX, event.clientY).intersectPlane(pull.plane, pull.target)) return;
       view.invalidate();
       // Not at once if one was sent just now, but the last one always: the mouse may rest there.
       waiting ??= setTimeout(send, this.#sent + PERIOD - performance.now());

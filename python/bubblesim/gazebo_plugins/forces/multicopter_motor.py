@@ -7,7 +7,7 @@ import sys
 
 from bubblesim._core import Rotor
 from bubblesim.gazebo_plugins.plugin import Message, Plugin, PluginContext
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 
 class MulticopterMotor(Plugin):

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim._core import MotorMode, PointSpring, add_copy, copy_model, scene_folders
-from bubblesim.remote.window.window import Kept, Source, Window
-from bubblesim.scripting import set_numbers
+from bubblesim.remote.window.window import MOST_REMOVED, Kept, Source, Window, WindowClient
+from bubblesim.scene_state import set_numbers
 
 _SPRING = "spring"
 
@@ -69,13 +69,14 @@ def remove(window: Window, model: int) -> int:
     """Remove a model of the top level; return a number with which ``restore`` brings it back."""
     kept = _keep(window, model)
     window.host.remove_model(model)
-    window.removed.append(kept)
-    return len(window.removed) - 1
+    return window.keep_removed(kept)
 
 
 def restore(window: Window, number: int) -> int:
     """Bring back a removed model where it was; return its new handle."""
-    kept = window.removed[number]
+    kept = window.removed.get(number)
+    if kept is None:
+        raise LookupError(f"only the last {MOST_REMOVED} models that were removed can be brought back")
     return _add(window, kept, kept.copy.position, kept.copy.orientation)
 
 
@@ -122,7 +123,7 @@ def let_go(window: Window) -> None:
     _release(window, window.client)
 
 
-def _release(window: Window, client: Any) -> None:
+def _release(window: Window, client: WindowClient) -> None:
     spring = window.springs.pop(client, None)
     if spring is not None:
         spring.remove()

@@ -6,9 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from bubblesim.remote.remote_client import RemoteClient
 from bubblesim.remote.window import editing, objects, running, saving, scene, sensors
-from bubblesim.remote.window.window import window_of
+from bubblesim.remote.window.window import WindowClient, window_of
 
 
 def by_name(subjects: Iterable[Any]) -> dict[str, Callable[..., Any]]:
@@ -28,14 +27,14 @@ def by_name(subjects: Iterable[Any]) -> dict[str, Callable[..., Any]]:
 FUNCTIONS = by_name((scene, running, sensors, objects, editing, saving))
 
 
-def call(client: RemoteClient, name: str, arguments: list[Any]) -> Any:
-    """Call a function of the window for a client, in the scene that runs.
+def call(host: Any, client: WindowClient, name: str, arguments: list[Any]) -> Any:
+    """Call a function of the window for a client, in the scene of a ScriptHost.
 
     :raises AttributeError: if there is no function of that name.
     """
     function = FUNCTIONS.get(name)
     if function is None:
         raise AttributeError(f"there is no function 'window.{name}'")
-    window = window_of(client.door.host)
+    window = window_of(host)
     window.client = client
     return function(window, *arguments)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scene as the text of a file. The server of the window writes it: clients of the door need no right to files."""
+"""The scene as the text of a file. The server of the window writes it: remote clients need no right to files."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim.remote.window.window import Window
-from bubblesim.scripting.saved_scene import scene_text
+from bubblesim.scene_state.saved_scene import scene_text
 
 
 def get_scene_text(window: Window, folder: str) -> str:

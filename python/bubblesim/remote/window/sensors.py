@@ -11,13 +11,7 @@ import numpy as np
 from bubblesim._core import read_sensor
 from bubblesim.remote.window.window import Window
 
-_FIELDS = (
-    *("detected", "distance", "point", "normal", "handle"),
-    *("ranges", "intensities"),
-    *("width", "height", "horizontal_fov", "near", "far", "rgb", "depth"),
-    *("orientation", "angular_velocity", "linear_acceleration"),
-    *("latitude", "longitude", "altitude", "velocity", "field", "force", "torque"),
-)
+_LEFT_OUT = {"objects"}  # the page does not draw them
 
 
 def _plain(value: Any) -> Any:
@@ -25,28 +19,22 @@ def _plain(value: Any) -> Any:
         return (
             value.tolist() if value.size <= 16 and value.dtype == np.float64 else np.ascontiguousarray(value).tobytes()
         )
-    return value
+    if isinstance(value, list):
+        return [_plain(each) for each in value]
+    return _fields(value) if hasattr(value, "_fields") else value
+
+
+def _fields(record: Any) -> dict[str, Any]:
+    values = {name: getattr(record, name) for name in record._fields if name not in _LEFT_OUT}
+    if values.get("rgb") is not None:
+        del values["depth"]  # an image is drawn as it is, or by its depths
+    return {name: _plain(value) for name, value in values.items() if value is not None}
 
 
 def reading(window: Window, sensor: int) -> dict[str, Any]:
     """Return the last reading of a sensor: its fields, large arrays as bytes."""
     time, value = read_sensor(window.simulation, sensor)
-    result: dict[str, Any] = {"type": type(value).__name__, "time": time}
-    for name in _FIELDS:
-        field = getattr(value, name, None)
-        if field is None or (name == "depth" and "rgb" in result):
-            continue
-        if name != "rgb" or field.size:  # of a depth camera it is empty
-            result[name] = _plain(field)
-    for contact in getattr(value, "contacts", ()):
-        points = [
-            {"position": _plain(p.position), "normal": _plain(p.normal), "depth": p.depth, "force": _plain(p.force)}
-            for p in contact.points
-        ]
-        result.setdefault("contacts", []).append(
-            {"collision": contact.collision, "other": contact.other, "force": _plain(contact.force), "points": points}
-        )
-    return result
+    return {"type": type(value).__name__, "time": time, **_fields(value)}
 
 
 FUNCTIONS: tuple[Callable[..., Any], ...] = (reading,)

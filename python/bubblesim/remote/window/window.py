@@ -5,12 +5,22 @@ from __future__ import annotations
 
 import weakref
 from collections import deque
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from bubblesim._core import SceneView
 
 _MOST_EVENTS = 10_000
+MOST_REMOVED = 100
+"""Models that were removed and can be brought back."""
+
+
+class WindowClient(Protocol):
+    """Who calls functions of the window, such as a page."""
+
+    at_leave: dict[Hashable, Callable[[], None]]
+    """What it holds is released by these when it leaves."""
 
 
 @dataclass(frozen=True)
@@ -47,23 +57,31 @@ class Window:
         self.simulation = host.simulation
         self.view = SceneView()
         self.memory = self.runner.share_frames()
-        self.client: Any = None
-        """Who calls the function that is carried out."""
+        self.client: WindowClient
+        """Who calls the function that is carried out; set before each call."""
         self.springs: dict[Any, Any] = {}
         """With which clients pull at links, by client."""
         self.edits = host.shared.edits
         self.edits.colours.changed = self._recolour
-        self.removed: list[Kept] = []
-        """Models that pages have removed."""
+        self.removed: dict[int, Kept] = {}
+        """The last models that pages have removed, by number."""
+        self._removals = 0
         self._events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
         self.next_event = 0
         """Number of the next event."""
         self._recoloured: set[int] = set()
 
+    def keep_removed(self, kept: Kept) -> int:
+        """Keep a model that is removed, and return its number; the oldest are forgotten."""
+        number, self._removals = self._removals, self._removals + 1
+        self.removed[number] = kept
+        self.removed.pop(number - MOST_REMOVED, None)
+        return number
+
     def emit(self, name: str, data: Any) -> None:
         """Send an event to all pages.
 
-        :param data: plain values: numbers, texts, bytes, lists, maps.
+        :param data: plain values: numbers, strings, bytes, lists, maps.
         """
         self._events.append((self.next_event, name, data))
         self.next_event += 1

@@ -23,23 +23,13 @@ class MismatchError(ValueError):
     """States the found value itself, when the whole value would not show the problem."""
 
 
-class HandleError(ValueError):
-    """A number that is not a handle of an object."""
-
-    def __init__(self, handle: int, where: str = "") -> None:
-        """:param where: beginning of the text."""
-        none = "; sim.getObject with noError returns it for a missing object" if handle == -1 else ""
-        super().__init__(f"{where}{handle} is not a handle of an object{none}")
-        self.handle = handle
-
-
 def _number(value: Any) -> float:
     if isinstance(value, str | bytes | bytearray):  # float('1') and float(b'1') would accept it
         raise TypeError
     return float(value)
 
 
-def _text(value: Any) -> str:
+def _string(value: Any) -> str:
     if isinstance(value, bytes):  # Lua's strings hold bytes
         return value.decode()
     if not isinstance(value, str):
@@ -51,7 +41,7 @@ def _bytes(value: Any) -> bytes:
     return value.encode() if isinstance(value, str) else bytes(memoryview(value))
 
 
-def _text_or_bytes(value: Any) -> str | bytes:
+def _string_or_bytes(value: Any) -> str | bytes:
     return value if isinstance(value, str) else bytes(memoryview(value))
 
 
@@ -115,7 +105,7 @@ def _integer(value: Any) -> int:
 
 NUMBER = Kind("a number", _number, float)
 INTEGER = Kind("an integer", _integer, int)
-TEXT = Kind("a text", _text, str)
+STRING = Kind("a string", _string, str)
 FLAG = Kind("true or false", _flag, bool)
 
 HANDLE = Kind("the handle of an object, an integer", _integer, int)
@@ -129,11 +119,11 @@ Numbers = Annotated[list[float], Kind("a list of numbers", _numbers)]
 NumbersOrNothing = Annotated[list[float] | None, Kind("a list of numbers or nothing", _numbers_or_nothing)]
 Integers = Annotated[list[int], Kind("a list of integers", _integers)]
 Bytes = Annotated[bytes, Kind("bytes", _bytes)]
-TextOrBytes = Annotated[str | bytes, Kind("a text or bytes", _text_or_bytes)]
+TextOrBytes = Annotated[str | bytes, Kind("a string or bytes", _string_or_bytes)]
 Options = Annotated[Mapping[str, Any], Kind("a table of options by name", _options)]
 
 NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})
-PLAIN: dict[Any, Kind] = {float: NUMBER, int: INTEGER, str: TEXT, bool: FLAG}
+PLAIN: dict[Any, Kind] = {float: NUMBER, int: INTEGER, str: STRING, bool: FLAG}
 
 
 def shown(value: Any) -> str:

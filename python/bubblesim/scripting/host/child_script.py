@@ -11,8 +11,9 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.messages.names import did_you_mean
-from bubblesim.output import write_line
-from bubblesim.scripting import log, problems
+from bubblesim.program.output import write_line
+from bubblesim.scene_state import log, problems
+from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
 from bubblesim.scripting.host import interruption, process_calls
@@ -24,7 +25,6 @@ from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_code import ScriptCode, load_code
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, read_text
-from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
 

@@ -7,16 +7,19 @@ import gc
 import math
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
+from bubblesim.scene_state.log import Log
+from bubblesim.scene_state.problems import Problem
+from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
-from bubblesim.scripting.caller import Caller, SharedData
+from bubblesim.scripting.caller import Caller
 from bubblesim.scripting.host import interruption, process_calls
 from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.known_problems import KnownProblems
@@ -25,8 +28,6 @@ from bubblesim.scripting.host.started_programs import end_programs
 from bubblesim.scripting.host.watchdog import Watchdog
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.source import read_text
-from bubblesim.scripting.log import Log
-from bubblesim.scripting.problems import Problem
 from bubblesim.scripting.threads import script_sockets, script_thread
 
 _CHECK_INTERVAL = 0.25  # s
@@ -67,6 +68,8 @@ class ScriptHost:
         self.disabled = 0  # number of loaded scripts that have failed
         self.calls = 0  # number of calls of scripts
         self.running_script: ChildScript | None = None
+        self.stops_elsewhere: list[Callable[[], bool]] = []
+        """Return whether a stop waits that neither the bridge nor the runner knows; called in the watchdog's thread."""
         self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
         self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
         self._problems = KnownProblems(self.simulation.scene.warnings)
@@ -272,6 +275,8 @@ class ScriptHost:
     def stop_waits(self) -> bool:
         """Return whether a stop or a reset waits for the running script; thread-safe."""
         if self.bridge is not None and self.bridge.urgent_waits():
+            return True
+        if any(waits() for waits in self.stops_elsewhere):
             return True
         script = self.running_script  # sysCall_cleanup is part of a stop, and is not interrupted
         return script is not None and script.activity != "sysCall_cleanup" and bool(self.runner.stop_is_due)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from bubblesim.scripting.problems import Problem, of_scene
+from bubblesim.scene_state.problems import Problem, of_scene
 
 _MOST = 100  # of one script
 

@@ -6,8 +6,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Protocol
 
-from bubblesim.scripting.caller import Caller, SharedData
-from bubblesim.scripting.problems import Problem
+from bubblesim.scene_state.problems import Problem
+from bubblesim.scene_state.shared_data import SharedData
+from bubblesim.scripting.caller import Caller
 
 
 class RunningScript(Protocol):

@@ -7,7 +7,7 @@ import sys
 import threading
 import weakref
 
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.scripting.host import interruption
 from bubblesim.scripting.host.protocols import Host, RunningScript
 

@@ -9,7 +9,7 @@
 --   host.write        writes a line of output
 --   host.find_source  returns text and name of a file that the script requires
 --   host.explain      returns the error message for an unknown name of a module
---   host.whole        returns a text with the whole paths of the script's files
+--   host.whole        returns a string with the whole paths of the script's files
 --   host.shown        the function returned by shown_values.lua
 --   host.is_interruption  whether an error is Python's KeyboardInterrupt, which can be raised at any time
 --   host.pulse        fails if the script is interrupted; returns whether its current place is requested
@@ -92,10 +92,10 @@ local function explained(text)
   return text
 end
 
--- Returns a script's error, of any type, as a text.
+-- Returns a script's error, of any type, as a string.
 local function text_of(problem)
   if type(problem) == "string" then return explained(problem) end
-  return "an error that is not a text: " .. host.shown(problem, false)
+  return "an error that is not a string: " .. host.shown(problem, false)
 end
 
 local thread_report  -- of the thread's error, with the calls
@@ -264,7 +264,7 @@ local function ended(succeeded, ...)
 end
 
 return {
-  -- Returns the function compiled from a text, or nil and the error message.
+  -- Returns the function compiled from a string, or nil and the error message.
   compile = function(text, name) return load(text, name, "t", globals) end,
 
   -- Calls a function of the script; returns true and its results, or false, whether it was interrupted, and a report.

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import Any, TextIO
 
-from bubblesim.output import encodable, write_line
-from bubblesim.scripting import log
+from bubblesim.program.output import encodable, write_line
+from bubblesim.scene_state import log
 
 
 @dataclass(frozen=True)

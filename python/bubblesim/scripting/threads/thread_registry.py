@@ -7,7 +7,7 @@ import sys
 import threading
 import time
 
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 
 _SECONDS_TO_END = 1.0
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "load/file_text.hpp"
+#include "files/file_text.hpp"
 #include "load/find/scene_folders.hpp"
 #include "load/xml/xml_parser.hpp"
 

@@ -10,7 +10,7 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/nearest_names.hpp"
 #include "bubblesim/scene_loader.hpp"
-#include "load/find/library_folder.hpp"
+#include "files/library_folder.hpp"
 
 namespace bubblesim {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "load/file_text.hpp"
+#include "files/file_text.hpp"
 #include "load/find/model_folders.hpp"
 #include "load/sdf/check_values.hpp"
 #include "load/sdf/sdf_element.hpp"

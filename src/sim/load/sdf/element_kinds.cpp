@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "bubblesim/sensor_definition.hpp"
 #include "load/sdf/element_table.hpp"
 
 namespace bubblesim {
@@ -63,9 +65,9 @@ Line to_line(std::string_view text) {
   return line;
 }
 
-std::vector<Line> lines_of_table() {
+std::vector<Line> lines_of(std::string_view table) {
   std::vector<Line> lines;
-  for (std::string_view rest = kElementTable; !rest.empty();) {
+  for (std::string_view rest = table; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view text = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
@@ -74,11 +76,37 @@ std::vector<Line> lines_of_table() {
   return lines;
 }
 
+/// With the lines of the kinds of sensors in their place, and their definitions at the end.
+std::vector<Line> lines_of_table(const std::vector<const SensorDefinition*>& sensors) {
+  std::vector<std::string> parts;
+  for (const SensorDefinition* sensor : sensors) parts.push_back(sensor->elements);
+  std::sort(parts.begin(), parts.end());
+  std::vector<Line> below;
+  std::vector<Line> definitions;
+  for (const std::string& part : parts) {
+    std::vector<Line>* to = &below;
+    for (Line& line : lines_of(part)) {
+      if (line.words.front().front() == '=') to = &definitions;
+      to->push_back(std::move(line));
+    }
+  }
+  std::vector<Line> lines;
+  for (Line& line : lines_of(kElementTable)) {
+    if (line.words.front() == "&sensor_kinds") {
+      lines.insert(lines.end(), below.begin(), below.end());
+    } else {
+      lines.push_back(std::move(line));
+    }
+  }
+  lines.insert(lines.end(), definitions.begin(), definitions.end());
+  return lines;
+}
+
 /// Holds all kinds. Definitions that refer to each other, such as a model within a model, share their children.
 class Kinds {
  public:
-  Kinds() {
-    const std::vector<Line> lines = lines_of_table();
+  explicit Kinds(const std::vector<const SensorDefinition*>& sensors) {
+    const std::vector<Line> lines = lines_of_table(sensors);
     std::vector<ElementKind*> open;
     for (const Line& line : lines) {
       open.resize(line.depth);
@@ -177,8 +205,12 @@ const AttributeKind* ElementKind::attribute(std::string_view attribute_name) con
 }
 
 const ElementKind& sdf_kind() {
-  static const Kinds kinds;
-  return kinds.root();
+  static std::mutex mutex;
+  static std::map<std::size_t, const Kinds>
+      tables;  // by the number of sensor kinds; elements of earlier ones are in use
+  const std::vector<const SensorDefinition*> sensors = sensor_definitions();
+  const std::lock_guard<std::mutex> lock(mutex);
+  return tables.try_emplace(sensors.size(), sensors).first->second.root();
 }
 
 const ElementKind& world_kind() { return *sdf_kind().child("world"); }

@@ -186,59 +186,6 @@ const char* const kElementTable = R"TABLE(
   light_on flag true
   visualize flag true ~ lights are not drawn
 
-=camera
-  @name text
-  pose pose
-    &pose
-  horizontal_fov number 1.047 required
-  image none
-    width integer 320 required
-    height integer 240 required
-    format text R8G8B8 ~ images are RGB, or depth
-    anti_aliasing integer 4 ~ bubblesim:antialias chooses it
-  clip none
-    near number 0.1 required
-    far number 100 required
-  depth_camera none
-    output text depths ~ depth is in metres along the axis
-    clip none
-      near number 0.1
-      far number 10
-  noise none
-    &noise_of_rays
-  save any ~ images are not written to files
-  distortion any ~ the camera has no distortion
-  lens any ~ the camera is a pinhole
-  segmentation_type text semantic ~ the image has the visible objects
-  box_type text 2d ~ bounding boxes are not measured
-  visibility_mask integer 4294967295 ~ all is visible
-  trigger_topic text ~ cameras run at their rate
-  triggered flag false ~ cameras run at their rate
-  optical_frame_id text
-  camera_info_topic text
-  bubblesim:antialias text false
-
-=lidar
-  scan none
-    horizontal none
-      samples integer 640 required
-      resolution number 1 required
-      min_angle number 0 required
-      max_angle number 0 required
-    vertical none
-      samples integer 1 required
-      resolution number 1
-      min_angle number 0 required
-      max_angle number 0 required
-  range none
-    min number 0 required
-    max number 0 required
-    resolution number 0
-  noise none
-    &noise_of_rays
-  visibility_mask integer 4294967295 ~ all is visible
-  bubblesim:signal text
-
 =sensor
   @name text
   @type text
@@ -254,51 +201,7 @@ const char* const kElementTable = R"TABLE(
   frame_id text
   plugin any
     &plugin
-  altimeter none
-    vertical_position none
-      noise none
-        &noise
-    vertical_velocity none
-      noise none
-        &noise
-  camera none
-    &camera
-  contact none
-    collision text required
-    topic text
-  force_torque none
-    frame text child
-    measure_direction text child_to_parent
-    force none
-      &axes_with_noise
-    torque none
-      &axes_with_noise
-    bubblesim:bandwidth number
-  gps none
-    &navsat
-  navsat none
-    &navsat
-  imu none
-    angular_velocity none
-      &axes_with_noise
-    linear_acceleration none
-      &axes_with_noise
-    orientation_reference_frame any ~ the orientation is that in the world
-    enable_orientation flag true ~ the orientation is measured always
-    topic any ~ plugins publish
-    bubblesim:bandwidth number
-  lidar none
-    &lidar
-  ray none
-    &lidar
-  magnetometer none
-    &axes_with_noise
-  sonar none
-    geometry text cone ~ bubblesim:volume chooses the volume
-    min number 0 required
-    max number 1 required
-    radius number 0.5
-    bubblesim:volume text cone
+  &sensor_kinds
   air_pressure any ~ the sensor is not simulated
   air_speed any ~ the sensor is not simulated
   dvl any ~ the sensor is not simulated
@@ -309,22 +212,6 @@ const char* const kElementTable = R"TABLE(
   bubblesim:alias text
   bubblesim:topic text
   bubblesim:frame text
-
-=navsat
-  position_sensing none
-    horizontal none
-      noise none
-        &noise
-    vertical none
-      noise none
-        &noise
-  velocity_sensing none
-    horizontal none
-      noise none
-        &noise
-    vertical none
-      noise none
-        &noise
 
 =inertial
   @auto flag false

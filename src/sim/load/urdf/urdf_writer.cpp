@@ -140,7 +140,7 @@ class UrdfWriter {
     write(std::move(made));
     for (const SensorDescription& sensor : link.sensors) {
       write_frame(sensor.name, link.name, sensor.pose);
-      if (!std::holds_alternative<CameraDescription>(sensor.kind)) continue;
+      if (!sensor.kind.holds<CameraDescription>()) continue;
       write_frame(sensor.name + "_optical", sensor.name, Pose(0, 0, 0, -M_PI / 2, 0, -M_PI / 2));
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/convex/convex_geom.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "physics/convex/manifold.hpp"
@@ -13,27 +12,24 @@ namespace {
 
 using Parts = std::vector<ConvexPart>;
 
-const Parts& parts_of(dGeomID geom) { return **static_cast<const Parts**>(dGeomGetClassData(geom)); }
+const CollisionMesh& mesh_of(dGeomID geom) { return **static_cast<const CollisionMesh**>(dGeomGetClassData(geom)); }
+
+const Parts& parts_of(dGeomID geom) { return mesh_of(geom).parts; }
 
 void find_bounds(dGeomID geom, dReal bounds[6]) {
   const Transform frame = geom_transform(geom);
+  const ConvexPart& whole = mesh_of(geom).whole();
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Vector3 axis = frame.rotation.row(i).transpose();  // of the world, in the shape
-    bounds[2 * i] = dInfinity;
-    bounds[2 * i + 1] = -dInfinity;
-    for (const ConvexPart& part : parts_of(geom)) {
-      const double low = axis.dot(part.corners[part.farthest(-axis, 0)]);
-      const double high = axis.dot(part.corners[part.farthest(axis, 0)]);
-      bounds[2 * i] = std::min(bounds[2 * i], frame.position[i] + low);
-      bounds[2 * i + 1] = std::max(bounds[2 * i + 1], frame.position[i] + high);
-    }
+    bounds[2 * i] = frame.position[i] + axis.dot(whole.corners[whole.farthest(-axis, 0)]);
+    bounds[2 * i + 1] = frame.position[i] + axis.dot(whole.corners[whole.farthest(axis, 0)]);
   }
 }
 
 int convex_class() {
   static const int number = [] {
     dGeomClass description{};
-    description.bytes = sizeof(const Parts*);
+    description.bytes = sizeof(const CollisionMesh*);
     description.collider = [](int) -> dColliderFn* { return nullptr; };
     description.aabb = find_bounds;
     return dCreateGeomClass(&description);
@@ -87,9 +83,9 @@ void shapes_of(dGeomID geom, std::vector<ConvexShape>& shapes) {
   for (const ConvexPart& part : parts_of(geom)) shapes.emplace_back(part, frame);
 }
 
-dGeomID create_convex(const std::vector<ConvexPart>& parts) {
+dGeomID create_convex(const CollisionMesh& mesh) {
   dGeomID geom = dCreateGeom(convex_class());
-  *static_cast<const Parts**>(dGeomGetClassData(geom)) = &parts;
+  *static_cast<const CollisionMesh**>(dGeomGetClassData(geom)) = &mesh;
   return geom;
 }
 

@@ -6,13 +6,14 @@
 
 #include <vector>
 
+#include "physics/collision_mesh.hpp"
 #include "physics/convex/convex_part.hpp"
 #include "physics/convex/convex_shape.hpp"
 
 namespace bubblesim {
 
-/// A shape in no space. The parts must outlive it.
-dGeomID create_convex(const std::vector<ConvexPart>& parts);
+/// A shape in no space, of the parts of a mesh, which must outlive it.
+dGeomID create_convex(const CollisionMesh& mesh);
 
 /// The convex shapes of a geom that is a primitive of ODE or made by create_convex(); none for others.
 void shapes_of(dGeomID geom, std::vector<ConvexShape>& shapes);

@@ -42,11 +42,10 @@ void clip(const Feature& polygon, const Vector3& along, std::vector<Vector3>& su
 
 }  // namespace
 
-void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration& overlap,
-                  std::vector<ManifoldPoint>& points) {
+double add_area(const ConvexShape& a, const ConvexShape& b, const Vector3& normal, double most,
+                std::vector<ManifoldPoint>& points) {
   thread_local Feature of_a;
   thread_local Feature of_b;
-  const Vector3& normal = overlap.normal;
   a.feature(-normal, of_a);
   b.feature(normal, of_b);
   const auto facing = [&](const Feature& feature) {
@@ -64,7 +63,7 @@ void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration&
     const double same = kSamePlace * (a.reach() + b.reach());
     for (const Vector3& point : subject) {
       const double to_plane = (prism.corners[0] - point).dot(prism.normal) * slope;
-      const double depth = std::min(a_clips ? -to_plane : to_plane, overlap.depth);
+      const double depth = std::min(a_clips ? -to_plane : to_plane, most);
       if (depth <= 0) continue;
       const Vector3 at = point + normal * (to_plane / 2);
       const bool repeated = std::any_of(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
@@ -73,7 +72,13 @@ void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration&
       deepest = std::max(deepest, depth);
     }
   }
-  if (deepest < kDeepest * overlap.depth) points.push_back({overlap.point, normal, overlap.depth});
+  return deepest;
+}
+
+void add_manifold(const ConvexShape& a, const ConvexShape& b, const Penetration& overlap,
+                  std::vector<ManifoldPoint>& points) {
+  const double deepest = add_area(a, b, overlap.normal, overlap.depth, points);
+  if (deepest < kDeepest * overlap.depth) points.push_back({overlap.point, overlap.normal, overlap.depth});
 }
 
 }  // namespace bubblesim

@@ -17,6 +17,18 @@ double surface_reach(const MovingShape& moving) {
   return (shape.centre() - moving.motion.centre()).norm() + shape.reach() - shape.rounding();
 }
 
+/// The length of the path of a shape's centre as it turns with its body.
+double turned_way(const MovingShape& moving) {
+  return moving.motion.angle() * (moving.shape.centre() - moving.motion.centre()).norm();
+}
+
+/// Whether the shapes stay apart in the whole motion, by the balls around them.
+bool are_apart(const MovingShape& a, const MovingShape& b) {
+  const double way = (b.motion.travel() - a.motion.travel()).norm() + turned_way(a) + turned_way(b);
+  const double reach = a.shape.reach() + b.shape.reach() + way;
+  return (a.shape.centre() - b.shape.centre()).squaredNorm() > reach * reach;
+}
+
 }  // namespace
 
 RigidMotion::RigidMotion(const Transform& start, const Transform& end)
@@ -29,6 +41,7 @@ Transform RigidMotion::back_to(double fraction) const {
 }
 
 std::optional<double> meeting(const MovingShape& a, const MovingShape& b) {
+  if (are_apart(a, b)) return {};
   ConvexShape moved_a = a.shape;
   ConvexShape moved_b = b.shape;
   const double rounding = moved_a.rounding() + moved_b.rounding();

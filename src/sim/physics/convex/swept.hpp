@@ -31,7 +31,7 @@ class RigidMotion {
 
 /// A shape at the end of the motion of its body.
 struct MovingShape {
-  ConvexShape shape;
+  const ConvexShape& shape;
   const RigidMotion& motion;
 };
 

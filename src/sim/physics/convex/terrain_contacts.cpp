@@ -10,7 +10,6 @@ namespace bubblesim {
 namespace {
 
 constexpr double kOneCorner = 1e-6;       // of the triangle's reach: corners that are as far in a direction
-constexpr double kSharp = 0.02;           // sine of the angle at an edge below which the surface is smooth
 constexpr double kAngleTolerance = 0.02;  // rad
 constexpr double kMostLifted = 0.25;      // of the shape's reach, by which the face may push instead of an edge
 
@@ -70,7 +69,7 @@ class Terrain {
       return std::atan2(direction.dot(out), direction.dot(triangle.normal));
     };
     const double limit = angle(beyond);
-    if (limit < kSharp)
+    if (limit < TriangleTree::kSharp)
       return angle(normal) <= kAngleTolerance && angle(normal) > -M_PI / 2 && on_face(triangle, normal)
                  ? Verdict::kKeep
                  : Verdict::kUseFace;
@@ -99,6 +98,16 @@ std::optional<Penetration> allowed_overlap(const ConvexShape& shape, const Conve
   const double depth = depth_along(shape, flat, triangle.normal);
   if (depth > found->depth + kMostLifted * shape.reach()) return {};
   return Penetration{triangle.normal, depth, found->point};
+}
+
+/// Whether the shape is beyond a side of the triangle.
+bool is_beside(const ConvexShape& shape, const NearTriangle& triangle) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3& from = triangle.corners[i];
+    const Vector3 out = (triangle.corners[(i + 1) % 3] - from).cross(triangle.normal) * triangle.side;
+    if ((shape.support(-out) - from).dot(out) > shape.rounding() * out.norm()) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -132,8 +141,14 @@ void add_terrain_contacts(const ConvexShape& shape, const TriangleTree& tree, co
     }
     // Most triangles near a shape lie below it.
     const Vector3 lowest = shape.support(-triangle.normal);
-    if ((lowest - triangle.corners[0]).dot(triangle.normal) >= shape.rounding()) continue;
+    const double depth = shape.rounding() - (lowest - triangle.corners[0]).dot(triangle.normal);
+    if (depth <= 0 || is_beside(shape, triangle)) continue;
     const ConvexShape flat(triangle.corners);
+    // Where the surface has no edge, its face pushes: see judge_edge().
+    if (depth < kMostLifted * shape.reach() && tree.is_plain(number, triangle.side < 0) &&
+        add_area(shape, flat, triangle.normal, depth, points) > 0) {
+      continue;
+    }
     const std::optional<Penetration> overlap = allowed_overlap(shape, flat, terrain, triangle);
     if (overlap) add_manifold(shape, flat, *overlap, points);
   }

@@ -2,6 +2,7 @@
 #include "physics/convex/triangle_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -22,6 +23,7 @@ TriangleTree::TriangleTree(const std::vector<double>& coordinates, const std::ve
   nodes_.emplace_back();
   if (!order_.empty()) build(0, 0, static_cast<std::uint32_t>(order_.size()));
   connect();
+  find_plain();
 }
 
 std::array<Vector3, 3> TriangleTree::corners(std::uint32_t triangle) const {
@@ -85,6 +87,32 @@ void TriangleTree::connect() {
       neighbours_[sides[i + 1].at] = sides[i].at / 3;
     }
     i = end;
+  }
+}
+
+Vector3 TriangleTree::normal_of(std::uint32_t triangle) const {
+  const std::array<Vector3, 3> at = corners(triangle);
+  return (at[1] - at[0]).cross(at[2] - at[0]).normalized();
+}
+
+void TriangleTree::find_plain() {
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    const std::array<Vector3, 3> at = corners(i);
+    const Vector3 normal = normal_of(i);
+    std::uint8_t plain = 3;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const std::uint32_t other = across_edge(i, edge);
+      if (other == kNone) {
+        plain = 0;
+        break;
+      }
+      const Vector3 beyond = normal_of(other);
+      const Vector3 out = (at[(edge + 1) % 3] - at[edge]).normalized().cross(normal);
+      const double turn = std::atan2(beyond.dot(out), beyond.dot(normal));
+      if (!(turn < kSharp)) plain &= 2U;
+      if (!(-turn < kSharp)) plain &= 1U;
+    }
+    plain_.push_back(plain);
   }
 }
 

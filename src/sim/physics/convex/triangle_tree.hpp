@@ -26,6 +26,11 @@ class TriangleTree {
   std::array<Vector3, 3> corners(std::uint32_t triangle) const;
   /// The triangle across the edge from corner i to the next, or kNone at a border and at an edge of more than two.
   std::uint32_t across_edge(std::uint32_t triangle, std::size_t i) const { return neighbours_[3UL * triangle + i]; }
+  /// Whether the surface has no edge at the triangle, seen from the side of its normal or (`behind`) from the other:
+  /// across each side it goes on, and does not turn away by more than kSharp.
+  bool is_plain(std::uint32_t triangle, bool behind) const { return (plain_[triangle] & (behind ? 2U : 1U)) != 0; }
+
+  static constexpr double kSharp = 0.02;  ///< angle at an edge in rad, below which the surface is smooth
 
  private:
   struct Node {
@@ -36,12 +41,15 @@ class TriangleTree {
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void connect();
+  void find_plain();
+  Vector3 normal_of(std::uint32_t triangle) const;
   Bounds bounds_of(std::uint32_t triangle) const;
 
   std::vector<Vector3> corners_;
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> neighbours_;
+  std::vector<std::uint8_t> plain_;  // by triangle: 1 in front, 2 behind
   std::vector<Node> nodes_;
 };
 

@@ -37,6 +37,9 @@ class Hinge final : public Joint {
     // ODE compares angles from -pi to pi with the stops: shift the stops to the current turn.
     shift_limits(0, followed_ - dJointGetHingeAngle(joint_.get()));
   }
+  void transfer_own(StateArchive& archive) override {
+    if (counts_turns_) archive(followed_);
+  }
 
   ode::JointHandle joint_;
   bool counts_turns_ = false;

@@ -19,6 +19,9 @@ constexpr double kReachOfStop = 1000;
 /// The rotation from `from` to `to` of at most half a turn.
 double shortest_turn(double from, double to) { return std::remainder(to - from, 2 * M_PI); }
 
+/// The angle that equals `position` but for full turns, next to the angle `before`.
+double counted(double position, double before) { return before + shortest_turn(before, position); }
+
 bool has_limits(const AxisDescription& axis) { return std::isfinite(axis.lower) || std::isfinite(axis.upper); }
 
 bool needs_driving(const AxisDescription& axis) {
@@ -55,6 +58,7 @@ void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& 
   Axis& axis = axes_[index];
   const AxisDescription& description = axis.description;
   axis.rows = std::move(rows);
+  axis.turns = motion == Motion::kTurns;
   axis.rows->set(dParamStopERP, kErrorReduction);
   if (description.lower == description.upper) set_range(*axis.rows, description.lower, description.upper);
 
@@ -150,16 +154,8 @@ void Joint::drive(double step) {
 void Joint::drive_motor(int index, double step) {
   const Axis& axis = axes_[static_cast<std::size_t>(index)];
   const AxisDescription& description = axis.description;
+  if (axis.leader != nullptr) return follow_leader(index, step);
   const double here = position(index);
-  if (axis.leader != nullptr) {
-    const MimicDescription& mimic = *description.mimic;
-    const double wanted = mimic.multiplier * (axis.leader->position(mimic.axis) - mimic.reference) + mimic.offset;
-    const double reachable = std::clamp(wanted, description.lower, description.upper);
-    const double along = reachable == wanted ? mimic.multiplier * axis.leader->velocity(mimic.axis) : 0;
-    const double speed = along + kErrorReduction * (reachable - here) / step;
-    axis.motor->set(dParamVel, target_speed(description, speed));
-    return;
-  }
   if (description.motor == MotorMode::kVelocity) {
     // Stop at the limit: a motor and a stop with unlimited forces would settle somewhere behind it.
     const double speed = target_speed(description, axis.gain * axis.target_velocity);
@@ -171,6 +167,23 @@ void Joint::drive_motor(int index, double step) {
                          ? std::clamp(axis.target_position, description.lower, description.upper) - here
                          : shortest_turn(here, axis.target_position);
   axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime / axis.gain, step)));
+}
+
+void Joint::follow_leader(int index, double step) {
+  Axis& axis = axes_[static_cast<std::size_t>(index)];
+  const AxisDescription& description = axis.description;
+  const MimicDescription& mimic = *description.mimic;
+  // Angles are from -pi to pi: where the leader passes half a turn, the follower must not turn back.
+  const bool leader_turns = axis.leader->axes_[static_cast<std::size_t>(mimic.axis)].turns;
+  const double here = position(index);
+  const double there = axis.leader->position(mimic.axis);
+  axis.followed = axis.turns ? counted(here, axis.followed) : here;
+  axis.leader_followed = leader_turns ? counted(there, axis.leader_followed) : there;
+  const double wanted = mimic.multiplier * (axis.leader_followed - mimic.reference) + mimic.offset;
+  const double reachable = std::clamp(wanted, description.lower, description.upper);
+  const double along = reachable == wanted ? mimic.multiplier * axis.leader->velocity(mimic.axis) : 0;
+  const double speed = along + kErrorReduction * (reachable - axis.followed) / step;
+  axis.motor->set(dParamVel, target_speed(description, speed));
 }
 
 void Joint::drive_spring(int index, double step) {
@@ -215,7 +228,7 @@ void Joint::transfer(StateArchive& archive) {
     Axis& axis = axes_[i];
     MotorMode mode = axis.description.motor;
     archive(axis.target_position, axis.target_velocity, axis.target_effort, mode, axis.description.max_force, axis.gain,
-            axis.stop);
+            axis.stop, axis.followed, axis.leader_followed);
     if (!archive.restores()) continue;
     if (axis.motor != nullptr) set_motor_mode(static_cast<int>(i), mode);
   }

@@ -89,8 +89,11 @@ class Joint {
     double target_position = 0;
     double target_velocity = 0;
     double target_effort = 0;
-    double gain = 1;  // of the motor: factor of its targets, of position control of its speed
+    double gain = 1;     // of the motor: factor of its targets, of position control of its speed
+    bool turns = false;  // an angle, of which position() may drop full turns
     const Joint* leader = nullptr;
+    double followed = 0;         // own position in the last substep, counting full turns; only with a leader
+    double leader_followed = 0;  // the leader's, likewise
     // ODE handles the stop and the motor of an axis in one constraint: a motor that pushes against a stop becomes a
     // plain force, infinite without a limit. Therefore an axis with limits does not use the motor of its rows.
     std::optional<Motor> rows;
@@ -103,6 +106,7 @@ class Joint {
   };
   void apply_motor(Axis& axis);
   void drive_motor(int index, double step);
+  void follow_leader(int index, double step);
   void drive_spring(int index, double step);
   void set_stops(int index, double step);
   void restore_stop(Axis& axis);
@@ -118,13 +122,5 @@ Vector3 axis_direction(const JointDescription& description, int axis, const Join
 
 /// Creates the joint in ODE. Throws InvalidInput for an unknown type.
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site);
-
-/// The kinds of make_joint(), with their number of axes.
-struct JointKind {
-  const char* type;
-  int axes;
-  std::unique_ptr<Joint> (*make)(dWorldID, const JointDescription&, const JointSite&);
-};
-const std::vector<JointKind>& joint_kinds();
 
 }  // namespace bubblesim

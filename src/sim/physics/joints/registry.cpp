@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of joint kinds, by SDFormat's type names.
+// The registry of joint kinds, by SDFormat's type names; scene/joint_types.cpp has their numbers of axes.
+#include <map>
 #include <string>
 
 #include "bubblesim/error.hpp"
@@ -7,20 +8,17 @@
 
 namespace bubblesim {
 
-const std::vector<JointKind>& joint_kinds() {
-  static const std::vector<JointKind> kinds = {
-      {"revolute", 1, make_hinge},      {"continuous", 1, make_hinge}, {"prismatic", 1, make_slider},
-      {"fixed", 0, make_fixed},         {"ball", 0, make_ball},        {"revolute2", 2, make_hinge2},
-      {"universal", 2, make_universal}, {"screw", 1, make_screw},      {"gearbox", 2, make_gearbox},
-  };
-  return kinds;
-}
-
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site) {
-  for (const JointKind& kind : joint_kinds()) {
-    if (description.type == kind.type) return kind.make(world, description, site);
+  static const std::map<std::string, decltype(&make_hinge)> kinds = {
+      {"revolute", make_hinge},      {"continuous", make_hinge}, {"prismatic", make_slider},
+      {"fixed", make_fixed},         {"ball", make_ball},        {"revolute2", make_hinge2},
+      {"universal", make_universal}, {"screw", make_screw},      {"gearbox", make_gearbox},
+  };
+  const auto kind = kinds.find(description.type);
+  if (kind == kinds.end()) {
+    throw InvalidInput("joint '" + description.name + "': unknown type '" + description.type + "'");
   }
-  throw InvalidInput("joint '" + description.name + "': unknown type '" + description.type + "'");
+  return kind->second(world, description, site);
 }
 
 }  // namespace bubblesim

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.output import write_line
+from bubblesim.program.output import write_line
 from bubblesim.scripting.caller import Caller
 
 

@@ -7,8 +7,8 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from bubblesim.output import write_line
-from bubblesim.scripting.api.functions import checked_on_failure
+from bubblesim.program.output import write_line
+from bubblesim.scripting.api.checked_calls import checked_on_failure
 from bubblesim.scripting.api.ros.context import RosContext
 from bubblesim.scripting.api.ros.kinds import RosHandle
 from bubblesim.scripting.api.ros.stamps import Message, stamps

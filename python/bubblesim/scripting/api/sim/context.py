@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import RunState
-from bubblesim.scripting.api.kinds import HandleError
+from bubblesim.scene_state.handle_error import HandleError
+from bubblesim.scene_state.object_tree import ObjectTree
 from bubblesim.scripting.api.sim.constants import SimConstants
-from bubblesim.scripting.api.sim.object_tree import ObjectTree
 from bubblesim.scripting.caller import Caller
 
 _MAX_HANDLE = 2**31 - 1

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
+from bubblesim.scene_state.dummies import FIRST_HANDLE
+from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
-from bubblesim.scripting.dummies import FIRST_HANDLE
-from bubblesim.scripting.primitive_shapes import PrimitiveShape
 
 _NO_COLOUR: list[float] = []
 _RESPONDABLE, _STATIC = 8, 16  # options of createPureShape

@@ -13,7 +13,7 @@ class CustomDataFunctions(SignalFunctions):
     """Data by object, or sim.handle_scene, and name. It stays when the simulation stops, until the node ends."""
 
     def writeCustomDataBlock(self, handle: Handle, tag: str, data: TextOrBytes) -> None:
-        """Attach bytes or a text to an object; empty data removes it (old name)."""
+        """Attach bytes or a string to an object; empty data removes it (old name)."""
         self._write(handle, tag, data)
 
     def readCustomDataBlock(self, handle: Handle, tag: str) -> str | bytes | None:
@@ -26,11 +26,11 @@ class CustomDataFunctions(SignalFunctions):
         return self._tags(handle)
 
     def writeCustomStringData(self, handle: Handle, tag: str, data: TextOrBytes) -> None:
-        """Attach a text to an object; an empty one removes it."""
+        """Attach a string to an object; an empty one removes it."""
         self._write(handle, tag, data)
 
     def readCustomStringData(self, handle: Handle, tag: str) -> str | bytes | None:
-        """Return a text that was attached; None (nil) if there is none."""
+        """Return a string that was attached; None (nil) if there is none."""
         return self.readCustomDataBlock(handle, tag)
 
     def readCustomStringDataTags(self, handle: Handle) -> list[str]:

@@ -9,9 +9,9 @@ from typing import Any
 
 from bubblesim._core import RunState
 from bubblesim.geometry import poses
+from bubblesim.scene_state.drawings import Drawing, Style
 from bubblesim.scripting.api.kinds import NumbersOrNothing
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.drawings import Drawing, Style
 
 _MOST_ITEMS = 1_000_000
 _TYPE = 0x1F

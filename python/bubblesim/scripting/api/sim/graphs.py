@@ -8,15 +8,16 @@ from array import array
 from typing import Any
 
 from bubblesim._core import RunState
+from bubblesim.scene_state.graphs import CAPACITY, CUMULATIVE, INVISIBLE, SCATTERED, WITHOUT_LABEL, Curve, Graph, Stream
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.graphs import CAPACITY, CUMULATIVE, INVISIBLE, SCATTERED, WITHOUT_LABEL, Curve, Graph, Stream
 
 _RED = [1.0, 0.0, 0.0]
 _YELLOW = [1.0, 1.0, 0.0]
 _ZEROS = [0.0, 0.0, 0.0]
 _STATIC = 2
 _NO_LABEL = 4
+_LONGEST_NAME = 1000
 
 
 class GraphFunctions(ApiContext):
@@ -38,6 +39,7 @@ class GraphFunctions(ApiContext):
         ``options``, added up: 1 invisible, 2 without label, 4 points that are not linked. ``cyclic_range``: values run
         from minus this to this and wrap around, as angles do; 0 for other numbers.
         """
+        _require_short(name, unit)
         stream = self._graph(graph, create=True).add_stream(name, unit, options, _colour(colour), abs(cyclic_range))
         stream.temporary = self._runner.state != RunState.STOPPED
         self._caller.shared.graphs.revision += 1
@@ -83,6 +85,7 @@ class GraphFunctions(ApiContext):
 
         A stream of -1 is constant, with the value in ``defaults``. ``options`` are those of addGraphStream.
         """
+        _require_short(name, unit)
         found = self._graph(graph)
         if dimension not in (2, 3) or len(streams) < dimension or len(defaults) < dimension:
             raise ValueError("sim.addGraphCurve: dimension is 2 or 3, with as many streams and defaults")
@@ -101,6 +104,7 @@ class GraphFunctions(ApiContext):
 
     def duplicateGraphCurveToStatic(self, graph: Handle, curve: int, name: str = "") -> int:
         """Keep what a stream or curve shows now as a new one that does not change, and return its id."""
+        _require_short(name)
         found = self._graph(graph)
         self._caller.shared.graphs.revision += 1
         if curve in found.curves:
@@ -217,13 +221,13 @@ class GraphFunctions(ApiContext):
 
     def _graph(self, handle: int, *, create: bool = False) -> Graph:
         handle = self._resolve(handle)
-        graphs = self._caller.shared.graphs.by_handle
-        if handle not in graphs:
+        graphs = self._caller.shared.graphs
+        if create:
+            return graphs.of(handle)
+        if handle not in graphs.by_handle:
             path = self._tree.short_path(handle)
-            if not create:
-                raise ValueError(f"{path} has no graph: add a stream first, with sim.addGraphStream")
-            graphs[handle] = Graph()
-        return graphs[handle]
+            raise ValueError(f"{path} has no graph: add a stream first, with sim.addGraphStream")
+        return graphs.by_handle[handle]
 
     def _graphs(self, handle: int) -> list[Graph]:
         if handle in (self.handle_all, self.handle_all_except_explicit):
@@ -234,6 +238,12 @@ class GraphFunctions(ApiContext):
         if stream not in graph.streams:
             raise ValueError(f"{stream} is not the id of a stream of this graph")
         return graph.streams[stream]
+
+
+def _require_short(*texts: str) -> None:
+    for text in texts:
+        if len(text) > _LONGEST_NAME:
+            raise ValueError(f"a name or unit of {len(text)} characters: a graph takes at most {_LONGEST_NAME}")
 
 
 def _colour(values: list[float]) -> tuple[float, float, float]:

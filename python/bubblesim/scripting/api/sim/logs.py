@@ -6,8 +6,8 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from bubblesim.output import write_line
-from bubblesim.scripting import log
+from bubblesim.program.output import write_line
+from bubblesim.scene_state import log
 from bubblesim.scripting.api.sim.context import ApiContext
 
 _FLAGS = 0x3F000  # of a level: undecorated, onlyterminal, once

@@ -6,9 +6,9 @@ from __future__ import annotations
 import contextlib
 
 from bubblesim._core import StandIn, sensor_kind
+from bubblesim.scene_state.scene_edits import Hold, relative
 from bubblesim.scripting.api.kinds import Handle, Vector3
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.scene_edits import Hold, relative
 from bubblesim.scripting.threads import script_thread
 
 _MOST_CHARACTERS = 255  # of a name

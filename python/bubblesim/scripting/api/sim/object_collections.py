@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from bubblesim._core import RunState
+from bubblesim.scene_state.object_collections import Collection, Item
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.object_collections import Collection, Item
 
 _REMOVE, _WITHOUT_BASE = 1, 2
 

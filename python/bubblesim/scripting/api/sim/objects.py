@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
-from bubblesim.scripting.api.functions import value_first
+from bubblesim.scripting.api.checked_calls import value_first
 from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vector3, Vector4, Vector7, Vector12
 from bubblesim.scripting.api.sim.context import ApiContext
 

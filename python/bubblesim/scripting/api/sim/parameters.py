@@ -88,12 +88,12 @@ class ParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFuncti
         self._set_parameter("stringparam", str, parameter, value, {})
 
     def getNamedStringParam(self, name: str) -> str | None:
-        """Return a text that was set with setNamedStringParam; None (nil) if there is none."""
+        """Return a string that was set with setNamedStringParam; None (nil) if there is none."""
         text: str | None = self._caller.shared.settings.get((str, name))
         return text
 
     def setNamedStringParam(self, name: str, value: str) -> None:
-        """Set a text by name, until the node ends."""
+        """Set a string by name, until the node ends."""
         self._caller.shared.settings[str, name] = value
 
     def getArrayParam(self, parameter: int) -> list[float]:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim._core import SceneError, scene_folders
+from bubblesim.scene_state.saved_scene import scene_text, write_scene
 from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
-from bubblesim.scripting.saved_scene import scene_text, write_scene
 
 _SCENES = (".sdf", ".world", ".urdf")
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+from bubblesim.scene_state.shared_data import Scripts
 from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
-from bubblesim.scripting.caller import Scripts
 
 
 class ScriptFunctions(ApiContext):

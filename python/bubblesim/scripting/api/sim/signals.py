@@ -17,7 +17,7 @@ class SignalFunctions(ApiContext):
     """Named values, shared by all scripts; texts, numbers and integers have separate namespaces."""
 
     def setStringSignal(self, name: str, value: TextOrBytes) -> None:
-        """Set a text or bytes."""
+        """Set a string or bytes."""
         self._set(str, name, value)
 
     def getStringSignal(self, name: str) -> str | bytes | None:
@@ -29,7 +29,7 @@ class SignalFunctions(ApiContext):
         return self._get_text(name)
 
     def clearStringSignal(self, name: str) -> None:
-        """Delete a text; a lidar sets its signal again with the next measurement."""
+        """Delete a string; a lidar sets its signal again with the next measurement."""
         self._clear(str, name)
         if name and (lidar := self._world.find_signal(name)) >= 0:
             self._caller.shared.cleared_scans[name] = float(reading_time(self._simulation, lidar))

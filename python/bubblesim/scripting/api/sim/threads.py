@@ -6,7 +6,7 @@ from __future__ import annotations
 import time
 
 from bubblesim._core import RunState
-from bubblesim.scripting.api.functions import any_time
+from bubblesim.scripting.api.checked_calls import any_time
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.threads.script_thread import AnyThread, current
 

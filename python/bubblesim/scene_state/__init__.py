@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The state of a scene beside its physics, which scripts, programs and viewers share."""

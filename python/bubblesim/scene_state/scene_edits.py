@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scripts and programs change in the scene's own objects: names, parents, poses, and which models stand still."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scene_state.set_colours import SetColours
+from bubblesim.scene_state.set_numbers import SetNumbers
+
+
+@dataclass
+class Hold:
+    """A model that keeps its pose in the frame of another object."""
+
+    frame: int
+    """Handle of an object of the scene; -1 for the world."""
+    offset: list[float]
+    """Pose in that frame."""
+
+
+@dataclass
+class SceneEdits:
+    """The changes, by handle of the object. Those of a run end with it; those of the stopped scene stay."""
+
+    names: dict[int, str] = field(default_factory=dict)
+    parents: dict[int, int] = field(default_factory=dict)
+    """Of outermost models, which the file attaches to the world."""
+    static: set[int] = field(default_factory=set)
+    """Models that move only with their parent."""
+    holds: dict[int, Hold] = field(default_factory=dict)
+    placed: dict[int, list[float]] = field(default_factory=dict)
+    """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
+    shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
+    """Created shapes, by the handle of their model."""
+    texts: dict[int, str] = field(default_factory=dict)
+    """SDFormat texts of models that callers have added."""
+    originals: dict[int, str] = field(default_factory=dict)
+    """Names of the file's models of which others are copies."""
+    colours: SetColours = field(default_factory=SetColours)
+    numbers: SetNumbers = field(default_factory=SetNumbers)
+    replaced: dict[int, int] = field(default_factory=dict)
+    """Present handles of created shapes that were built anew, by the handle that callers know."""
+    stopped: Callable[[], bool] = lambda: False
+    """Whether the simulation is stopped: changes stay then."""
+    _before: tuple[dict[int, str], dict[int, int], set[int], dict[int, Hold]] | None = None
+
+    def begin_change(self) -> None:
+        """Keep what the end of the run brings back; call it before a change."""
+        if not self.stopped() and self._before is None:
+            self._before = (dict(self.names), dict(self.parents), set(self.static), dict(self.holds))
+
+    def end_run(self) -> None:
+        """Take back the changes of the run that has ended."""
+        if self._before is None:
+            return
+        self.names, self.parents, self.static, self.holds = self._before
+        self._before = None
+
+    def remove(self, gone: set[int]) -> None:
+        """Forget objects that are about to be removed; models that are attached to them belong to the world then."""
+        for handle in gone:
+            tables: list[dict[int, Any]] = [self.names, self.parents, self.holds, self.placed, self.shapes, self.texts]
+            tables += [self.originals, self.colours.links, self.numbers.links]
+            for table in tables:
+                table.pop(handle, None)
+            self.static.discard(handle)
+        for model in [model for model, parent in self.parents.items() if parent in gone]:
+            del self.parents[model]
+        for hold in self.holds.values():
+            if hold.frame in gone:
+                hold.frame = -1
+        for known in [known for known, handle in self.replaced.items() if handle in gone]:
+            del self.replaced[known]
+
+    def known_handle(self, handle: int) -> int:
+        """Return the handle under which callers know an object."""
+        for known, present in self.replaced.items():
+            if present == handle:
+                return known
+        return handle
+
+    # Poses
+
+    def note_pose(self, world: Any, handle: int) -> None:
+        """Keep the pose of an object if it was set while the simulation was stopped; call it afterwards."""
+        if self.stopped():
+            self.placed.pop(handle, None)
+            self.placed[handle] = list(world.pose(handle))
+
+    def restore(self, world: Any) -> None:
+        """Set the poses and numbers of the stopped scene again, after the world was reset."""
+        self.numbers.restore(world)
+        for handle, pose in self.placed.items():
+            world.set_pose(handle, pose)
+        for model, hold in self.holds.items():
+            hold.offset = relative(world, world.pose(model), hold.frame)
+
+    def apply(self, world: Any, ahead: float = 0.0) -> None:
+        """Put the held models where they belong; call it before and after the physics of a step.
+
+        :param ahead: s of physics that follow. Half of the speed that gravity adds is taken away before, so that a
+            model ends where it begins; a created shape that is static has no weight.
+        """
+        for model, hold in self.holds.items():
+            linear, angular = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+            pose = hold.offset
+            if hold.frame >= 0:
+                pose = world.pose_from(hold.offset, hold.frame)
+                linear, angular = (list(part) for part in world.velocity(hold.frame))
+                arm = [a - b for a, b in zip(pose[:3], world.pose(hold.frame)[:3], strict=True)]
+                linear = [v + w for v, w in zip(linear, _cross(angular, arm), strict=True)]
+            if model not in self.shapes:
+                linear = [v - g * ahead / 2 for v, g in zip(linear, world.gravity, strict=True)]
+            world.set_state(model, pose, linear, angular)
+
+
+def _cross(a: Sequence[float], b: Sequence[float]) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def relative(world: Any, pose: Sequence[float], frame: int) -> list[float]:
+    """Return a pose in the world as one in the frame of an object; -1 is the world."""
+    return list(pose) if frame < 0 else list(world.pose_to(pose, frame))

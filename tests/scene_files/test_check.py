@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program check, which reports problems of scenes and models."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from bubblesim.scene_files.check import main, problems_of
+from ros_support import REPOSITORY
+
+BAD = """\
+<sdf version="1.9">
+  <model name="Crate">
+    <link name="link">
+      <collision name="box"><geometry><box><size>0.4 -0.4 0.4</size></box></geometry></collision>
+      <collision name="mesh"><geometry><mesh><uri>nowhere.stl</uri></mesh></geometry></collision>
+    </link>
+    <joint name="joint" type="fixed"><parent>world</parent><child>lnik</child></joint>
+  </model>
+</sdf>
+"""
+
+
+def written(folder: Path, text: str) -> str:
+    file = folder / "scene.sdf"
+    file.write_text(text)
+    return str(file)
+
+
+def test_all_that_is_wrong_is_reported_with_its_line(tmp_path: Path) -> None:
+    file = written(tmp_path, BAD.replace("lnik", "link"))
+    start = f"{file}:4: /Crate/link/box: the box's y size is -0.4 m"
+    assert any(problem.startswith(start) for problem in problems_of(file))
+
+
+def test_shipped_scenes_are_fine(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["ball", str(REPOSITORY / "scenes" / "models" / "ground_plane" / "model.sdf")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "ball: fine"
+    assert len(lines) == 2
+
+
+def test_a_problem_ends_with_two_after_all_files_were_looked_at(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = written(tmp_path, BAD)
+    assert main([file, "bal", "ball"]) == 2
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.startswith(f"{file}:4:") for line in lines)
+    assert any("did you mean ball" in line for line in lines)
+    assert lines[-1] == "ball: fine"
+
+
+def test_the_program_runs() -> None:
+    program = REPOSITORY / "scripts" / "check"
+    run = subprocess.run(["python3", program, "ball"], capture_output=True, text=True, check=True)
+    assert run.stdout == "ball: fine\n"
