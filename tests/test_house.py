@@ -21,7 +21,6 @@ PYTHON = re.compile(r"^(pybind11/|Python\.h|numpy/)")
 FORBIDDEN = {
     "include/bubblesim": [ROS, PYTHON],
     "src/sim": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/|ros_bridge|child_scripts)")],
-    "src/reading_messages": [ROS, PYTHON],
     "src/codec": [ROS, PYTHON, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
     "src/reading_messages": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/(?!fields)|ros_bridge|child_scripts)")],
     "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],

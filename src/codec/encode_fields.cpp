@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes named values in the order of a type's fields.
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "bubblesim/messages/fields.hpp"
-#include "ros1_layout.hpp"
 
 namespace bubblesim::messages {
 namespace {
@@ -29,11 +29,9 @@ std::size_t numbers_per_element(const Field& field, FieldKind kind) {
 
 void Fields::add(std::string_view name, const Value& value) { nodes_.push_back({name, value, nodes_.size() + 1}); }
 
-/// A Layout writes single values, like Ros1Layout.
-template <class Layout>
 class FieldEncoder {
  public:
-  FieldEncoder(const Fields& fields, Layout layout) : fields_(fields), layout_(layout) {}
+  FieldEncoder(const Fields& fields, WireBuffer& out) : fields_(fields), out_(out) {}
 
   void message(const MessageType& type) { message(type, 0, fields_.nodes_.size()); }
 
@@ -48,7 +46,7 @@ class FieldEncoder {
     for (const Field& field : type.fields) {
       const std::size_t found = find(field.name, expected, begin, end);
       if (found == end) {
-        layout_.put_default(field);
+        put_default(field);
       } else {
         put(type, field, found);
         expected = node(found).end;
@@ -73,22 +71,22 @@ class FieldEncoder {
     with_number(field.kind, [&](auto number) {
       using Number = decltype(number);
       if constexpr (std::is_same_v<Number, bool>) {
-        layout_.number(static_cast<std::uint8_t>(value != 0 ? 1 : 0));
+        out_.put(static_cast<std::uint8_t>(value != 0 ? 1 : 0));
       } else {
         if constexpr (std::is_integral_v<Number>) {
           const bool fits = static_cast<std::int64_t>(static_cast<Number>(value)) == value;
           if (!fits || (std::is_unsigned_v<Number> && value < 0)) throw_unfit(type, field, std::to_string(value));
         }
-        layout_.number(static_cast<Number>(value));
+        out_.put(static_cast<Number>(value));
       }
     });
   }
   void put(const MessageType& type, const Field& field, std::size_t, double value) {
     if (!is_single_number(field)) throw_unfit(type, field, "a number");
     if (field.kind == FieldKind::kFloat64) {
-      layout_.number(value);
+      out_.put(value);
     } else if (field.kind == FieldKind::kFloat32) {
-      layout_.number(static_cast<float>(value));
+      out_.put(static_cast<float>(value));
     } else {
       throw_unfit(type, field, "a number with a fraction");
     }
@@ -98,17 +96,17 @@ class FieldEncoder {
   }
   void put(const MessageType& type, const Field& field, std::size_t, std::string_view text) {
     if (field.kind != FieldKind::kString || field.array != ArrayKind::kNone) throw_unfit(type, field, "a string");
-    layout_.string(text);
+    string(text);
   }
   void put(const MessageType& type, const Field& field, std::size_t, Stamp stamp) {
     if (field.kind != FieldKind::kTime || field.array != ArrayKind::kNone) throw_unfit(type, field, "a time");
-    layout_.number(stamp.sec);
-    layout_.number(stamp.nanosec);
+    out_.put(stamp.sec);
+    out_.put(stamp.nanosec);
   }
   void put(const MessageType& type, const Field& field, std::size_t, const std::vector<std::string>* texts) {
     if (field.kind != FieldKind::kString || field.array == ArrayKind::kNone) throw_unfit(type, field, "strings");
     begin_array(type, field, texts->size());
-    for (const std::string& text : *texts) layout_.string(text);
+    for (const std::string& text : *texts) string(text);
   }
   void put(const MessageType& type, const Field& field, std::size_t, const Fields::Array& array) {
     std::uint8_t* place = begin_numbers(type, field, array.kind, array.count);
@@ -145,24 +143,42 @@ class FieldEncoder {
       throw_unfit(type, field, "an array of " + std::to_string(count) + " " + std::string(kind_name(kind)));
     }
     begin_array(type, field, count / columns);
-    return layout_.numbers(count, wire_size(kind));
+    return out_.extend(count * wire_size(kind));
   }
 
   void begin_array(const MessageType& type, const Field& field, std::size_t count) {
     const bool fits =
         field.array == ArrayKind::kVariable || (field.array == ArrayKind::kFixed && count == field.fixed_length);
     if (!fits) throw_unfit(type, field, std::to_string(count) + " elements");
-    if (field.array == ArrayKind::kVariable) layout_.length(count);
+    if (field.array == ArrayKind::kVariable) length(count);
+  }
+
+  /// The number of elements of a variable array or a string, before them.
+  void length(std::size_t count) {
+    if (count > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::invalid_argument(std::to_string(count) + " elements do not fit into a message");
+    }
+    out_.put(static_cast<std::uint32_t>(count));
+  }
+
+  void string(std::string_view text) {
+    length(text.size());
+    out_.put_bytes(text.data(), text.size());
+  }
+
+  void put_default(const Field& field) {
+    const std::size_t size = default_size(field);
+    if (size != 0) std::memset(out_.extend(size), 0, size);
   }
 
   const Fields& fields_;
-  Layout layout_;
+  WireBuffer& out_;
 };
 
 void encode(const MessageType& type, const FieldReader& message, WireBuffer& out) {
   Fields fields;
   message.read(fields);
-  FieldEncoder(fields, Ros1Layout(out)).message(type);
+  FieldEncoder(fields, out).message(type);
 }
 
 }  // namespace bubblesim::messages

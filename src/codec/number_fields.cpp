@@ -2,70 +2,48 @@
 #include "bubblesim/messages/number_fields.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <set>
 #include <stdexcept>
 
 #include "bubblesim/messages/numbers.hpp"
 
 namespace bubblesim::messages {
-namespace {
 
-bool has_fixed_size(const MessageType& type);
-
-bool has_fixed_size(const Field& field) {
-  if (field.array == ArrayKind::kVariable || field.kind == FieldKind::kString) return false;
-  return field.kind != FieldKind::kMessage || has_fixed_size(*field.message);
-}
-
-bool has_fixed_size(const MessageType& type) {
-  return std::all_of(type.fields.begin(), type.fields.end(), [](const Field& field) { return has_fixed_size(field); });
-}
-
-/// The field at a path, and where it begins.
-std::pair<const Field*, std::size_t> find(const MessageType& type, const std::string& path) {
-  const std::string name = path.substr(0, path.find('.'));
-  std::size_t offset = 0;
-  for (const Field& field : type.fields) {
-    if (field.name == name) {
-      if (name == path) return {&field, offset};
-      if (field.kind != FieldKind::kMessage || field.array != ArrayKind::kNone) break;
-      const auto [found, inside] = find(*field.message, path.substr(name.size() + 1));
-      return {found, offset + inside};
-    }
-    if (!has_fixed_size(field)) break;
-    offset += default_size(field);
+NumberFields::NumberFields(const MessageType& type, const std::vector<std::string>& paths) : count_(paths.size()) {
+  add(type, "", paths);
+  std::set<std::size_t> found;
+  for (const Number& number : numbers_) found.insert(number.place);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (found.count(i) == 0) throw std::invalid_argument(type.name + ": '" + paths[i] + "' is not a number");
   }
-  return {nullptr, 0};
 }
 
-}  // namespace
-
-NumberFields::NumberFields(const MessageType& type, const std::vector<std::string>& paths)
-    : size_(default_size(type)), is_fixed_(has_fixed_size(type)) {
-  for (const std::string& path : paths) {
-    const auto [field, offset] = find(type, path);
-    if (field == nullptr || !is_number(field->kind) || field->array != ArrayKind::kNone) {
-      throw std::invalid_argument(type.name + ": " + path + " is not a number at a fixed place");
+void NumberFields::add(const MessageType& type, const std::string& prefix, const std::vector<std::string>& paths) {
+  for (const Field& field : type.fields) {
+    const std::string path = prefix + field.name;
+    if (field.array == ArrayKind::kNone && is_number(field.kind)) {
+      const auto wanted = std::find(paths.begin(), paths.end(), path);
+      numbers_.push_back(
+          {field.kind, wanted == paths.end() ? kSkipped : static_cast<std::size_t>(wanted - paths.begin())});
+    } else if (field.array == ArrayKind::kNone && field.kind == FieldKind::kMessage) {
+      add(*field.message, path + ".", paths);
+    } else {
+      throw std::invalid_argument(type.name + ": '" + field.name + "' is a " + type_text(field) + ", not a number");
     }
-    places_.push_back({offset, field->kind});
   }
 }
 
 std::vector<double> NumberFields::read(WireView message) const {
-  const std::size_t left = message.left();
-  if (left < size_ || (is_fixed_ && left != size_)) {
-    throw WireError("the message has " + std::to_string(left) + " bytes, its type " + std::to_string(size_));
-  }
-  const std::uint8_t* bytes = message.take(left);
-  std::vector<double> numbers;
-  numbers.reserve(places_.size());
-  for (const Place& place : places_) {
-    with_number(place.kind, [&](auto number) {
-      std::memcpy(&number, bytes + place.offset, sizeof number);
-      numbers.push_back(static_cast<double>(number));
+  std::vector<double> found(count_);
+  for (const auto& [kind, place] : numbers_) {
+    const double value = with_number(kind, [&](auto number) {
+      using Type = std::conditional_t<std::is_same_v<decltype(number), bool>, std::uint8_t, decltype(number)>;
+      return static_cast<double>(message.get<Type>());
     });
+    if (place != kSkipped) found[place] = value;
   }
-  return numbers;
+  if (message.left() != 0) throw WireError(std::to_string(message.left()) + " surplus bytes after the last field");
+  return found;
 }
 
 }  // namespace bubblesim::messages

@@ -100,7 +100,6 @@ class Fields {
   std::string_view keep(std::string text) { return texts_.emplace_front(std::move(text)); }
 
  private:
-  template <class Layout>
   friend class FieldEncoder;
 
   struct Flag {
@@ -148,7 +147,7 @@ class FieldReader {
   virtual void read(Fields& fields) const = 0;
 };
 
-/// Appends the wire bytes of a message of ROS 1. Throws std::invalid_argument with the type and the field for a value
+/// Appends the wire bytes of a message. Throws std::invalid_argument with the type and the field for a value
 /// that the field does not take; `out` then holds a part.
 void encode(const MessageType& type, const FieldReader& message, WireBuffer& out);
 

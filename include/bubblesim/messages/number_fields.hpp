@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single numbers of a message, read without the rest of it.
+// Single numbers of messages, read without their names.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,27 @@
 
 namespace bubblesim::messages {
 
-/// Numbers at the same places in all messages of a type, such as those of a Twist.
+/// Numbers of messages that only hold numbers, such as those of a Twist.
 class NumberFields {
  public:
-  /// `paths`: "linear.x". Throws std::invalid_argument for a path that is not a number, and for one behind strings or
+  /// `paths`: "linear.x". Throws std::invalid_argument for a path that is not a number, and for types with strings and
   /// variable arrays.
   NumberFields(const MessageType& type, const std::vector<std::string>& paths);
 
-  /// Throws WireError if the message has another size than its type.
+  /// In the order of the paths. Throws WireError if the message has another size than its type.
   std::vector<double> read(WireView message) const;
 
  private:
-  struct Place {
-    std::size_t offset;
+  struct Number {
     FieldKind kind;
+    std::size_t place;  // in the result, or kSkipped
   };
+  static constexpr std::size_t kSkipped = static_cast<std::size_t>(-1);
 
-  std::vector<Place> places_;
-  std::size_t size_;
-  bool is_fixed_;
+  void add(const MessageType& type, const std::string& prefix, const std::vector<std::string>& paths);
+
+  std::vector<Number> numbers_;  // all of a message, in its order
+  std::size_t count_;
 };
 
 }  // namespace bubblesim::messages
