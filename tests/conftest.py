@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Common to all tests: the --long option and the roscore fixture."""
 
+import os
+import shutil
 import signal
+import tempfile
 
 import pytest
 
@@ -10,6 +13,14 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise for nohup
 
 pytest_plugins = ["ros_support", "web_support"]
+
+
+_left = tempfile.mkdtemp(prefix="bubblesim_tests_")  # what programs leave: roscore its PID, a divergence its states
+os.environ["TMPDIR"] = os.environ["ROS_HOME"] = _left
+
+
+def pytest_unconfigure() -> None:
+    shutil.rmtree(_left, ignore_errors=True)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -44,16 +44,16 @@ class StateArchive {
 
  private:
   template <class Value, class = void>
-  struct has_member : std::false_type {};
+  struct HasTransfer : std::false_type {};
   template <class Value>
-  struct has_member<Value, std::void_t<decltype(std::declval<Value&>().transfer(std::declval<StateArchive&>()))>>
+  struct HasTransfer<Value, std::void_t<decltype(std::declval<Value&>().transfer(std::declval<StateArchive&>()))>>
       : std::true_type {};
 
   template <class Value>
   void transfer_one(Value& value) {
     if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
       bytes(&value, sizeof value);
-    } else if constexpr (has_member<Value>::value) {
+    } else if constexpr (HasTransfer<Value>::value) {
       value.transfer(*this);
     } else {
       transfer(*this, value);

@@ -166,7 +166,7 @@ RosBridge::~RosBridge() {
   impl_->services.silence();
   if (leave() && impl_->services.finish_calls(kLastCalls)) return;
   log_line("the ROS master at " + master_uri() + " does not answer: ending without unregistering this node");
-  static_cast<void>(impl_.release());  // the remaining thread still uses it
+  [[maybe_unused]] const Impl* const left = impl_.release();  // the remaining thread still uses it
 }
 
 bool RosBridge::leave() { return impl_->master.stop(); }

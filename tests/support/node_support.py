@@ -22,7 +22,9 @@ PREFIX = re.compile(r"^\[/\S+ [0-9.]+ s\] ", re.MULTILINE)
 def clean_environment(**changes: str) -> dict[str, str]:
     """Return the environment without variables of ROS or a workspace."""
     kept = {
-        name: value for name, value in os.environ.items() if not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))
+        name: value
+        for name, value in os.environ.items()
+        if name == "ROS_HOME" or not name.startswith(("ROS", "PYTHON", "CMAKE", "BUBB"))
     }
     return kept | changes
 

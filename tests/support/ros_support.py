@@ -11,7 +11,6 @@ import os
 import signal
 import socket
 import subprocess
-import tempfile
 import time
 import xmlrpc.client
 from collections.abc import Callable, Iterator
@@ -71,7 +70,7 @@ def _is_free(port: int) -> bool:
 @contextlib.contextmanager
 def alone_on_port(port: int) -> Iterator[None]:
     """Keep the other test processes from a port that is fixed, because a page or a program names it."""
-    with Path(tempfile.gettempdir(), f"bubblesim_tests_{os.getuid()}_port_{port}").open("w") as lock:
+    with Path("/tmp", f"bubblesim_tests_{os.getuid()}_port_{port}").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 

@@ -21,7 +21,7 @@ void check_embree() {
 SceneHandle make_scene(RTCBuildQuality quality, RTCSceneFlags flag) {
   SceneHandle scene(rtcNewScene(device()));
   check_embree();
-  rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterOfQuery | flag));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | kFilterOfQuery | flag);
   rtcSetSceneBuildQuality(scene.get(), quality);
   return scene;
 }

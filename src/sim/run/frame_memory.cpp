@@ -12,6 +12,7 @@
 #include <cstring>
 #include <ctime>
 #include <system_error>
+#include <tuple>
 
 namespace bubblesim {
 namespace {
@@ -30,6 +31,11 @@ double monotonic_time() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// All but the count and the time at which it was written.
+auto contents(const FrameHead& head) {
+  return std::tie(head.revision, head.notices, head.time, head.state, head.links, head.axes, head.closed);
 }
 
 std::size_t count_numbers(const FrameHead& head) { return 7 * std::size_t{head.links} + head.axes; }
@@ -78,7 +84,7 @@ void FrameMemory::write(const Frame& frame) {
   if (needed > size_) resize(std::max(needed, 2 * size_));  // never smaller: readers map the old size
   std::byte* const poses = memory_ + kNumbersAt;
   std::byte* const axes = poses + pose_bytes;
-  if (std::memcmp(&head, &last_, sizeof head) == 0 && std::memcmp(poses, frame.poses.data(), pose_bytes) == 0 &&
+  if (contents(head) == contents(last_) && std::memcmp(poses, frame.poses.data(), pose_bytes) == 0 &&
       std::memcmp(axes, frame.joint_positions.data(), axis_bytes) == 0) {
     return;  // a pause in which nothing happens
   }

@@ -33,7 +33,7 @@ Pose pose_of(const World& world, const Place& place) {
 
 /// Relative: the difference of the velocities, in the axes of the other object.
 Twist velocity_of(const World& world, const Place& place) {
-  const Twist twist = world.velocity(place.object);
+  Twist twist = world.velocity(place.object);
   if (place.relative_to == kNoObject) return twist;
   const Quaternion axes = world.pose(place.relative_to).orientation;
   const Twist other = world.velocity(place.relative_to);

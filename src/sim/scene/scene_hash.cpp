@@ -57,7 +57,7 @@ class DescriptionHash {
   template <class... Kinds>
   void add(const std::variant<Kinds...>& value) {
     add(value.index());
-    std::visit([this](const auto& kind) { add(kind); }, value);
+    std::visit([this](const auto& kind) { this->add(kind); }, value);
   }
   void add_bytes(const void* data, std::size_t size) {
     hash_.add(std::string_view(static_cast<const char*>(data), size));
