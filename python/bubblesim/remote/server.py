@@ -84,16 +84,23 @@ class RemoteServer:
         self._context = zmq.Context()
         self._address = address if port is not None else ""
         self._frames: FramePublisher | None = None
-        self._socket = listen(self._context, address, port, socket, wants_token=bool(token))
-        self._router = Router(self._socket)
-        self._control = ControlLane(self._context, socket) if socket else None
-        self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
+        self._control: ControlLane | None = None
+        self._monitor: Any = None
         self._reported = 0
-        if trusted:
-            write_line(
-                sys.stderr,
-                "warning: --remote-trusted: remote clients can start any program, and read and write scene files",
-            )
+        self._socket = listen(self._context, address, port, socket, wants_token=bool(token))
+        try:
+            self._router = Router(self._socket)
+            if socket:
+                self._control = ControlLane(self._context, socket)
+            self._monitor = self._socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
+            if trusted:
+                write_line(
+                    sys.stderr,
+                    "warning: --remote-trusted: remote clients can start any program, and read and write scene files",
+                )
+        except BaseException:
+            self._close_sockets()
+            raise
 
     # Scenes
 
@@ -180,12 +187,16 @@ class RemoteServer:
                 self._send(line, protocol.result(None) if fits else protocol.error(_ENDED))
         self._clients.end_programs()
         self._waiting.close()
+        self._close_sockets()
+
+    def _close_sockets(self) -> None:
         if self._frames is not None:
             self._frames.close()
         if self._control is not None:
             self._control.close()
-        self._socket.disable_monitor()
-        self._monitor.close(0)
+        if self._monitor is not None:
+            self._socket.disable_monitor()
+            self._monitor.close(0)
         self._socket.close()
         self._context.term()
 
