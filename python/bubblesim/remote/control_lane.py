@@ -38,11 +38,15 @@ class ControlLane:
         self._guard = threading.Lock()  # of the runner, which must not end while a command is handed over
         self._ending = threading.Event()
         self._socket = context.socket(zmq.REP)
-        self._socket.setsockopt(zmq.LINGER, 0)
-        self._socket.setsockopt(zmq.MAXMSGSIZE, 1 << 16)
-        self._socket.bind(f"ipc://{path_of(path)}")
-        self._thread = threading.Thread(target=self._run, name="control lane", daemon=True)
-        self._thread.start()
+        try:
+            self._socket.setsockopt(zmq.LINGER, 0)
+            self._socket.setsockopt(zmq.MAXMSGSIZE, 1 << 16)
+            self._socket.bind(f"ipc://{path_of(path)}")
+            self._thread = threading.Thread(target=self._run, name="control lane", daemon=True)
+            self._thread.start()
+        except BaseException:
+            self._socket.close(0)
+            raise
 
     def show(self, runner: Any) -> None:
         """Command this runner from now on; None between two scenes."""

@@ -21,9 +21,21 @@ def listen(
     :param port: 0 takes a free one, None listens on no port.
     :param path: of the Unix domain socket, in a folder that only this user may enter; empty: none.
     :param wants_token: clients must know a token.
-    :raises RuntimeError: if the address or the path cannot be used; the context is terminated.
+    :raises RuntimeError: if the address or the path cannot be used. After an error the context is terminated.
     """
     socket = context.socket(zmq.ROUTER)
+    try:
+        _bind(socket, address, port, path)
+        if port is not None:
+            _say_who_can_connect(socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0"), address, wants_token)
+    except BaseException:
+        socket.close(0)
+        context.term()
+        raise
+    return socket
+
+
+def _bind(socket: zmq.Socket[bytes], address: str, port: int | None, path: str) -> None:
     socket.setsockopt(zmq.LINGER, 1000)  # ms for the last replies
     socket.setsockopt(zmq.MAXMSGSIZE, protocol.MOST_BYTES + 1024)
     socket.setsockopt(zmq.RCVHWM, 2)  # a client has one request at a time; more wait in its own memory
@@ -39,13 +51,8 @@ def listen(
             where = f"{address}:{port}"
             socket.bind(f"tcp://{address}:{port or '*'}")
     except zmq.ZMQError as error:
-        socket.close(0)
-        context.term()
         reason = os.strerror(error.errno or 0)  # error.strerror also has the address in pyzmq 26
         raise RuntimeError(f"cannot listen on {where}: {reason}; another port: --remote=PORT") from None
-    if port is not None:
-        _say_who_can_connect(socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0"), address, wants_token)
-    return socket
 
 
 def _say_who_can_connect(where: str, address: str, wants_token: bool) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -60,15 +61,20 @@ class RemoteServer:
         self._context = zmq.Context()
         self._address = address if port is not None else ""
         self._frames: FramePublisher | None = None
-        listening = listen(self._context, address, port, socket, wants_token=bool(token))
-        self._socket = ClientSocket(listening, self._handle, self._note_lost)
+        with ExitStack() as undo:
+            undo.callback(self._context.term)
+            listening = listen(self._context, address, port, socket, wants_token=bool(token))
+            undo.callback(listening.close, 0)
+            self._socket = ClientSocket(listening, self._handle, self._note_lost)
+            undo.callback(self._socket.close)
+            self._control = ControlLane(self._context, socket) if socket else None
+            undo.pop_all()
         self._clients = Clients(self, note_clients)
         self._calls = Calls(self._socket, self._wake_up)
         self._requests = Requests(self._socket, self._clients, self._calls, secret)
         self._stops = WaitingStops(
             self._socket.router, self._socket.connections, self._requests.constant_reply, self._requests.has_token
         )
-        self._control = ControlLane(self._context, socket) if socket else None
         if trusted:
             write_line(
                 sys.stderr,

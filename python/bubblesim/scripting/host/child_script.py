@@ -55,7 +55,11 @@ class ChildScript:
         self._sockets = script_sockets.Sockets()
         self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
         self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
-        self._load()
+        try:
+            self._load()
+        except BaseException:  # not the script's: nothing else would end it
+            self.finish()
+            raise
 
     def _load(self) -> None:
         self._stamps = FileStamps()

@@ -87,8 +87,14 @@ class ScriptHost:
     def start(self) -> None:
         """Load the scripts from their files; for the simulation's thread."""
         self._watchdog = Watchdog(self)
-        self.shared.graphs.begin_run()
-        self._keep([self._load(path, handle, file) for path, handle, file in self._placed])
+        try:
+            self.shared.graphs.begin_run()
+            for path, handle, file in self._placed:
+                self.scripts += [self._load(path, handle, file)]
+            self.count_disabled()
+        except BaseException:
+            self.stop()
+            raise
 
     def _load(self, path: str, handle: int, file: Path) -> ChildScript:
         self._problems.forget(path)
