@@ -43,7 +43,7 @@ void use_writable_home() {
   std::error_code error;
   std::filesystem::create_directories(home, error);
   if (access(home.c_str(), W_OK | X_OK) == 0) return;
-  const std::string why = std::generic_category().message(errno);
+  const std::string why = error ? error.message() : std::generic_category().message(errno);
   std::string instead = std::filesystem::temp_directory_path(error) / "bubblesim-ros-XXXXXX";
   if (mkdtemp(instead.data()) == nullptr) return;
   setenv("ROS_HOME", instead.c_str(), 1);

@@ -28,7 +28,10 @@ def write_address(address: str, port: int) -> Path:
     :raises OSError: if it cannot be written.
     """
     folder = _folder()
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError:  # a home that cannot be written
+        folder = Path(tempfile.mkdtemp(prefix="bubblesim-"))
     number, name = tempfile.mkstemp(dir=folder, prefix=".window-")  # its mode is 0600
     try:
         with os.fdopen(number, "w", encoding="utf-8") as stream:

@@ -3,6 +3,7 @@
 import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments } from "three";
 
 const HALF = 20; // m
+const PART = 1; // m; some drivers drop a whole line that leads behind the camera, so lines are made of short ones
 const LIFT = 0.002; // m above the ground
 
 export const grid = {
@@ -27,6 +28,19 @@ export const grid = {
 
 function lines(positions, color, opacity) {
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("position", new Float32BufferAttribute(inParts(positions), 3));
   return new LineSegments(geometry, new LineBasicMaterial({ color, transparent: true, opacity, depthWrite: false }));
+}
+
+/// Splits lines, six numbers each, into parts.
+function inParts(positions) {
+  const parts = [];
+  for (let at = 0; at < positions.length; at += 6) {
+    const from = positions.slice(at, at + 3);
+    const to = positions.slice(at + 3, at + 6);
+    const count = Math.ceil(Math.hypot(...from.map((each, axis) => to[axis] - each)) / PART);
+    const point = (number) => from.map((each, axis) => each + ((to[axis] - each) * number) / count);
+    for (let part = 0; part < count; ++part) parts.push(...point(part), ...point(part + 1));
+  }
+  return parts;
 }
