@@ -49,15 +49,15 @@ def test_a_server_without_its_last_socket(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(zmq.Socket, "get_monitor_socket", no_memory)
     before = threads(), descriptors()
     with pytest.raises(MemoryError):
-        RemoteServer("127.0.0.1", None, no_memory, socket=str(tmp_path / "door"))
+        RemoteServer("127.0.0.1", None, no_memory, socket=str(tmp_path / "api"))
     gc.collect()
     assert (threads(), descriptors()) == before
 
 
 def test_a_server_whose_second_path_is_taken(tmp_path: Path) -> None:
-    (tmp_path / "door-control").mkdir()
+    (tmp_path / "api-control").mkdir()
     before = threads(), descriptors()
     with pytest.raises(zmq.ZMQError):
-        RemoteServer("127.0.0.1", None, no_memory, socket=str(tmp_path / "door"))
+        RemoteServer("127.0.0.1", None, no_memory, socket=str(tmp_path / "api"))
     gc.collect()
     assert (threads(), descriptors()) == before

@@ -144,7 +144,7 @@ class SessionStart : public testing::Test {
     options = {};
     options.ros = false;
     options.child_scripts = {{"/Ball", folder_ / "script.py"}};
-    options.window_socket = folder_ / "door";
+    options.window_socket = folder_ / "api";
     std::ofstream(folder_ / "script.py") << R"(#python
 def sysCall_init():
     self.ball = sim.getObject('.')
@@ -158,7 +158,7 @@ def on_time(message):
     node_.first_scene.clear();
   }
   ~SessionStart() override {
-    node_.door.reset();
+    node_.remote_api.reset();
     std::filesystem::remove_all(folder_);
   }
 
@@ -177,14 +177,14 @@ def on_time(message):
 
   /// Loads all modules and starts the threads that stay.
   void start_once() {
-    if (ends_door_) node_.door.reset();
+    if (ends_remote_api_) node_.remote_api.reset();
     Session(node_, std::make_unique<Simulation>(scene_, 0), true);
-    if (ends_door_) node_.door.reset();
+    if (ends_remote_api_) node_.remote_api.reset();
     const py::gil_scoped_acquire gil;
     const py::module_ gc = py::module_::import("gc");
     gc.attr("collect")();
     gc.attr("freeze")();                                                     // so that looking for objects is fast
-    py::module_::import("bubblesim.remote.control_lane").attr("_LOOK") = 1;  // ms; so is closing the door
+    py::module_::import("bubblesim.remote.control_lane").attr("_LOOK") = 1;  // ms; so is closing the server
     FailingAllocations::find_our_code();
   }
 
@@ -205,7 +205,7 @@ def on_time(message):
         allocations.counts = false;
         error = caught.what();
       }
-      if (ends_door_) node_.door.reset();
+      if (ends_remote_api_) node_.remote_api.reset();
       const auto is_as_before = [&before](const Attached& now) { return now == before; };
       ASSERT_EQ(attached_after(is_as_before), before) << "after step " << step << ": " << error;
       ASSERT_LT(step, 100'000);
@@ -217,7 +217,7 @@ def on_time(message):
   Node& node_ = one_node->node;
   std::filesystem::path folder_ = make_folder();
   std::shared_ptr<const Scene> scene_ = load_scene("ball", {});
-  bool ends_door_ = true;  // so that each session makes one
+  bool ends_remote_api_ = true;  // so that each session makes one
 
  private:
   static std::filesystem::path make_folder() {
