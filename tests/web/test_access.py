@@ -83,7 +83,8 @@ def test_files_outside_of_the_page_are_not_served(server: Server) -> None:
 
 @pytest.mark.parametrize("has_runtime_folder", [True, False])
 def test_the_token_is_in_a_file_of_the_owner_and_not_in_the_log(tmp_path: Path, has_runtime_folder: bool) -> None:
-    environment = {name: value for name, value in os.environ.items() if name not in (*TOKEN, "XDG_RUNTIME_DIR")}
+    chosen_by_others = (*TOKEN, "XDG_RUNTIME_DIR", "ROS_HOME")
+    environment = {name: value for name, value in os.environ.items() if name not in chosen_by_others}
     environment["HOME"] = str(tmp_path)
     if has_runtime_folder:
         environment["XDG_RUNTIME_DIR"] = str(tmp_path)

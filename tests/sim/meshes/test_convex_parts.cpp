@@ -66,10 +66,10 @@ TEST(ConvexParts, OfARingFitWithinAFewPercent) {
 TEST(ConvexParts, OfAGearAreAsManyAsFit) {
   Outline teeth;
   Outline bore;
-  constexpr int kTeeth = 12;
+  constexpr int kTeeth = 20;
   for (int i = 0; i < 4 * kTeeth; ++i) {
     const double angle = 2 * M_PI * i / (4 * kTeeth);
-    const double radius = i % 4 < 2 ? 1 : 0.8;
+    const double radius = i % 4 < 2 ? 1 : 0.7;
     teeth.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     bore.emplace_back(0.3 * std::cos(angle), 0.3 * std::sin(angle));
   }
