@@ -135,7 +135,7 @@ class Page:
         await self._event("hello", {"edit": self.may_edit})
         if scene:
             await self._event("scene", scene)
-        while True:
+        while not self._socket.closed:
             for number, name, data in list(hub.events):
                 if number >= next_event:
                     next_event = number + 1
@@ -150,8 +150,9 @@ class Page:
                     continue
             async with hub.changed:
                 if hub.next_event == next_event:
-                    with contextlib.suppress(asyncio.TimeoutError):
-                        await asyncio.wait_for(hub.changed.wait(), 1.0)
+                    with contextlib.suppress(TimeoutError):
+                        async with asyncio.timeout(1.0):  # wait_for() may lose a cancellation
+                            await hub.changed.wait()
 
     async def _event(self, name: str, data: Any) -> None:
         await self._send(cbor2.dumps([None, name, data]))
