@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Did you mean ...?": finds the known names that are similar to a given name.
+// Names in messages: lists of them, and "did you mean ...?" with the known names that are similar to a given one.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,16 @@
 #include <vector>
 
 namespace bubblesim {
+
+/// "a, b or c" with the last separator " or ".
+inline std::string joined(const std::vector<std::string>& names, const std::string& last_separator) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 < names.size() ? ", " : last_separator;
+    list += names[i];
+  }
+  return list;
+}
 
 /// Levenshtein distance, ignoring case.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -45,8 +55,7 @@ inline std::vector<std::string> nearest_names(std::string_view name, const std::
 
 /// Returns `; did you mean a, b?`, or an empty string when no name is close.
 inline std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  std::string hint;
-  for (const std::string& candidate : nearest_names(name, known)) hint += (hint.empty() ? "" : ", ") + candidate;
+  const std::string hint = joined(nearest_names(name, known), ", ");
   return hint.empty() ? hint : "; did you mean " + hint + "?";
 }
 

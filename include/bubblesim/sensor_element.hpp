@@ -68,7 +68,4 @@ class SensorElement {
   std::optional<Pose> offset_;
 };
 
-/// "a, b or c"
-std::string joined(const std::vector<std::string>& names, const std::string& last_separator);
-
 }  // namespace bubblesim

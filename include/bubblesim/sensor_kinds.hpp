@@ -65,6 +65,8 @@ struct ScanAngles {
   double max = 0;  ///< rad
 
   double at(int i) const { return samples > 1 ? min + (max - min) * i / (samples - 1) : min; }
+  /// rad, between two samples; 0 for a single one
+  double increment() const { return samples > 1 ? (max - min) / (samples - 1) : 0; }
 
   static const MemberTable& members();
 };

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "bubblesim/nearest_names.hpp"
 #include "bubblesim/sensor_definition.hpp"
 
 namespace bubblesim::bindings {

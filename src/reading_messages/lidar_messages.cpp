@@ -109,7 +109,7 @@ void laser_scan(Fields& fields, const Header& header, const LidarScan& scan, std
   put(fields, header);
   fields.put("angle_min", angles.min);
   fields.put("angle_max", angles.max);
-  fields.put("angle_increment", angles.samples > 1 ? (angles.max - angles.min) / (angles.samples - 1) : 0.0);
+  fields.put("angle_increment", angles.increment());
   fields.put("range_min", scan.min_range);
   fields.put("range_max", scan.max_range);
   fields.array("ranges", &scan.ranges[first], count);

@@ -19,7 +19,7 @@ struct ImuVariances {
 /// sensor_msgs/Imu.
 void imu(Fields& fields, const Header& header, const ImuReading& reading, const ImuVariances& variances);
 
-/// What a receiver tells about its fix: the values of sensor_msgs/NavSatStatus, and the variances of the position in
+/// What a receiver reports about its fix: the values of sensor_msgs/NavSatStatus, and the variances of the position in
 /// m^2 with their kind, a COVARIANCE_TYPE of sensor_msgs/NavSatFix.
 struct FixQuality {
   std::int8_t status = 0;

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bubblesim.scene_state.drawings import Drawings, Style
-from node_support import run_script
+from node_support import in_init, run_script
 
 HEADER = """
 import math
@@ -31,9 +31,7 @@ def items(handle, since=0):
 
 def check(folder: Path, body: str, rest: str = "") -> str:
     """Run `body` in sysCall_init of the tricycle; an error fails the test. Return what it printed."""
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    code = f"{HEADER}def sysCall_init():\n{indented}{rest}"
-    run = run_script(folder, code, "--strict", scene="tricycle", target="/Tricycle")
+    run = run_script(folder, f"{HEADER}{in_init(body)}{rest}", "--strict", scene="tricycle", target="/Tricycle")
     assert (run.stderr, run.returncode) == ("", 0)
     return run.stdout
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import run_script, write
+from node_support import in_init, run_script, write
 
 SCENE = """\
 <sdf version="1.9" xmlns:bubblesim="https://bubblesim">
@@ -58,8 +58,7 @@ def columns(*axes):
 
 def check(folder: Path, convention: str, body: str) -> None:
     scene = write(folder / "axes.sdf", SCENE.format(convention=convention))
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    run = run_script(folder, f"{HEADER}def sysCall_init():\n{indented}", "--strict", scene=str(scene), target="/Robot")
+    run = run_script(folder, HEADER + in_init(body), "--strict", scene=str(scene), target="/Robot")
     assert (run.stderr, run.returncode) == ("", 0)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import run_script
+from node_support import in_init, run_script
 
 HEADER = """
 import math
@@ -22,9 +22,7 @@ def refused(call, *arguments):
 
 def check(folder: Path, body: str, scene: str = "tricycle", target: str = "/Tricycle", rest: str = "") -> str:
     """Run `body` in sysCall_init; an error fails the test. Return what it printed."""
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    code = f"{HEADER}def sysCall_init():\n{indented}{rest}"
-    run = run_script(folder, code, "--strict", scene=scene, target=target)
+    run = run_script(folder, f"{HEADER}{in_init(body)}{rest}", "--strict", scene=scene, target=target)
     assert (run.stderr, run.returncode) == ("", 0)
     return run.stdout
 

@@ -7,14 +7,13 @@ from pathlib import Path
 import pytest
 
 from bubblesim.scripting.api.sim.sim_module import SimApi
-from node_support import run_script, write
+from node_support import in_init, run_script, write
 
 SIM = SimApi.__new__(SimApi)  # packing needs neither a simulation nor a script
 
 
 def run_in_init(folder: Path, body: str) -> None:
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    run = run_script(folder, "def sysCall_init():\n" + indented, "--strict", until=0.05)
+    run = run_script(folder, in_init(body), "--strict", until=0.05)
     assert run.stderr == ""
     assert run.returncode == 0
 

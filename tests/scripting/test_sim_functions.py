@@ -5,17 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from node_support import processes_with, run_script
+from node_support import in_init, processes_with, run_script
 from ros_support import wait_until
 
 
 def check(folder: Path, body: str, scene: str = "ball", target: str = "/Ball", until: float = 0.1) -> str:
     """Run `body` in sysCall_init; an error fails the test. Return what it printed."""
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
     header = "import math\nimport numpy as np\nnear = lambda a, b: np.testing.assert_allclose(a, b, atol=1e-9)\n"
-    run = run_script(
-        folder, header + "def sysCall_init():\n" + indented, "--strict", scene=scene, target=target, until=until
-    )
+    run = run_script(folder, header + in_init(body), "--strict", scene=scene, target=target, until=until)
     assert run.stderr == ""
     assert run.returncode == 0
     return run.stdout

@@ -5,20 +5,19 @@ from pathlib import Path
 
 import pytest
 
-from node_support import run_script
+from node_support import in_init, run_script
 
 HEADER = """
 import numpy as np
-
-def sysCall_init():
-    camera, depth_camera, lidar = (sim.getObject(path) for path in ('/Camera', '/DepthCamera', '/Lidar'))
 """
+
+HANDLES = "camera, depth_camera, lidar = (sim.getObject(path) for path in ('/Camera', '/DepthCamera', '/Lidar'))\n"
 
 
 def run(folder: Path, body: str) -> str:
     """Run `body` in sysCall_init in the scene `sensors`; return its output on stderr."""
-    indented = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    return run_script(folder, HEADER + indented, "--strict", scene="sensors", target="/Mast", until=0.1).stderr
+    code = HEADER + in_init(HANDLES + body.strip("\n"))
+    return run_script(folder, code, "--strict", scene="sensors", target="/Mast", until=0.1).stderr
 
 
 def test_images_go_from_the_bottom_up_and_arrays_from_the_top_down(tmp_path: Path) -> None:

@@ -71,6 +71,11 @@ def run_script(
     return run
 
 
+def in_init(body: str) -> str:
+    """Return sysCall_init of a child script with this body."""
+    return "def sysCall_init():\n" + "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
+
+
 def write(file: Path, code: str) -> Path:
     file.write_text(textwrap.dedent(code), encoding="utf-8")
     return file

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields of a message as names with values, and the bytes made of them. Whoever makes a message names its fields,
-// and knows neither their order on the wire nor their layout.
+// The fields of a message as names with values, and the bytes made of them. A maker of messages names fields, and knows
+// neither their order on the wire nor their layout.
 #pragma once
 
 #include <array>

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
 
 from bubblesim._core import SceneElement, scene_elements
+from bubblesim.scene_files.reference_page import markdown_table, print_page
 
 _INTRODUCTION = """\
 # Elements of scene files
@@ -30,14 +30,14 @@ def page() -> str:
     parts = [
         _INTRODUCTION,
         "## Read\n",
-        _table(
+        markdown_table(
             ("Element", "Type", "Default"),
             ([_code(e.path), _TYPES.get(e.type, e.type), e.default_text] for e in _with(elements, "read")),
         ),
         "## Left out, with a warning\n",
-        _table(("Element", "Reason"), ([_code(e.path), e.reason] for e in _with(elements, "left out"))),
+        markdown_table(("Element", "Reason"), ([_code(e.path), e.reason] for e in _with(elements, "left out"))),
         "## Without effect\n",
-        _table(("Element", "Reason"), ([_code(e.path), e.reason] for e in _with(elements, "none"))),
+        markdown_table(("Element", "Reason"), ([_code(e.path), e.reason] for e in _with(elements, "none"))),
     ]
     return "\n".join(parts)
 
@@ -50,18 +50,9 @@ def _code(path: str) -> str:
     return f"`{path}`"
 
 
-def _table(head: tuple[str, ...], rows: Iterable[list[str]]) -> str:
-    lines: list[Iterable[str]] = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines) + "\n"
-
-
 def main() -> int:
     """Print the page."""
-    if len(sys.argv) != 1:
-        print("usage: python -m bubblesim.scene_files.elements", file=sys.stderr)
-        return 2
-    print(page(), end="")
-    return 0
+    return print_page("bubblesim.scene_files.elements", page)
 
 
 if __name__ == "__main__":

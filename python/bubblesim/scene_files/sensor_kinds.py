@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from bubblesim._core import sensor_kinds
+from bubblesim.scene_files.reference_page import markdown_table, print_page
 
 _INTRODUCTION = """\
 # Kinds of sensors
@@ -43,7 +44,7 @@ def _section(kind: dict[str, Any]) -> Iterator[str]:
     yield f"`bubblesim.{kind['reading']['name']}`: {kind['reading']['doc']}\n"
     yield _members(kind["reading"])
     if kind["quantities"]:
-        yield _table(
+        yield markdown_table(
             ("Quantity", "Unit", "Meaning"), ([f"`{q['name']}`", q["unit"], q["doc"]] for q in kind["quantities"])
         )
 
@@ -59,21 +60,12 @@ def _members(table: dict[str, Any]) -> str:
         return f"{member['doc']}; {member['limits']}" if member["limits"] else str(member["doc"])
 
     rows = ([f"`{each['name']}`", each["type"], each["unit"], meaning(each)] for each in table["members"])
-    return _table(("Member", "Type", "Unit", "Meaning"), rows)
-
-
-def _table(head: tuple[str, ...], rows: Iterable[list[str]]) -> str:
-    lines: list[Iterable[str]] = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines) + "\n"
+    return markdown_table(("Member", "Type", "Unit", "Meaning"), rows)
 
 
 def main() -> int:
     """Print the page."""
-    if len(sys.argv) != 1:
-        print("usage: python -m bubblesim.scene_files.sensor_kinds", file=sys.stderr)
-        return 2
-    print(page(), end="")
-    return 0
+    return print_page("bubblesim.scene_files.sensor_kinds", page)
 
 
 if __name__ == "__main__":

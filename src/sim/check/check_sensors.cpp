@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bubblesim/nearest_names.hpp"
 #include "bubblesim/sensor_definition.hpp"
 #include "check/checker.hpp"
 #include "check/checks.hpp"

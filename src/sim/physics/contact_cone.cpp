@@ -34,6 +34,15 @@ void direct_along(const Vector3& tangent, dContact& contact) {
   for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = unit[i];
 }
 
+/// The first friction direction of ODE's contact joint.
+Vector3 first_direction(const dContact& contact) {
+  if ((contact.surface.mode & dContactFDir1) != 0) return to_vector(contact.fdir1);
+  dVector3 first;
+  dVector3 second;
+  dPlaneSpace(contact.geom.normal, first, second);  // as ODE
+  return to_vector(first);
+}
+
 Vector3 tangential(const Vector3& vector, const dContact& contact) {
   const Vector3 normal = to_vector(contact.geom.normal);
   return vector - normal * vector.dot(normal);
@@ -73,15 +82,8 @@ void limit_rolling(const FoundPair& pair, const ExpectedContact& expected, dCont
     const double share = limit > 0 ? std::min(along.norm() / limit, 1.0) : 0;
     least = std::max(std::sqrt(1 - share * share), kRollsAcross);
   }
-  dVector3 axis;
-  dVector3 other;
-  if ((surface.mode & dContactFDir1) != 0) {
-    std::copy(contact.fdir1, contact.fdir1 + 3, axis);
-  } else {
-    dPlaneSpace(contact.geom.normal, axis, other);  // as ODE
-  }
   const double length = along.norm();
-  const double first = length > 0 ? std::min(std::abs(along.dot(to_vector(axis))) / length, 1.0) : 1;
+  const double first = length > 0 ? std::min(std::abs(along.dot(first_direction(contact))) / length, 1.0) : 1;
   surface.rho2 = surface.rho * std::max(std::sqrt(1 - first * first), least);
   surface.rho *= std::max(first, least);
 }
@@ -153,14 +155,7 @@ double needed_normal(const FoundContact& point) {
   const FrictionLimit& surface = point.limit;
   const Vector3 friction = tangential(to_vector(point.feedback.f1), contact);
   if (surface.mu2 == surface.mu) return surface.mu > 0 ? friction.norm() / surface.mu : 0;
-  dVector3 along;
-  dVector3 across;
-  if ((surface.mode & dContactFDir1) != 0) {
-    std::copy(contact.fdir1, contact.fdir1 + 3, along);
-  } else {
-    dPlaneSpace(contact.geom.normal, along, across);  // as ODE
-  }
-  const double first = friction.dot(to_vector(along));
+  const double first = friction.dot(first_direction(contact));
   const double second = std::sqrt(std::max(friction.squaredNorm() - first * first, 0.0));
   const auto needed = [](double force, double mu) { return mu > 0 ? std::abs(force) / mu : 0; };
   return std::max(needed(first, surface.mu), needed(second, surface.mu2));

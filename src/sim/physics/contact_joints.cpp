@@ -30,11 +30,11 @@ void take_force(const FoundPair& pair, FoundContact& point) {
 void join_contacts(World::State& state, double step) {
   Recollection recollection(state.memory);
   for (const FoundPair& pair : state.found.pairs) {
-    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
+    const int island = state.islands.of(pair.first->island);
+    if (!state.islands.is_jointed(island)) continue;
     const RememberedPair* remembered = recollection.pair(pair);
     FoundContact* points = &state.found.points[pair.begin];
-    limit_friction(pair, remembered, state.memory, step,
-                   state.islands.is_beyond_limit(state.islands.of(pair.first->island)), points);
+    limit_friction(pair, remembered, state.memory, step, state.islands.is_beyond_limit(island), points);
     for (int i = 0; i < pair.count; ++i) join(state, pair, points[i]);
   }
 }

@@ -124,13 +124,10 @@ void FrictionIteration::limit(World::State& state) {
   }
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
-    for (int i = 0; i < pair.found->count; ++i) {
-      take_force(*pair.found, state.found.points[pair.found->begin + static_cast<std::size_t>(i)]);
-    }
+    FoundContact* points = &state.found.points[pair.found->begin];
+    for (int i = 0; i < pair.found->count; ++i) take_force(*pair.found, points[i]);
   }
-  for (const KeptBody& kept : state.bodies_before) {
-    if (is_again(kept.island)) set_numbers(kept.body, kept.numbers);
-  }
+  put_back(state);
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
     const Island& island = island_of(pair);
@@ -141,8 +138,9 @@ void FrictionIteration::limit(World::State& state) {
           pair.relied + pair.missing - part * (pair.relied - pair.relied_before + pair.missing - pair.missing_before);
     }
     load = std::clamp(load, 0.0, kMostChange * std::max(pair.relied, pair.load));
+    FoundContact* points = &state.found.points[pair.found->begin];
     for (int i = 0; i < pair.found->count; ++i) {
-      FoundContact& point = state.found.points[pair.found->begin + static_cast<std::size_t>(i)];
+      FoundContact& point = points[i];
       // Points of a pair exchange loads without end: their shares change by half.
       double share = pair.load > 0 ? normal_force(point) / pair.load : 0;
       if (pair.relied > 0) {
@@ -154,13 +152,18 @@ void FrictionIteration::limit(World::State& state) {
   }
 }
 
+void FrictionIteration::put_back(const World::State& state) const {
+  for (const KeptBody& kept : state.bodies_before) {
+    if (is_again(kept.island)) set_numbers(kept.body, kept.numbers);
+  }
+}
+
 bool FrictionIteration::solve(World::State& state, double step) {
   dJointGroupEmpty(state.contacts.get());
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
-    for (int i = 0; i < pair.found->count; ++i) {
-      join(state, *pair.found, state.found.points[pair.found->begin + static_cast<std::size_t>(i)]);
-    }
+    FoundContact* points = &state.found.points[pair.found->begin];
+    for (int i = 0; i < pair.found->count; ++i) join(state, *pair.found, points[i]);
   }
   others_.clear();
   for (std::size_t i = 0; i < state.moving.size(); ++i) {
@@ -173,9 +176,7 @@ bool FrictionIteration::solve(World::State& state, double step) {
   dWorldStep(state.world.get(), step);
   const bool solved = !ode::solver_warned();
   if (!solved) {
-    for (const KeptBody& kept : state.bodies_before) {
-      if (is_again(kept.island)) set_numbers(kept.body, kept.numbers);
-    }
+    put_back(state);
     ode::step_iteratively(state.world.get(), step, state.random);
   }
   for (dBodyID body : others_) dBodyEnable(body);

@@ -41,6 +41,8 @@ class FrictionIteration {
   bool judge(World::State& state);
   /// Sets the limits of the next solution, and puts the bodies back.
   void limit(World::State& state);
+  /// Puts the bodies of the islands that are solved again where they were before the solver.
+  void put_back(const World::State& state) const;
   /// Returns whether there was a solution.
   bool solve(World::State& state, double step);
 

@@ -55,23 +55,27 @@ class Registry {
   /// The place of the kind whose `table` is this one.
   std::size_t place_of(const MemberTable* SensorDefinition::*table, const MemberTable* wanted) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    return find(table, wanted);
+  }
+
+  const SensorDefinition& with(const MemberTable* SensorDefinition::*table, const MemberTable* wanted) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return *kinds_[find(table, wanted)];
+  }
+
+ private:
+  Registry() {
+    for (const auto make : kOwnKinds) kinds_.push_back(make());
+  }
+
+  /// The mutex is locked.
+  std::size_t find(const MemberTable* SensorDefinition::*table, const MemberTable* wanted) const {
     const auto found =
         std::find_if(kinds_.begin(), kinds_.end(), [&](const auto& kind) { return (*kind).*table == wanted; });
     if (wanted != nullptr && found != kinds_.end()) return static_cast<std::size_t>(found - kinds_.begin());
     throw InvalidInput(wanted == nullptr ? "a sensor without a kind: set SensorDescription::kind"
                                          : "there is no kind of sensor with a " + wanted->name +
                                                ": add it with add_sensor_definition()");
-  }
-
-  const SensorDefinition& with(const MemberTable* SensorDefinition::*table, const MemberTable* wanted) {
-    const std::size_t place = place_of(table, wanted);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return *kinds_[place];
-  }
-
- private:
-  Registry() {
-    for (const auto make : kOwnKinds) kinds_.push_back(make());
   }
 
   static void refuse_clash(const SensorDefinition& present, const SensorDefinition& added) {

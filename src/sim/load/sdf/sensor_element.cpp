@@ -110,13 +110,4 @@ Source SensorElement::source_of(std::string_view path) const {
   return element || path.empty() ? element.source() : at(parent).source();
 }
 
-std::string joined(const std::vector<std::string>& names, const std::string& last_separator) {
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) list += i + 1 < names.size() ? ", " : last_separator;
-    list += names[i];
-  }
-  return list;
-}
-
 }  // namespace bubblesim

@@ -247,10 +247,7 @@ const MemberTable& LidarScan::members() {
           computed<S>("angle_max", "rad", "of the last sample, to the left",
                       [](const S& scan) { return scan.horizontal.max; }),
           computed<S>("angle_increment", "rad", "between samples",
-                      [](const S& scan) {
-                        const ScanAngles& angles = scan.horizontal;
-                        return angles.samples > 1 ? (angles.max - angles.min) / (angles.samples - 1) : 0.0;
-                      }),
+                      [](const S& scan) { return scan.horizontal.increment(); }),
           computed<S>("elevations", "rad", "of the rings, upwards",
                       [](const S& scan) { return angles_of(scan.vertical); }),
       });
