@@ -96,6 +96,19 @@ class World {
   /// Throws WrongObject for objects of other kinds.
   const SensorDescription& sensor_description(ObjectId sensor) const;
 
+  /// Adds a dummy, a frame at the origin of the world and the top of the tree; resets keep it.
+  ObjectId add_dummy(std::string name);
+  /// Throws WrongObject for other objects. What is below it in the tree is at the top then, and stays where it is.
+  void remove_dummy(ObjectId dummy);
+  /// Throws WrongObject for other objects.
+  FrameKind frame_kind(ObjectId frame) const;
+  /// Changes the tree: the object becomes the last child of `parent`, kNoObject is the top. Nothing moves. A frame is
+  /// carried from now on by what carries the parent, below a joint by the joint's child; physics does not change.
+  /// Throws InvalidInput when the parent is the object itself or below it. Resets keep the tree.
+  void set_parent(ObjectId object, ObjectId parent);
+  /// Sets the name in paths; resets keep it.
+  void set_alias(ObjectId object, std::string alias);
+
   /// Resets the current models to their initial state: poses, velocities, joint targets and force limits. From here on
   /// the simulation equals that of a new world of these models, bit by bit. Clears a divergence.
   void reset();
@@ -141,9 +154,10 @@ class World {
   /// Sets the friction coefficient, in all directions, of all collisions of a link or of a model's links, until the
   /// world is reset. A contact has the lower one of its two collisions.
   void set_friction(ObjectId object, double mu);
-  /// Moves a model (with all its links) or a single link to a pose; velocities are kept.
+  /// Moves a model (with all its links), a link or a frame to a pose, and what is below it in the tree along, except
+  /// static links; velocities are kept.
   void set_pose(ObjectId object, const Pose& pose);
-  /// Sets the velocity of a model (all its links move as one rigid body) or of a single link.
+  /// Sets the velocity of a model or of a link, with what is below it in the tree: they move as one rigid body.
   void set_velocity(ObjectId object, const Twist& velocity);
   /// Drives a model in the plane as a whole, in m/s along the world's x and y and rad/s about its z, with a force of at
   /// most twenty times its mass, until the world is reset. The model may still fall, tilt and be stopped.

@@ -28,7 +28,7 @@ struct ModelCopy {
 std::unique_ptr<ModelCopy> copy_model(Simulation& simulation, ObjectId model) {
   const HoldWithGil hold(lock_of(simulation));
   const World& world = simulation.world();
-  if (world.tree().at(model).parent != kNoObject) {
+  if (!world.tree().at(model).is_outermost_model()) {
     throw InvalidInput(world.tree().short_path(model) + " is not a model of the top level");
   }
   auto copy = std::make_unique<ModelCopy>(ModelCopy{world.description(model)});

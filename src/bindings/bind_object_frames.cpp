@@ -26,7 +26,7 @@ struct ObjectFrames {
  private:
   Pose seen(const Pose& pose, ObjectId object) const {
     const ObjectKind kind = world.tree().at(object).kind;
-    if (kind == ObjectKind::kModel || kind == ObjectKind::kLink) return pose;
+    if (kind != ObjectKind::kJoint && kind != ObjectKind::kSensor) return pose;
     return {pose.position, pose.orientation * object_axes(world, object)};
   }
 };

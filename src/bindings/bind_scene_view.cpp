@@ -66,7 +66,7 @@ class SceneView {
     const World& world = simulation.world();
     const SceneTree& tree = world.tree();
     const ModelDescription& description = world.description(model);
-    if (tree.at(model).parent != kNoObject) throw InvalidInput(tree.path(model) + " is not a model of the top level");
+    if (!tree.at(model).is_outermost_model()) throw InvalidInput(tree.path(model) + " is not a model of the top level");
     const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                      [](const LinkDescription& link) { return !link.visuals.empty(); });
     py::list objects;
@@ -95,6 +95,9 @@ class SceneView {
           break;
         case ObjectKind::kSensor:
           add_sensor(dict, world, object);
+          break;
+        case ObjectKind::kFrame:
+          dict["type"] = std::string(frame_kind_name(world.frame_kind(object.id)));
           break;
       }
       objects.append(dict);
@@ -224,7 +227,7 @@ class SceneView {
 
   static void add_model(const py::dict& dict, const ModelDescription& description, const Object& object,
                         const SceneTree& tree) {
-    const bool outermost = object.parent == kNoObject;
+    const bool outermost = object.is_outermost_model();
     const std::string& canonical =
         outermost ? description.canonical_link : description.nested[object.index].canonical_link;
     for (const ObjectId link : tree.parts(tree.outermost_model_of(object.id), ObjectKind::kLink)) {

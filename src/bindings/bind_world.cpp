@@ -60,6 +60,29 @@ void bind_world(py::module_& module) {
       .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
+      .def(
+          "model_base_of", [](const World& w, ObjectId id) { return w.tree().model_base_of(id); },
+          "Return the nearest base of a model above the object or itself: where ':' in paths leads.")
+      .def(
+          "carrier", [](const World& w, ObjectId id) { return w.tree().at(id).carrier; }, py::arg("sensor"),
+          "Return the link or joint that has a sensor, wherever it is in the tree.")
+      .def(
+          "parts",
+          [](const World& w, ObjectId model, const std::string& kind) {
+            for (const ObjectKind each : {ObjectKind::kLink, ObjectKind::kJoint, ObjectKind::kSensor, ObjectKind::kFrame}) {
+              if (kind == kind_name(each)) return w.tree().parts(model, each);
+            }
+            throw InvalidInput("the parts of a model are of the kinds link, joint, sensor and frame, not '" + kind + "'");
+          },
+          py::arg("model"), py::arg("kind"), "Return the parts of a model, wherever they are in the tree.")
+      .def(
+          "frame_kind", [](const World& w, ObjectId id) { return std::string(frame_kind_name(w.frame_kind(id))); },
+          py::arg("frame"), "Return 'dummy', 'shape', 'camera', 'light', 'graph' or 'script'.")
+      .def("add_dummy", &World::add_dummy, py::arg("name"), "Add a dummy at the origin; return its handle.")
+      .def("remove_dummy", &World::remove_dummy, py::arg("dummy"), "Remove a dummy that was added.")
+      .def("set_parent", &World::set_parent, py::arg("object"), py::arg("parent"),
+           "Make an object the last child of another one, or of the scene (-1); nothing moves.")
+      .def("set_alias", &World::set_alias, py::arg("object"), py::arg("alias"))
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
       .def(
@@ -74,7 +97,8 @@ void bind_world(py::module_& module) {
           },
           "Return x, y, z (m) and the normal force (N) of each contact point of the last physics substep.")
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
-      .def("children", [](const World& w, ObjectId id) { return w.tree().at(id).children; })
+      .def("children", [](const World& w, ObjectId id) { return w.tree().children(id); },
+           "Return the children of an object; those of -1 are the objects at the top.")
       .def(
           "sensor_topic",
           [](const World& w, ObjectId id) {

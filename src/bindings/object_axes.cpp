@@ -12,7 +12,7 @@ const Quaternion kLookingAlongZ(0.5, 0.5, 0.5, 0.5);
 Quaternion joint_axes(const World& world, ObjectId joint) {
   const JointDescription& description = world.joint_description(joint);
   // The second axis of a joint is an object below the joint.
-  const bool is_second = world.tree().at(world.tree().at(joint).parent).kind == ObjectKind::kJoint;
+  const bool is_second = world.tree().at(joint).is_second_axis();
   if (description.axes.empty()) return Quaternion();
   return turn_from_z((is_second ? description.axes.back() : description.axes.front()).direction);
 }

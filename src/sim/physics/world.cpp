@@ -11,6 +11,7 @@
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
 #include "physics/world_state.hpp"
+#include "scene/described_tree.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
@@ -56,6 +57,8 @@ World::World(const Scene& scene, std::uint64_t seed) {
 void World::build(const Scene& scene, std::uint64_t seed) {
   state_.reset(std::make_unique<State>(scene.description().gravity, seed).release());
   state_->shared_tree = scene.tree();
+  state_->scene_frames = scene.shared_frames();
+  place_frames(*state_, *state_->scene_frames);
   for (std::size_t i = 0; i < scene.prepared().models.size(); ++i) {
     place_model(*state_, scene.tree()->models()[i], scene.prepared().models[i]);
   }
@@ -93,6 +96,8 @@ void World::reset() {
   const bool keeps_statics = !state_->interrupted;
   std::unique_ptr<State, Discard> built(std::make_unique<State>(state_->first_gravity, state_->seed).release());
   built->shared_tree = state_->shared_tree;
+  built->own_tree = state_->own_tree;
+  built->frames = std::move(state_->frames);
   for (const auto& model : state_->models) {
     if (keeps_statics && model->space == nullptr) {
       built->models.push_back(nullptr);
@@ -101,6 +106,9 @@ void World::reset() {
     }
   }
   if (keeps_statics) take_statics(*built, *state_);
+  for (const auto& model : built->models) place_frames(*built, *model);
+  place_frames(*built, *state_->scene_frames);
+  built->scene_frames = std::move(state_->scene_frames);
   if (!keeps_statics || state_->statics_stale) gather_statics(*built);
   list_moving(*built);
   std::vector<DeviceSlot> devices = std::move(state_->devices);
@@ -122,14 +130,14 @@ ObjectId World::add_model(ModelDescription model, std::vector<Problem>* warnings
   const bool is_static = model.is_static;
   const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
   prepared->added_hash = hash_of(*prepared->description);
-  // The scene and its other simulations keep their tree.
-  auto tree = std::make_shared<SceneTree>(*state_->shared_tree);
-  const ObjectId id = enter_model(*tree, *prepared->description);
-  const std::shared_ptr<const SceneTree> before = std::exchange(state_->shared_tree, std::move(tree));
+  SceneTree& tree = changing_tree(*state_);
+  DescribedTree described(tree);
+  const ObjectId id = described.add(*prepared->description);
+  described.arrange();
   try {
     place_model(*state_, id, prepared);
   } catch (...) {
-    state_->shared_tree = before;
+    tree.remove(id);
     throw;
   }
   if (is_static) gather_statics(*state_);
@@ -143,7 +151,7 @@ void World::check_removable(ObjectId model) const {
   const std::vector<ObjectId>& lost = state_->lost_models;
   if (state_->interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(*state_);
   const Object& object = state_->tree().at(model);
-  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+  if (!object.is_outermost_model()) {
     throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                       ": it cannot be removed on its own; remove its model");
   }
@@ -155,13 +163,12 @@ void World::remove_model(ObjectId model) {
   forget_touches(*state_);                   // and these refer to its shapes
   forget_contacts(*state_, model);
   state_->found.clear();
-  auto tree = std::make_shared<SceneTree>(*state_->shared_tree);
-  tree->remove(model);
+  forget_frames(*state_, model);
   state_->statics_stale = state_->statics_stale || description(model).is_static;
   const auto is_it = [model](const auto& placed) { return placed->object == model; };
   state_->models.erase(std::find_if(state_->models.begin(), state_->models.end(), is_it));
   state_->model_at[SceneTree::index_of(model)] = nullptr;
-  state_->shared_tree = std::move(tree);
+  changing_tree(*state_).remove(model);
   remove_devices(*state_, model);
   forget_wrenches(*state_);
   std::vector<ObjectId>& lost = state_->lost_models;
@@ -180,12 +187,7 @@ const SensorDescription& World::sensor_description(ObjectId sensor) const {
   if (object.kind != ObjectKind::kSensor) {
     throw WrongObject(state_->shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
   }
-  const Object& carrier = state_->tree().at(object.parent);
-  const ModelDescription& model = state_->model_of(sensor).description;
-  const std::vector<SensorDescription>& sensors =
-      carrier.kind == ObjectKind::kJoint ? model.joints[carrier.index].sensors : model.links[carrier.index].sensors;
-  const std::vector<ObjectId> below = state_->tree().children(carrier.id, ObjectKind::kSensor);
-  return sensors[static_cast<std::size_t>(std::find(below.begin(), below.end(), sensor) - below.begin())];
+  return *state_->model_of(sensor).described_sensors[object.index];
 }
 
 const SceneTree& World::tree() const { return state_->tree(); }
@@ -266,6 +268,7 @@ std::uint64_t World::state_hash() const {
   state_->memory.add_to(hash);
   add_wrenches(hash, state_->wrenches);
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
+  add_frames(hash, *state_);
   hash.add(state_->seed);
   hash.add(static_cast<std::uint64_t>(state_->random));
   return hash.value();

@@ -138,6 +138,7 @@ class ModelBuilder {
       model_.motion_meters.emplace(model_.sensors.size(), MotionMeter(link.body.get(), in_body, imu->bandwidth));
     }
     model_.sensors.push_back(sensor.pose);
+    model_.described_sensors.push_back(&sensor);
   }
 
   /// Sets the initial pose. Call it after the joints are created: their zero positions are those of the description.
@@ -214,6 +215,7 @@ class ModelBuilder {
         signal.in_child = joint.in_child * sensor.pose;
       }
       model_.sensors.push_back(sensor.pose);
+      model_.described_sensors.push_back(&sensor);
     }
     model_.joints.push_back(std::move(joint));
   }
@@ -294,6 +296,7 @@ void place_model(World::State& state, ObjectId id, std::shared_ptr<const Prepare
   state.models.push_back(ModelBuilder(state, id, std::move(model)).build());
   state.model_at.resize(state.tree().places());
   state.model_at[SceneTree::index_of(id)] = state.models.back().get();
+  place_frames(state, *state.models.back());
 }
 
 }  // namespace bubblesim

@@ -73,7 +73,7 @@ void World::add_device(std::shared_ptr<Device> device, ObjectId model, double ra
   if (device == nullptr) throw InvalidInput("add_device needs a device, not a null pointer");
   if (model != kNoObject) {
     const Object& object = state_->tree().at(model);
-    if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    if (!object.is_outermost_model()) {
       throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                         ": a device belongs to an outermost model or to the world");
     }

@@ -189,7 +189,7 @@ Wrench World::sensor_wrench(ObjectId sensor) const {
   const Object& object = state_->tree().at(sensor);
   const PlacedModel& model = state_->model_of(sensor);
   for (const PlacedJoint& placed : model.joints) {
-    if (placed.object != object.parent || placed.meter == nullptr) continue;
+    if (placed.object != object.carrier || placed.meter == nullptr) continue;
     for (const WrenchSignal& signal : placed.meter->signals) {
       if (signal.sensor == object.index) return {signal.force.value(), signal.torque.value()};
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poses and velocities of a world's objects.
 #include <cmath>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
@@ -12,9 +14,41 @@
 namespace bubblesim {
 namespace {
 
-/// The links of a model, or the link itself; throws for other objects and for static models.
-std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
+/// What moves with an object that is set to a pose.
+struct Movers {
+  std::set<ObjectId> links;  // not static ones
+  std::vector<ObjectId> frames;
+};
+
+/// The object with what is below it in the tree, and below the links of each model among these.
+Movers movers(const World::State& state, ObjectId id) {
+  Movers found;
+  std::set<ObjectId> passed;
+  std::vector<ObjectId> open{id};
+  while (!open.empty()) {
+    const Object& object = state.tree().at(open.back());
+    open.pop_back();
+    if (!passed.insert(object.id).second) continue;
+    open.insert(open.end(), object.children.begin(), object.children.end());
+    if (object.kind == ObjectKind::kFrame) found.frames.push_back(object.id);
+    if (object.kind == ObjectKind::kModel) {
+      const std::vector<ObjectId> links = state.tree().parts(object.id, ObjectKind::kLink);
+      open.insert(open.end(), links.begin(), links.end());
+    }
+    const bool moves = object.kind == ObjectKind::kLink && !state.model_of(object.id).description.is_static;
+    if (moves) found.links.insert(object.id);
+  }
+  return found;
+}
+
+/// Throws for objects that cannot be set to a pose.
+void check_movable(const World::State& state, ObjectId id) {
   const Object& object = state.tree().at(id);
+  if (object.kind == ObjectKind::kFrame) {
+    if (state.frames.at(id).kind != FrameKind::kShape || state.frames.at(id).link == kNoObject) return;
+    throw WrongObject(state.shown(id) + " is a part of " + state.shown(state.frames.at(id).link) +
+                      ": it cannot be moved on its own; move that");
+  }
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                       ": it cannot be moved on its own; move its link or model");
@@ -22,28 +56,6 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
   if (state.model_of(id).description.is_static) {
     throw WrongObject(state.shown(id) + " is static: it cannot be moved");
   }
-  if (object.kind == ObjectKind::kLink) return {&state.link(id)};
-  std::vector<const Link*> links;
-  for (const ObjectId link : state.tree().parts(id, ObjectKind::kLink)) links.push_back(&state.link(link));
-  return links;
-}
-
-/// The link that carries an object; kNoObject for objects that are fixed to the world.
-ObjectId carrier(const World::State& state, const Object& object) {
-  switch (object.kind) {
-    case ObjectKind::kModel:
-      return state.frame(object.id).canonical_link;
-    case ObjectKind::kLink:
-      return object.id;
-    case ObjectKind::kJoint:
-      return state.model_of(object.id).joints[object.index].parent;
-    case ObjectKind::kSensor:
-      if (const Object& above = state.tree().at(object.parent); above.kind == ObjectKind::kJoint) {
-        return state.model_of(object.id).joints[above.index].child;
-      }
-      return object.parent;
-  }
-  return kNoObject;
 }
 
 void check_velocity(const World::State& state, ObjectId object, const Twist& velocity) {
@@ -53,6 +65,25 @@ void check_velocity(const World::State& state, ObjectId object, const Twist& vel
 }
 
 }  // namespace
+
+ObjectId carrier(const World::State& state, const Object& object) {
+  switch (object.kind) {
+    case ObjectKind::kModel:
+      return state.frame(object.id).canonical_link;
+    case ObjectKind::kLink:
+      return object.id;
+    case ObjectKind::kJoint:
+      return state.model_of(object.id).joints[object.index].parent;
+    case ObjectKind::kSensor:
+      if (const Object& above = state.tree().at(object.carrier); above.kind == ObjectKind::kJoint) {
+        return state.model_of(object.id).joints[above.index].child;
+      }
+      return object.carrier;
+    case ObjectKind::kFrame:
+      return state.frames.at(object.id).link;
+  }
+  return kNoObject;
+}
 
 Pose link_pose(const Link& link) {
   if (link.body == nullptr) return link.pose;
@@ -74,11 +105,13 @@ Pose World::pose(ObjectId object) const {
       return base * state_->model_of(object).joints[found.index].in_parent;
     case ObjectKind::kSensor: {
       const PlacedModel& model = state_->model_of(object);
-      const Object& above = state_->tree().at(found.parent);
+      const Object& above = state_->tree().at(found.carrier);
       const Pose& in_carrier = model.sensors[found.index];
       return above.kind == ObjectKind::kJoint ? base * model.joints[above.index].in_child * in_carrier
                                               : base * in_carrier;
     }
+    case ObjectKind::kFrame:
+      return base * state_->frames.at(object).pose;
   }
   return base;
 }
@@ -107,7 +140,7 @@ Vector3 World::acceleration(ObjectId object) const {
 }
 
 void World::set_pose(ObjectId object, const Pose& pose) {
-  const std::vector<const Link*> links = moving_links(*state_, object);
+  check_movable(*state_, object);
   if (!within(pose.position, kMaxDistance)) {
     throw InvalidInput(state_->shown(object) + ": the position " + text(pose.position) +
                        " is not usable: it must be finite and within 1e6 m of the origin");
@@ -118,23 +151,35 @@ void World::set_pose(ObjectId object, const Pose& pose) {
   }
   const Pose wanted(pose.position, pose.orientation.normalized());
   const Pose before = this->pose(object);
+  const Movers moving = movers(*state_, object);
+  for (const ObjectId frame : moving.frames) {
+    PlacedFrame& placed = state_->frames.at(frame);
+    if (moving.links.count(placed.link) > 0) continue;  // it moves along
+    const Pose moved = wanted * (before.inverse() * frame_pose(*state_, placed));
+    placed.pose = placed.link == kNoObject ? moved : link_pose(state_->link(placed.link)).inverse() * moved;
+  }
+  if (moving.links.empty()) return;
   wake(*state_);
-  forget_contacts(*state_, state_->tree().outermost_model_of(object));
-  for (const Link* link : links) {
-    const Pose moved = wanted * (before.inverse() * link_pose(*link));
-    const Vector3 centre = moved * link->centre_of_mass;
-    dBodySetPosition(link->body.get(), centre.x(), centre.y(), centre.z());
-    dBodySetQuaternion(link->body.get(), to_ode(moved.orientation).data());
+  std::set<ObjectId> models;
+  for (const ObjectId id : moving.links) models.insert(state_->tree().outermost_model_of(id));
+  for (const ObjectId model : models) forget_contacts(*state_, model);
+  for (const ObjectId id : moving.links) {
+    const Link& link = state_->link(id);
+    const Pose moved = wanted * (before.inverse() * link_pose(link));
+    const Vector3 centre = moved * link.centre_of_mass;
+    dBodySetPosition(link.body.get(), centre.x(), centre.y(), centre.z());
+    dBodySetQuaternion(link.body.get(), to_ode(moved.orientation).data());
   }
 }
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
-  const std::vector<const Link*> links = moving_links(*state_, object);
+  check_movable(*state_, object);
   check_velocity(*state_, object, velocity);
   const Vector3 origin = pose(object).position;
-  for (const Link* link : links) dBodyEnable(link->body.get());
-  for (const Link* link : links) {
-    dBodyID body = link->body.get();
+  const std::set<ObjectId> links = movers(*state_, object).links;
+  for (const ObjectId link : links) dBodyEnable(state_->link(link).body.get());
+  for (const ObjectId link : links) {
+    dBodyID body = state_->link(link).body.get();
     const Vector3 linear = velocity.linear + velocity.angular.cross(to_vector(dBodyGetPosition(body)) - origin);
     dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());

@@ -42,7 +42,7 @@ void limit_planar_motor(const PlanarMotor& motor, const PlacedModel& model) {
 
 void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
   const Object& object = state_->tree().at(model);
-  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+  if (!object.is_outermost_model()) {
     throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
                       ": the planar velocity can be set for outermost models only");
   }

@@ -133,6 +133,7 @@ void transfer_physics(StateArchive& archive, World::State& state) {
   }
   for (PlacedModel* model : state.moving) transfer_model(archive, state, *model);
   transfer_frictions(archive, state);
+  transfer_frames(archive, state);
   transfer_memory(archive, state, state.memory);
   transfer_touches(archive, state);
   archive(state.wrenches, state.last_duration, state.steps, state.bottom, state.age);

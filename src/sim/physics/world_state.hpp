@@ -6,12 +6,14 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bubblesim/error.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world.hpp"
@@ -32,6 +34,8 @@
 #include "physics/sleep.hpp"
 
 namespace bubblesim {
+
+class Fnv1a;
 
 /// A link. Static ones have no body and stay at `pose`.
 struct Link {
@@ -140,6 +144,16 @@ struct ModelFrame {
   Pose in_canonical_link;
 };
 
+/// An object without physics.
+struct PlacedFrame {
+  ObjectId link = kNoObject;  // that carries it; kNoObject: it stays in the world
+  Pose pose;                  // in the frame of that link, or in the world
+  FrameKind kind = FrameKind::kDummy;
+  bool is_added = false;  // by World::add_dummy(): it is in no description
+};
+/// Object::index of added frames.
+constexpr std::size_t kAddedFrame = std::numeric_limits<std::size_t>::max();
+
 /// Distance of a body's centre of mass from one of its joints, m.
 struct Lever {
   dBodyID body = nullptr;
@@ -164,6 +178,7 @@ struct PlacedModel {
   std::vector<PlacedJoint> joints;
   std::vector<Lever> levers;
   std::vector<Pose> sensors;                         // in the frame of their link or joint
+  std::vector<const SensorDescription*> described_sensors;
   std::map<std::size_t, MotionMeter> motion_meters;  // of its inertial measurement units, by their index in `sensors`
   PlanarMotor planar_motor;
   Rest rest;
@@ -209,6 +224,9 @@ struct World::State {
   double last_duration = 0;  // s, of the last advance()
   std::uint64_t seed;
   std::shared_ptr<const SceneTree> shared_tree;
+  std::shared_ptr<SceneTree> own_tree;      // the same, if the world has changed it
+  std::map<ObjectId, PlacedFrame> frames;
+  std::shared_ptr<const std::vector<FrameDescription>> scene_frames;  // of no model, of the scene
 
   // Destroyed in reverse order: models and spaces before the world, its threading last.
   ode::ThreadingHandle threading;
@@ -245,23 +263,39 @@ struct World::State {
   bool statics_stale = false;  // a static model was removed since gather_statics()
 
   const SceneTree& tree() const { return *shared_tree; }
-  PlacedModel& model_of(ObjectId id) { return *model_at[SceneTree::index_of(tree().outermost_model_of(id))]; }
-  const PlacedModel& model_of(ObjectId id) const {
-    return *model_at[SceneTree::index_of(tree().outermost_model_of(id))];
-  }
+  /// Throws WrongObject for a frame that is part of no model.
+  PlacedModel& model_of(ObjectId id) { return *model_at[place_of_model(id)]; }
+  const PlacedModel& model_of(ObjectId id) const { return *model_at[place_of_model(id)]; }
   const Link& link(ObjectId id) const { return model_of(id).links[tree().at(id).index]; }
   const ModelFrame& frame(ObjectId id) const {
     const Object& object = tree().at(id);
-    return object.parent == kNoObject ? model_of(id).frame : model_of(id).nested[object.index];
+    return object.is_outermost_model() ? model_of(id).frame : model_of(id).nested[object.index];
+  }
+  std::size_t place_of_model(ObjectId id) const {
+    const ObjectId model = tree().outermost_model_of(id);
+    if (model == kNoObject) throw WrongObject(shown(id) + " is a frame that is not a part of a model");
+    return SceneTree::index_of(model);
   }
   std::string shown(ObjectId id) const { return tree().short_path(id); }
 };
 
-/// Adds a model and its objects to the tree.
-ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
-
 /// Builds a model whose objects are in the tree already. gather_statics() completes it when it is static.
 void place_model(World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> model);
+
+/// The tree, to change it: a copy of the scene's, made at the first change.
+SceneTree& changing_tree(World::State& state);
+/// The link that carries an object; kNoObject for objects that are fixed to the world.
+ObjectId carrier(const World::State& state, const Object& object);
+
+/// Puts the frames of a model, or those of the scene that are of no model, where their description says.
+void place_frames(World::State& state, const PlacedModel& model);
+void place_frames(World::State& state, const std::vector<FrameDescription>& frames);
+/// Leaves the frames that a model carries in the world, and forgets its own; before it is removed.
+void forget_frames(World::State& state, ObjectId model);
+Pose frame_pose(const World::State& state, const PlacedFrame& frame);
+/// Saves or restores the frames that are in a description.
+void transfer_frames(StateArchive& archive, World::State& state);
+void add_frames(Fnv1a& hash, const World::State& state);
 
 /// Updates the list of moving models and their indices in the islands, after models were added or removed.
 void list_moving(World::State& state);

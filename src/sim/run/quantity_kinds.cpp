@@ -82,7 +82,7 @@ Shape of_friction(const World& world, ObjectId object) {
 }
 
 Shape of_moving_model(const World& world, ObjectId object) {
-  if (!moves(world, object, {ObjectKind::kModel}) || world.tree().at(object).parent != kNoObject) return std::nullopt;
+  if (!moves(world, object, {ObjectKind::kModel}) || !world.tree().at(object).is_outermost_model()) return std::nullopt;
   return Sizes{3};
 }
 

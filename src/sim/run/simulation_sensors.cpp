@@ -16,25 +16,14 @@
 namespace bubblesim {
 
 void Simulation::make_sensors(ObjectId model) {
-  const SceneTree& tree = world_.tree();
-  const ModelDescription& description = world_.description(model);
-  const auto make_below = [&](ObjectId carrier, const std::vector<SensorDescription>& sensors) {
-    auto sensor = sensors.begin();
-    for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
-      SensorSlot& slot = sensors_.emplace_back();
-      slot.id = id;
-      slot.sensor = make_sensor(*sensor, scene().environment, id, world_);
-      slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
-      slot.time = state_time();
-      slot.due = slot.time + slot.period;
-      ++sensor;
-    }
-  };
-  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) {
-    make_below(id, description.links[tree.at(id).index].sensors);
-  }
-  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) {
-    make_below(id, description.joints[tree.at(id).index].sensors);
+  for (const ObjectId id : world_.tree().parts(model, ObjectKind::kSensor)) {
+    const SensorDescription& sensor = world_.sensor_description(id);
+    SensorSlot& slot = sensors_.emplace_back();
+    slot.id = id;
+    slot.sensor = make_sensor(sensor, scene().environment, id, world_);
+    slot.period = sensor.update_rate > 0 ? 1 / sensor.update_rate : 0;
+    slot.time = state_time();
+    slot.due = slot.time + slot.period;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/nearest_names.hpp"
@@ -75,6 +76,8 @@ std::string_view kind_name(ObjectKind kind) {
       return "joint";
     case ObjectKind::kSensor:
       return "sensor";
+    case ObjectKind::kFrame:
+      return "frame";
   }
   return "object";
 }
@@ -86,8 +89,8 @@ std::string as_path(std::string scoped_name) {
   return scoped_name;
 }
 
-ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std::size_t index, std::string alias) {
-  if (parent != kNoObject) at(parent);  // throws
+ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId part_of, std::size_t index, std::string alias) {
+  if (part_of != kNoObject) at(part_of);  // throws
   const bool is_full = places_.size() >> kIndexBits != 0;
   if (is_full && free_.empty()) throw InvalidInput("a scene has at most a million objects");
   std::size_t taken = places_.size();
@@ -99,35 +102,137 @@ ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId parent, std:
   }
   Place& place = places_[taken];
   const auto id = static_cast<ObjectId>(taken | (place.generation << kIndexBits));
-  (parent == kNoObject ? models_ : places_[index_of(parent)].object.children).push_back(id);
+  (part_of == kNoObject ? roots_ : object(part_of).children).push_back(id);
   if (alias.empty()) alias = name;
   by_alias_[alias].push_back(id);
-  place.object = {id, kind, std::move(name), std::move(alias), parent, {}, index};
+  Object added;
+  added.id = id;
+  added.kind = kind;
+  added.name = std::move(name);
+  added.alias = std::move(alias);
+  added.parent = part_of;
+  added.is_model_base = kind == ObjectKind::kModel;
+  if (part_of != kNoObject) {
+    const Object& whole = at(part_of);
+    const bool is_model = whole.kind == ObjectKind::kModel;
+    added.model = is_model ? part_of : whole.model;
+    if (!is_model) added.carrier = part_of;
+  }
+  added.index = index;
+  if (added.is_outermost_model()) models_.push_back(id);
+  place.object = std::move(added);
   place.added = added_++;
   ++size_;
+  if (const ObjectId whole = outermost_model_of(id); whole != kNoObject) parts_[whole].push_back(id);
   return id;
 }
 
 void SceneTree::remove(ObjectId id) {
-  const ObjectId parent = at(id).parent;
-  std::vector<ObjectId>& siblings = parent == kNoObject ? models_ : places_[index_of(parent)].object.children;
-  take_out(id, parent == kNoObject ? "" : path(parent));
-  siblings.erase(std::find(siblings.begin(), siblings.end(), id));
+  const ObjectId whole = outermost_model_of(id);
+  std::vector<ObjectId> kept;
+  std::vector<std::pair<ObjectId, std::string>> gone;  // with their paths
+  for (const ObjectId each : whole == kNoObject ? std::vector<ObjectId>{id} : parts_.at(whole)) {
+    if (is_part_of(at(each), id)) {
+      gone.emplace_back(each, path(each));
+    } else {
+      kept.push_back(each);
+    }
+  }
+  for (const auto& each : gone) {
+    for (const ObjectId child : std::vector<ObjectId>(at(each.first).children)) {
+      const bool stays = std::none_of(gone.begin(), gone.end(), [child](const auto& g) { return g.first == child; });
+      if (stays) set_parent(child, kNoObject);
+    }
+    detach(at(each.first));
+  }
+  if (id == whole) {
+    models_.erase(std::find(models_.begin(), models_.end(), id));
+    parts_.erase(whole);
+  } else if (whole != kNoObject) {
+    parts_[whole] = std::move(kept);
+  }
+  for (auto& [each, was] : gone) free(each, std::move(was));
 }
 
-/// Frees the places of an object and of all below it; its parent still lists it.
-void SceneTree::take_out(ObjectId id, const std::string& parent_path) {
-  Object& object = places_[index_of(id)].object;
-  const std::string was = parent_path + "/" + object.alias;
-  for (const ObjectId child : object.children) take_out(child, was);
+/// Takes an object out of its parent's children.
+void SceneTree::detach(const Object& object) {
+  if (object.is_hidden) return;
+  std::vector<ObjectId>& siblings = object.parent == kNoObject ? roots_ : this->object(object.parent).children;
+  siblings.erase(std::find(siblings.begin(), siblings.end(), object.id));
+}
+
+void SceneTree::forget_name(const Object& object) {
   const auto named = by_alias_.find(object.alias);
-  named->second.erase(std::find(named->second.begin(), named->second.end(), id));
-  if (named->second.empty()) by_alias_.erase(named);
-  object = {kNoObject, ObjectKind::kModel, was, was, kNoObject, {}, 0};
+  if (named == by_alias_.end()) return;
+  std::vector<ObjectId>& ids = named->second;
+  ids.erase(std::remove(ids.begin(), ids.end(), object.id), ids.end());
+  if (ids.empty()) by_alias_.erase(named);
+}
+
+/// Whether an object is `whole` or, by the physical structure, a part of it.
+bool SceneTree::is_part_of(const Object& object, ObjectId whole) const {
+  const Object* level = &object;
+  while (level->id != whole) {
+    const ObjectId above = level->carrier != kNoObject ? level->carrier : level->model;
+    if (above == kNoObject) return false;
+    level = &at(above);
+  }
+  return true;
+}
+
+void SceneTree::free(ObjectId id, std::string path) {
   Place& place = places_[index_of(id)];
+  forget_name(place.object);
+  place.object = Object();
+  place.object.name = std::move(path);
   place.generation = (place.generation + 1) % kGenerations;
   free_.push_back(index_of(id));
   --size_;
+}
+
+void SceneTree::set_parent(ObjectId id, ObjectId parent) {
+  Object& moved = object(id);
+  for (ObjectId above = parent; above != kNoObject; above = at(above).parent) {
+    if (above == id) throw InvalidInput(path(id) + " cannot be attached to itself or to what is attached to it");
+  }
+  detach(moved);
+  moved.parent = parent;
+  if (std::exchange(moved.is_hidden, false)) {
+    for (const ObjectId each : subtree(id)) by_alias_[at(each).alias].push_back(each);
+  }
+  (parent == kNoObject ? roots_ : object(parent).children).push_back(id);
+}
+
+void SceneTree::set_alias(ObjectId id, std::string alias) {
+  Object& named = object(id);
+  const bool is_found = [&] {
+    const auto known = by_alias_.find(named.alias);
+    return known != by_alias_.end() && std::find(known->second.begin(), known->second.end(), id) != known->second.end();
+  }();
+  forget_name(named);
+  named.alias = std::move(alias);
+  if (is_found) by_alias_[named.alias].push_back(id);
+}
+
+void SceneTree::hide(ObjectId id) {
+  Object& hidden = object(id);
+  if (hidden.is_hidden) return;
+  for (const ObjectId each : subtree(id)) forget_name(at(each));
+  detach(hidden);
+  hidden.parent = kNoObject;
+  hidden.is_hidden = true;
+}
+
+std::vector<ObjectId> SceneTree::subtree(ObjectId id) const {
+  std::vector<ObjectId> found;
+  std::vector<ObjectId> open{id};
+  while (!open.empty()) {
+    const Object& object = at(open.back());
+    open.pop_back();
+    found.push_back(object.id);
+    open.insert(open.end(), object.children.rbegin(), object.children.rend());
+  }
+  return found;
 }
 
 void SceneTree::throw_missing(ObjectId id) const {
@@ -153,43 +258,38 @@ std::vector<ObjectId> SceneTree::objects() const {
   return ids;
 }
 
-std::vector<ObjectId> SceneTree::children(ObjectId parent, ObjectKind kind) const {
-  std::vector<ObjectId> ids;
-  for (const ObjectId child : at(parent).children) {
-    if (at(child).kind == kind) ids.push_back(child);
-  }
-  return ids;
-}
-
 std::vector<ObjectId> SceneTree::parts(ObjectId model, ObjectKind kind) const {
-  std::vector<ObjectId> ids = children(model, kind);
-  for (const ObjectId inner : children(model, ObjectKind::kModel)) {
-    for (const ObjectId id : parts(inner, kind)) ids.push_back(id);
+  std::vector<ObjectId> ids;
+  if (at(model).kind != ObjectKind::kModel) return ids;
+  for (const ObjectId id : parts_.at(outermost_model_of(model))) {
+    const Object& object = at(id);
+    if (object.kind == kind && !object.is_second_axis() && is_part_of(object, model)) ids.push_back(id);
   }
   std::sort(ids.begin(), ids.end(), [this](ObjectId a, ObjectId b) { return at(a).index < at(b).index; });
   return ids;
 }
 
-/// The children of an object; for kNoObject the models.
-const std::vector<ObjectId>& SceneTree::level_below(ObjectId parent) const {
-  return parent == kNoObject ? models_ : at(parent).children;
-}
-
-ObjectId SceneTree::model_of(ObjectId id) const {
+ObjectId SceneTree::model_base_of(ObjectId id) const {
   const Object* object = &at(id);
-  while (object->kind != ObjectKind::kModel && object->parent != kNoObject) object = &at(object->parent);
+  while (!object->is_model_base && object->parent != kNoObject) object = &at(object->parent);
   return object->id;
 }
 
+ObjectId SceneTree::model_of(ObjectId id) const {
+  const Object& object = at(id);
+  return object.kind == ObjectKind::kModel ? id : object.model;
+}
+
 ObjectId SceneTree::outermost_model_of(ObjectId id) const {
-  while (at(id).parent != kNoObject) id = at(id).parent;
-  return id;
+  const Object* object = &at(id);
+  while (object->model != kNoObject) object = &at(object->model);
+  return object->kind == ObjectKind::kModel ? object->id : kNoObject;
 }
 
 std::string SceneTree::indexed_name(const Object& object) const {
   std::size_t same_name = 0;
   std::size_t position = 0;
-  for (const ObjectId sibling : level_below(object.parent)) {
+  for (const ObjectId sibling : children(object.parent)) {
     if (sibling == object.id) position = same_name;
     if (at(sibling).alias == object.alias) ++same_name;
   }
@@ -223,10 +323,10 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from, s
     } else if (anchor == "..") {
       start = at(from).parent;
     } else if (anchor == ":") {
-      start = model_of(from);
+      start = model_base_of(from);
     } else if (anchor == "::") {
-      start = at(model_of(from)).parent;
-      if (start != kNoObject) start = model_of(start);
+      start = at(model_base_of(from)).parent;
+      if (start != kNoObject) start = model_base_of(start);
     } else {
       return {};
     }
@@ -247,7 +347,7 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from, s
     std::vector<ObjectId> found;
     for (const ObjectId root : roots) {
       // Breadth first, so that objects nearer to the root come first.
-      std::vector<ObjectId> level = level_below(root);
+      std::vector<ObjectId> level = children(root);
       while (!level.empty()) {
         std::vector<ObjectId> next;
         ObjectId last_parent = kNoObject;
@@ -306,6 +406,7 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
   }
   std::vector<std::string> known;
   for (const ObjectId id : objects()) {
+    if (by_alias_.count(at(id).alias) == 0) continue;  // hidden
     known.push_back(this->path(id));
     known.push_back("/" + at(id).alias);
   }

@@ -119,7 +119,7 @@ class ContactKind final : public SensorDefinitionOf<ContactDescription, ContactR
   }
 
   std::unique_ptr<Sensor> make(const ContactDescription& description, const SensorSite& site) const override {
-    return std::make_unique<ContactSensor>(description, site.world.tree().at(site.id).parent);
+    return std::make_unique<ContactSensor>(description, site.world.tree().at(site.id).carrier);
   }
 };
 
