@@ -93,6 +93,9 @@ class SceneTree {
   /// Object::index.
   std::vector<ObjectId> parts(ObjectId model, ObjectKind kind) const;
 
+  /// An outermost model with all its parts, each after what it is a part of. Throws WrongObject for other objects.
+  const std::vector<ObjectId>& all_parts(ObjectId model) const;
+
   /// Finds an object by path. `/a/b` starts at the scene and may omit levels, so `/b` finds an object at any level;
   /// `./b`, `../b`, `:/b`, `::/b` start at `from`, its parent, its model, its model's parent; without `from`, `./b` and
   /// `:/b` start at the scene. A name is an object's alias, or its own name. `name[i]` selects the

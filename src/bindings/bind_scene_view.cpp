@@ -60,27 +60,25 @@ class SceneView {
     return dict;
   }
 
-  /// The objects of a top-level model, outer ones first.
+  /// The objects of an outermost model, outer ones first.
   py::list model(const Simulation& simulation, ObjectId model) {
     const HoldWithGil hold(lock_of(simulation));
     const World& world = simulation.world();
     const SceneTree& tree = world.tree();
     const ModelDescription& description = world.description(model);
-    if (!tree.at(model).is_outermost_model()) throw InvalidInput(tree.path(model) + " is not a model of the top level");
     const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                      [](const LinkDescription& link) { return !link.visuals.empty(); });
     py::list objects;
-    std::vector<ObjectId> open = {model};
-    while (!open.empty()) {
-      const Object& object = tree.at(open.back());
-      open.pop_back();
-      open.insert(open.end(), object.children.rbegin(), object.children.rend());
+    for (const ObjectId id : tree.all_parts(model)) {
+      const Object& object = tree.at(id);
       py::dict dict;
       dict["handle"] = object.id;
       dict["kind"] = std::string(kind_name(object.kind));
       dict["name"] = object.name;
       dict["path"] = tree.path(object.id);
       dict["parent"] = object.parent;
+      dict["hidden"] = object.is_hidden;
+      dict["model"] = model;
       dict["pose"] = pose_list(world.pose(object.id));
       dict["static"] = description.is_static;
       switch (object.kind) {
@@ -100,6 +98,29 @@ class SceneView {
           dict["type"] = std::string(frame_kind_name(world.frame_kind(object.id)));
           break;
       }
+      objects.append(dict);
+    }
+    return objects;
+  }
+
+  /// The objects of no model.
+  static py::list frames(const Simulation& simulation) {
+    const HoldWithGil hold(lock_of(simulation));
+    const World& world = simulation.world();
+    py::list objects;
+    for (const ObjectId id : world.tree().objects()) {
+      const Object& object = world.tree().at(id);
+      if (world.tree().outermost_model_of(id) != kNoObject) continue;
+      py::dict dict;
+      dict["handle"] = id;
+      dict["kind"] = std::string(kind_name(object.kind));
+      dict["name"] = object.alias;
+      dict["path"] = world.tree().path(id);
+      dict["parent"] = object.parent;
+      dict["pose"] = pose_list(world.pose(id));
+      dict["type"] = std::string(frame_kind_name(world.frame_kind(id)));
+      dict["hidden"] = false;
+      dict["model"] = kNoObject;
       objects.append(dict);
     }
     return objects;
@@ -295,6 +316,7 @@ class SceneView {
   static void add_sensor(const py::dict& dict, const World& world, const Object& sensor) {
     const SensorDescription& description = world.sensor_description(sensor.id);
     dict["type"] = description.type;
+    dict["carrier"] = sensor.carrier;
     dict["pose_in_parent"] = pose_list(description.pose);
     dict["update_rate"] = description.update_rate;
     dict["topic"] = description.topic;
@@ -314,6 +336,7 @@ void bind_scene_view(py::module_& module) {
       .def("environment", &SceneView::environment, py::arg("simulation"))
       .def("model", &SceneView::model, py::arg("simulation"), py::arg("model"),
            "Return the objects of a top-level model, outer ones before inner ones.")
+      .def_static("frames", &SceneView::frames, py::arg("simulation"), "Return the frames that are of no model.")
       .def("mesh", &SceneView::mesh, py::arg("number"), "Return the arrays of a mesh as bytes.")
       .def("texture", &SceneView::texture, py::arg("number"), "Return the size and RGB bytes of an image.");
 }

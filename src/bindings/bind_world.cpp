@@ -64,6 +64,13 @@ void bind_world(py::module_& module) {
           "model_base_of", [](const World& w, ObjectId id) { return w.tree().model_base_of(id); },
           "Return the nearest base of a model above the object or itself: where ':' in paths leads.")
       .def(
+          "is_hidden", [](const World& w, ObjectId id) { return w.tree().at(id).is_hidden; },
+          "Return whether an object is a model that is no object of its own, in no path.")
+      .def("is_model_base", [](const World& w, ObjectId id) { return w.tree().at(id).is_model_base; })
+      .def(
+          "subtree", [](const World& w, ObjectId id) { return w.tree().subtree(id); },
+          "Return an object and all below it, parents first.")
+      .def(
           "carrier", [](const World& w, ObjectId id) { return w.tree().at(id).carrier; }, py::arg("sensor"),
           "Return the link or joint that has a sensor, wherever it is in the tree.")
       .def(

@@ -133,7 +133,8 @@ void SceneTree::remove(ObjectId id) {
   std::vector<std::pair<ObjectId, std::string>> gone;  // with their paths
   for (const ObjectId each : whole == kNoObject ? std::vector<ObjectId>{id} : parts_.at(whole)) {
     if (is_part_of(at(each), id)) {
-      gone.emplace_back(each, path(each));
+      const Object& object = at(each);
+      gone.emplace_back(each, (object.parent == kNoObject ? "" : path(object.parent)) + "/" + object.alias);
     } else {
       kept.push_back(each);
     }
@@ -256,6 +257,11 @@ std::vector<ObjectId> SceneTree::objects() const {
   std::sort(ids.begin(), ids.end(),
             [this](ObjectId a, ObjectId b) { return places_[index_of(a)].added < places_[index_of(b)].added; });
   return ids;
+}
+
+const std::vector<ObjectId>& SceneTree::all_parts(ObjectId model) const {
+  if (!at(model).is_outermost_model()) throw WrongObject(path(model) + " is not an outermost model");
+  return parts_.at(model);
 }
 
 std::vector<ObjectId> SceneTree::parts(ObjectId model, ObjectKind kind) const {

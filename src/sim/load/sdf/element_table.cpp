@@ -186,6 +186,22 @@ const char* const kElementTable = R"TABLE(
   light_on flag true
   visualize flag true ~ lights are not drawn
 
+=place
+  id integer required
+  parent integer -1
+  order integer 0
+  model flag false
+
+=object
+  @name text
+  kind text dummy
+  link text
+  pose pose
+    &pose
+  bubblesim:alias text
+  bubblesim:place none
+    &place
+
 =sensor
   @name text
   @type text
@@ -210,6 +226,8 @@ const char* const kElementTable = R"TABLE(
   rfidtag any ~ the sensor is not simulated
   transceiver any ~ the sensor is not simulated
   bubblesim:alias text
+  bubblesim:place none
+    &place
   bubblesim:topic text
   bubblesim:frame text
 
@@ -280,6 +298,8 @@ const char* const kElementTable = R"TABLE(
   battery any ! batteries are not simulated
   particle_emitter any ! particles are not simulated
   bubblesim:alias text
+  bubblesim:place none
+    &place
 
 =axis
   xyz vector3 '0 0 1' required
@@ -331,6 +351,8 @@ const char* const kElementTable = R"TABLE(
   sensor none
     &sensor
   bubblesim:alias text
+  bubblesim:place none
+    &place
 
 =frame
   @name text
@@ -382,6 +404,9 @@ const char* const kElementTable = R"TABLE(
   bubblesim:alias text
   bubblesim:axis_convention text
   bubblesim:child_script text
+  bubblesim:is_object flag true
+  bubblesim:object none
+    &object
 
 =state_part
   @name text
@@ -479,6 +504,8 @@ const char* const kElementTable = R"TABLE(
     bubblesim:axis_convention text
     bubblesim:on_divergence text
     bubblesim:randomize any
+    bubblesim:object none
+      &object
   model none
     &model
   light none

@@ -13,6 +13,7 @@
 #include "load/sdf/own_elements.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_sensors.hpp"
+#include "load/sdf/sdf_tree.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {
@@ -81,6 +82,7 @@ class JointReader {
     JointDescription joint;
     joint.name = joint_.name();
     joint.alias = read_alias(joint_, path_, context_);
+    joint.place = read_place(joint_);
     joint.type = type;
     joint.source = joint_.source();
     joint.parent = parent->link;

@@ -15,6 +15,7 @@
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_sensors.hpp"
 #include "load/sdf/sdf_surface.hpp"
+#include "load/sdf/sdf_tree.hpp"
 #include "load/sdf/sdf_visuals.hpp"
 #include "meshes/mesh_error.hpp"
 #include "scene/describe.hpp"
@@ -184,6 +185,7 @@ LinkDescription read_link(const SdfElement& link, const Frames& frames, const st
   LinkDescription description;
   description.name = link.name();
   description.alias = read_alias(link, path, context);
+  description.place = read_place(link);
   description.pose = frames.pose(link.name());
   description.source = link.source();
   description.gravity_enabled = link.flag("gravity");

@@ -11,6 +11,7 @@
 #include "load/sdf/sdf_links.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
+#include "load/sdf/sdf_tree.hpp"
 
 namespace bubblesim {
 namespace {
@@ -191,6 +192,8 @@ ModelDescription read_model(const SdfElement& model, const Frames& frames, const
   if (!is_robot(model)) {
     ModelReader(description, context).read(model, frames, "", Pose(), path);
     add_flattened_models(frames, description);
+    description.is_object = model.flag("bubblesim:is_object");
+    description.frames = read_objects(model, path, context);
   }
   return description;
 }

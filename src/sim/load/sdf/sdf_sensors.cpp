@@ -12,6 +12,7 @@
 #include "load/sdf/own_elements.hpp"
 #include "load/sdf/sdf_names_and_axes.hpp"
 #include "load/sdf/sdf_plugins.hpp"
+#include "load/sdf/sdf_tree.hpp"
 
 namespace bubblesim {
 namespace {
@@ -102,6 +103,7 @@ SensorDescription read_common(const SdfElement& sensor, const std::string& name,
   SensorDescription description;
   description.name = name;
   description.alias = read_alias(sensor, path, context);
+  description.place = read_place(sensor);
   description.type = type_of(sensor);
   description.gz = read_gz_topic(sensor);
   description.source = sensor.source();

@@ -17,6 +17,7 @@
 #include "load/sdf/sdf_plugins.hpp"
 #include "load/sdf/sdf_randomize.hpp"
 #include "load/sdf/sdf_state.hpp"
+#include "load/sdf/sdf_tree.hpp"
 #include "load/sdf/sdf_visuals.hpp"
 #include "load/substeps.hpp"
 
@@ -113,6 +114,7 @@ std::optional<double> read_world(const SdfElement& world, SceneDescription& scen
   const Frames frames(world, "", context);
   read_environment(world, frames, scene.environment, context);
   read_models(world, frames, scene, context);
+  scene.frames = read_objects(world, "", context);
   apply_state(world, scene.models, context);
   return substeps;
 }

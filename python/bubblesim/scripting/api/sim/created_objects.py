@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from bubblesim.scene_state.dummies import FIRST_HANDLE
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -19,14 +18,14 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
 
     def createDummy(self, size: float, colour: Numbers = _NO_COLOUR) -> int:
         """Create a dummy at the origin and return its handle; ``size`` in metres and the colour are for drawings."""
-        dummy = self._caller.shared.dummies.create("Dummy", size, temporary=not self._is_stopped())
+        dummy = self._caller.shared.dummies.create(self._world, "Dummy", size, temporary=not self._is_stopped())
         if colour:
             dummy.colours[self.colorcomponent_ambient_diffuse] = list(colour[:3])
         return dummy.handle
 
     def getDummySize(self, dummy: Handle) -> float:
         """Return the size of a dummy in metres."""
-        return self._tree.dummy(dummy).size
+        return self._tree.dummy(self._resolve(dummy)).size
 
     def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
         """Create a shape at the origin and return its handle; not in sysCall_sensing.
@@ -65,10 +64,12 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         for handle in resolved:
             self._check_removable(handle)
         for handle in resolved:
-            if handle >= FIRST_HANDLE:
-                self._caller.shared.dummies.remove(handle)
-            elif self._tree.contains(handle):
-                self._remove_model(handle)
+            if not self._tree.contains(handle):
+                continue  # it was below another one
+            if self._tree.is_created_dummy(handle):
+                self._caller.shared.dummies.remove(self._world, handle)
+            else:
+                self._remove_model(self._tree.model(handle))
         return len(handles)
 
     def removeObject(self, handle: Handle) -> int:
@@ -89,8 +90,9 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         return model
 
     def _check_removable(self, handle: int) -> None:
-        if self._tree.kind(handle) == "dummy":
+        if self._tree.is_created_dummy(handle):
             return
-        if self._tree.kind(handle) != "model" or int(self._world.parent(handle)) >= 0:
+        model = self._tree.model(handle)
+        if model < 0 or self._tree.object_of(model) != handle:
             path = self._tree.short_path(handle)
             raise ValueError(f"{path} cannot be removed on its own: remove the whole model, or a dummy")
