@@ -187,14 +187,15 @@ struct GzTopic {
   std::string frame;       ///< its <gz_frame_id>, or a camera's <optical_frame_id>; empty: MODEL/LINK/SENSOR
 };
 
-/// The place of an object in the tree that scripts see, for formats whose tree is not SDFormat's nesting: CoppeliaSim's,
-/// in which a joint is the parent of the shape that it moves. An object without a place is where SDFormat nests it: a
-/// link, joint or frame below its model, a sensor below its link or joint. A place changes nothing in the physics.
+/// The place of an object in the tree that scripts see, for formats whose tree is not SDFormat's nesting:
+/// CoppeliaSim's, in which a joint is the parent of the shape that it moves. An object without a place is where
+/// SDFormat nests it: a link, joint or frame below its model, a sensor below its link or joint. A place changes nothing
+/// in the physics.
 struct TreePlace {
-  int id = 0;              ///< any number, unique among the places of a file: in a .ttt, the object's handle
-  int parent = -1;         ///< `id` of the parent, of any kind, in any model of the file; -1: the top of the scene
-  int order = 0;           ///< among its siblings, lower first; equal ones are in the order of the description
-  bool is_model = false;   ///< the base of a model: where `:` in paths leads from the objects below
+  int id = 0;             ///< any number, unique among the places of a file: in a .ttt, the object's handle
+  int parent = -1;        ///< `id` of the parent, of any kind, in any model of the file; -1: the top of the scene
+  int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
+  bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
 };
 
 struct SensorDescription {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The objects of a scene: the tree that scripts and viewers see, with the search by name, and beside it the physical
-// structure. In SDFormat they are the same: models at the top, their links, joints and nested models below, sensors below
-// their link. In CoppeliaSim's scenes any object may be below any other.
+// structure. In SDFormat they are the same: models at the top, their links, joints and nested models below, sensors
+// below their link. In CoppeliaSim's scenes any object may be below any other.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,8 @@ struct Object {
   ObjectId id = kNoObject;
   ObjectKind kind = ObjectKind::kModel;
   std::string name;
-  std::string alias;  ///< the name in paths, which siblings may share; the name itself if the file has no other
+  std::string alias;        ///< the name in paths, which siblings may share; the name itself if the file has no other
+  bool is_renamed = false;  ///< the alias was set since, so that the name of the file leads to it no more
 
   // The tree:
   ObjectId parent = kNoObject;  ///< kNoObject: top level, or hidden
@@ -52,8 +53,8 @@ std::string as_path(std::string scoped_name);
 class SceneTree {
  public:
   /// Adds an object below the one that it is a part of, as SDFormat nests: a link, joint or frame below its model, a
-  /// sensor below its link or joint, a second axis below its joint. Throws InvalidInput when there are a million objects.
-  /// An empty alias stands for the name.
+  /// sensor below its link or joint, a second axis below its joint. Throws InvalidInput when there are a million
+  /// objects. An empty alias stands for the name.
   ObjectId add(ObjectKind kind, std::string name, ObjectId part_of, std::size_t index, std::string alias = "");
   /// Removes an object and its parts. Other objects below them are at the top then. Throws NoSuchObject.
   void remove(ObjectId id);
@@ -61,6 +62,7 @@ class SceneTree {
   /// Makes an object the last child of another one, or of the scene (kNoObject). Throws InvalidInput when the parent is
   /// the object itself or below it.
   void set_parent(ObjectId id, ObjectId parent);
+  /// From now on only this name leads to the object, until it is that of the file again.
   void set_alias(ObjectId id, std::string alias);
   void set_model_base(ObjectId id) { object(id).is_model_base = true; }
   /// Takes an object, with what is below it, out of the tree; the handles remain.
@@ -83,7 +85,9 @@ class SceneTree {
   /// The objects at the top of the tree.
   const std::vector<ObjectId>& roots() const { return roots_; }
   /// The children of an object; for kNoObject the roots.
-  const std::vector<ObjectId>& children(ObjectId parent) const { return parent == kNoObject ? roots_ : at(parent).children; }
+  const std::vector<ObjectId>& children(ObjectId parent) const {
+    return parent == kNoObject ? roots_ : at(parent).children;
+  }
   /// An object and all below it, parents first.
   std::vector<ObjectId> subtree(ObjectId id) const;
 
@@ -122,6 +126,7 @@ class SceneTree {
     Object object;  // when the place is free: without handle, with the path as its name
     std::uint32_t generation = 0;
     std::uint64_t added = 0;  // number of objects that were added before
+    std::string first_alias;  // before the first set_alias()
   };
 
   [[noreturn]] void throw_missing(ObjectId id) const;

@@ -102,6 +102,8 @@ class World {
   void remove_dummy(ObjectId dummy);
   /// Throws WrongObject for other objects.
   FrameKind frame_kind(ObjectId frame) const;
+  /// The link that carries a frame, kNoObject for the world. Throws WrongObject for other objects.
+  ObjectId frame_link(ObjectId frame) const;
   /// Changes the tree: the object becomes the last child of `parent`, kNoObject is the top. Nothing moves. A frame is
   /// carried from now on by what carries the parent, below a joint by the joint's child; physics does not change.
   /// Throws InvalidInput when the parent is the object itself or below it. Resets keep the tree.

@@ -96,6 +96,7 @@ class SceneView {
           break;
         case ObjectKind::kFrame:
           dict["type"] = std::string(frame_kind_name(world.frame_kind(object.id)));
+          dict["carrier"] = world.frame_link(object.id);
           break;
       }
       objects.append(dict);
@@ -119,6 +120,7 @@ class SceneView {
       dict["parent"] = object.parent;
       dict["pose"] = pose_list(world.pose(id));
       dict["type"] = std::string(frame_kind_name(world.frame_kind(id)));
+      dict["carrier"] = world.frame_link(id);
       dict["hidden"] = false;
       dict["model"] = kNoObject;
       objects.append(dict);

@@ -76,10 +76,12 @@ void bind_world(py::module_& module) {
       .def(
           "parts",
           [](const World& w, ObjectId model, const std::string& kind) {
-            for (const ObjectKind each : {ObjectKind::kLink, ObjectKind::kJoint, ObjectKind::kSensor, ObjectKind::kFrame}) {
+            for (const ObjectKind each :
+                 {ObjectKind::kLink, ObjectKind::kJoint, ObjectKind::kSensor, ObjectKind::kFrame}) {
               if (kind == kind_name(each)) return w.tree().parts(model, each);
             }
-            throw InvalidInput("the parts of a model are of the kinds link, joint, sensor and frame, not '" + kind + "'");
+            throw InvalidInput("the parts of a model are of the kinds link, joint, sensor and frame, not '" + kind +
+                               "'");
           },
           py::arg("model"), py::arg("kind"), "Return the parts of a model, wherever they are in the tree.")
       .def(
@@ -104,8 +106,9 @@ void bind_world(py::module_& module) {
           },
           "Return x, y, z (m) and the normal force (N) of each contact point of the last physics substep.")
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
-      .def("children", [](const World& w, ObjectId id) { return w.tree().children(id); },
-           "Return the children of an object; those of -1 are the objects at the top.")
+      .def(
+          "children", [](const World& w, ObjectId id) { return w.tree().children(id); },
+          "Return the children of an object; those of -1 are the objects at the top.")
       .def(
           "sensor_topic",
           [](const World& w, ObjectId id) {

@@ -121,8 +121,6 @@ def test_a_stop_puts_a_dummy_of_the_file_back(sim: Any) -> None:
     sim.setObjectPosition(goal, [9, 0, 0])
     assert sim.getObject("/box/mark") == goal
     sim.stopSimulation()
-    while sim.getSimulationState() != sim.simulation_stopped:
-        sim.switchThread()
     assert (sim.getObjectParent(goal), sim.getObject("/goal")) == (-1, goal)
     np.testing.assert_allclose(sim.getObjectPosition(goal), [4, 0, 0], atol=1e-9)
 

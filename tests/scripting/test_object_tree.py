@@ -175,6 +175,28 @@ assert 'cannot be attached to itself' in refused(sim.setObjectParent, robot, mot
     check(tmp_path, body)
 
 
+def test_copies_are_where_the_originals_are(tmp_path: Path) -> None:
+    rest = """
+def sysCall_actuation():
+    if sim.getSimulationTime() > 0:
+        return
+    load, goal = sim.getObject('/load'), sim.getObject('/goal')
+    sim.setObjectParent(goal, load, True)
+    first, second = sim.copyPasteObjects([load, goal])
+    near(sim.getObjectPosition(first), [1, 2, 3])
+    near(sim.getObjectPosition(second), [4, 0, 0])
+    assert sim.getObjectParent(first) == -1 and sim.getObjectParent(second) == first
+    assert sim.getObject('/load', {'index': 1}) == load and sim.getObject('/load/goal') == second  # nearest to the top
+    sim.setObjectPosition(first, [0, 0, 0])
+    near(sim.getObjectPosition(load), [1, 2, 3])
+    near(sim.getObjectPosition(second), [3, -2, -3])
+    tree = sim.copyPasteObjects([sim.getObject('/Robot')], 1)[0]
+    assert names(sim.getObjectsInTree(tree)) == names(sim.getObjectsInTree(sim.getObject('/Robot')))
+    assert 'cannot be copied on its own' in refused(sim.copyPasteObjects, [sim.getObject('/motor')])
+"""
+    check(tmp_path, "pass", rest=rest)
+
+
 def test_free_bodies_are_removed_and_parts_are_not(tmp_path: Path) -> None:
     body = """
 load = sim.getObject('/load')

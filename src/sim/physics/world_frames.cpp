@@ -110,6 +110,11 @@ FrameKind World::frame_kind(ObjectId frame) const {
   throw WrongObject(state_->shown(frame) + " is a " + std::string(kind_name(object.kind)) + ", not a frame");
 }
 
+ObjectId World::frame_link(ObjectId frame) const {
+  frame_kind(frame);  // throws
+  return state_->frames.at(frame).link;
+}
+
 void World::set_parent(ObjectId object, ObjectId parent) {
   changing_tree(*state_).set_parent(object, parent);
   const auto carry_along = [this](const auto& self, ObjectId id) -> void {

@@ -177,7 +177,7 @@ struct PlacedModel {
   std::deque<Collider> colliders;   // likewise
   std::vector<PlacedJoint> joints;
   std::vector<Lever> levers;
-  std::vector<Pose> sensors;                         // in the frame of their link or joint
+  std::vector<Pose> sensors;  // in the frame of their link or joint
   std::vector<const SensorDescription*> described_sensors;
   std::map<std::size_t, MotionMeter> motion_meters;  // of its inertial measurement units, by their index in `sensors`
   PlanarMotor planar_motor;
@@ -224,7 +224,7 @@ struct World::State {
   double last_duration = 0;  // s, of the last advance()
   std::uint64_t seed;
   std::shared_ptr<const SceneTree> shared_tree;
-  std::shared_ptr<SceneTree> own_tree;      // the same, if the world has changed it
+  std::shared_ptr<SceneTree> own_tree;  // the same, if the world has changed it
   std::map<ObjectId, PlacedFrame> frames;
   std::shared_ptr<const std::vector<FrameDescription>> scene_frames;  // of no model, of the scene
 

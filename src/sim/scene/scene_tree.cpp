@@ -121,6 +121,7 @@ ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId part_of, std
   added.index = index;
   if (added.is_outermost_model()) models_.push_back(id);
   place.object = std::move(added);
+  place.first_alias.clear();
   place.added = added_++;
   ++size_;
   if (const ObjectId whole = outermost_model_of(id); whole != kNoObject) parts_[whole].push_back(id);
@@ -211,7 +212,10 @@ void SceneTree::set_alias(ObjectId id, std::string alias) {
     return known != by_alias_.end() && std::find(known->second.begin(), known->second.end(), id) != known->second.end();
   }();
   forget_name(named);
+  std::string& first = places_[index_of(id)].first_alias;
+  if (first.empty()) first = named.alias;
   named.alias = std::move(alias);
+  named.is_renamed = named.alias != first;
   if (is_found) by_alias_[named.alias].push_back(id);
 }
 
@@ -362,7 +366,9 @@ std::vector<ObjectId> SceneTree::matches(std::string_view path, ObjectId from, s
           const Object& object = at(id);
           if (object.parent != last_parent) sibling = 0;
           last_parent = object.parent;
-          if (fits(object.*name, segment.name) && (!segment.among_siblings || *segment.among_siblings == sibling++)) {
+          const bool has_name = name == &Object::alias || !object.is_renamed;
+          if (has_name && fits(object.*name, segment.name) &&
+              (!segment.among_siblings || *segment.among_siblings == sibling++)) {
             found.push_back(id);
           }
           next.insert(next.end(), object.children.begin(), object.children.end());

@@ -62,7 +62,7 @@ SceneDescription tree_scene() {
 
 std::vector<std::string> names(const SceneTree& tree, const std::vector<ObjectId>& objects) {
   std::vector<std::string> found;
-  for (const ObjectId id : objects) found.push_back(tree.at(id).name);
+  for (const ObjectId id : objects) found.push_back(tree.at(id).alias);
   return found;
 }
 
@@ -146,7 +146,7 @@ TEST_F(ObjectTree, CarriesAFrameWithItsNewParent) {
   world.set_parent(path, find("/motor"));
   EXPECT_EQ(world.tree().path(find("/mark")), "/base/motor/path/mark");
   expect_near(world.pose(find("/mark")), Pose(4, 1, 0, 0, 0, 0), 1e-12);  // nothing moves
-  world.set_joint_position(find("/motor"), M_PI);  // half a turn about (1, 2.5)
+  world.set_joint_position(find("/motor"), M_PI);                         // half a turn about (1, 2.5)
   expect_near(world.pose(find("/mark")), Pose(-2, 4, 0, 0, 0, M_PI), 1e-12);
   world.set_parent(path, kNoObject);
   world.set_joint_position(find("/motor"), 0);

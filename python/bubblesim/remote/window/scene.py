@@ -32,9 +32,9 @@ def events(window: Window, since: int = 0) -> dict[str, Any]:
 def models(window: Window, known: list[int] | None = None) -> dict[str, Any]:
     """Return the objects of all models, except of those whose handles are known, and the handles of all models.
 
-    ``frames`` are all dummies and other objects of no model. ``links`` are the handles of the links whose poses are in the frames, in their order; ``axes`` are pairs of joint
-    and axis of the joint positions in the frames. ``colours`` are pairs of a link and the colour that was set
-    for it.
+    ``frames`` are all dummies and other objects of no model. ``links`` are the handles of the links whose poses are in
+    the frames of the run, in their order; ``axes`` are pairs of joint and axis of the joint positions there.
+    ``colours`` are pairs of a link and the colour that was set for it.
     """
     simulation = window.simulation
     handles = [int(model) for model in simulation.world.models]

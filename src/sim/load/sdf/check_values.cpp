@@ -18,6 +18,7 @@ namespace {
 
 /// The only element of bubblesim that may occur several times in its parent.
 constexpr const char* kRandomize = "bubblesim:randomize";
+constexpr const char* kObject = "bubblesim:object";
 
 std::optional<std::vector<double>> numbers_in(const std::string& text) {
   std::vector<double> numbers;
@@ -234,7 +235,7 @@ void check_values(XmlElement& element, const ElementKind& kind, const std::strin
     if (is_own_element(child.name)) {
       if (known == nullptr) {
         context.report(child.source(), path, own_problem(child, element));
-      } else if (child.name != kRandomize && element.child(child.name) != &child) {
+      } else if (child.name != kRandomize && child.name != kObject && element.child(child.name) != &child) {
         context.report(child.source(), path, "<" + child.name + "> occurs twice");
       }
       continue;

@@ -37,9 +37,9 @@ class ObjectChangeFunctions(ApiContext):
         """Attach an object to another one or, with -1, to the world. ``keep_in_place``: its pose in the world stays,
         else its pose relative to the parent.
 
-        A dummy moves with its parent. As in the original, a model moves along when its parent is set to a pose; physics moves it along if it is static
-        (sim.shapeintparam_static), or if the parent is a force-torque sensor, which holds it. The parent does not feel
-        its weight. Parts of a model that physics holds elsewhere cannot be attached.
+        A dummy moves with its parent. As in the original, a model moves along when its parent is set to a pose; physics
+        moves it along if it is static (sim.shapeintparam_static), or if the parent is a force-torque sensor, which
+        holds it. The parent does not feel its weight. Parts of a model that physics holds elsewhere cannot be attached.
         """
         handle = self._resolve(handle)
         parent = parent if parent == self.handle_world else self._resolve(parent)
@@ -200,14 +200,18 @@ class ObjectChangeFunctions(ApiContext):
 
     def _add_model(self, text: str, name: str) -> int:
         """Add a model from the text of its file; a name that is taken gets a number."""
+        with self._stand_in():
+            model = int(self._simulation.add_model(text, name=self._free_name(name)).handle)
+        self._edits.texts[model] = text
+        return model
+
+    def _free_name(self, name: str) -> str:
+        """Return the name of a model, or the name with the next free number."""
         taken = {str(self._world.name(handle)) for handle in self._world.models}
         number = 1
         while (free := name if number == 1 else f"{name}_{number}") in taken:
             number += 1
-        with self._stand_in():
-            model = int(self._simulation.add_model(text, name=free).handle)
-        self._edits.texts[model] = text
-        return model
+        return free
 
     def _remove_model(self, handle: int) -> None:
         with self._stand_in():

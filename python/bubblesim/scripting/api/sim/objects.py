@@ -8,7 +8,17 @@ import contextlib
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
 from bubblesim.scripting.api.checked_calls import value_first
-from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, NameOrHandle, Options, Vector3, Vector4, Vector7, Vector12
+from bubblesim.scripting.api.kinds import (
+    INTEGER,
+    NO_OPTIONS,
+    Handle,
+    NameOrHandle,
+    Options,
+    Vector3,
+    Vector4,
+    Vector7,
+    Vector12,
+)
 from bubblesim.scripting.api.sim.context import ApiContext
 
 Vector = list[float]
@@ -20,8 +30,10 @@ class ObjectFunctions(ApiContext):
     """Positions in metres, quaternions x, y, z, w, Euler angles in radians (about the moving x, then y, then z)."""
 
     def getObject(self, path: str, options: Options = NO_OPTIONS) -> int:
-        """Return the handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'. '..' of an object at the top
-        is the object itself, as for scripts of CoppeliaSim 4.7, which are below their object.
+        """Return the handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
+
+        '..' of an object at the top is the object itself, as for scripts of CoppeliaSim 4.7, which are below their
+        object.
 
         Options: ``index`` selects one of several matches, ``noError`` returns -1 if there is none, ``proxy`` is the
         object where relative paths start.
@@ -114,7 +126,9 @@ class ObjectFunctions(ApiContext):
         """
         if base == self.handle_scene:
             roots = self._tree.children(WORLD)
-            found = [handle for root in roots for handle in ([root] if options & 2 else self._tree.with_all_below(root))]
+            found = [
+                handle for root in roots for handle in ([root] if options & 2 else self._tree.with_all_below(root))
+            ]
         else:
             base = self._resolve(base)
             below = self._tree.children(base) if options & 2 else self._tree.with_all_below(base)[1:]
