@@ -241,7 +241,7 @@ class World {
   /// Saving throws Diverged after a divergence.
   void transfer(StateArchive& archive);
 
-  struct State;  // see src/sim/physics/world_state.hpp
+  struct State;  // see src/sim/physics/world/state.hpp
 
  private:
   void build(const Scene& scene, std::uint64_t seed);

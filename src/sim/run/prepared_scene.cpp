@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "check/scene_check.hpp"
-#include "physics/world_state.hpp"
+#include "physics/world/state.hpp"
 #include "rays/prepared_rays.hpp"
 #include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"

@@ -9,7 +9,7 @@
 
 #include "bubblesim/world.hpp"
 #include "meshes/made_meshes.hpp"
-#include "physics/collision_mesh.hpp"
+#include "physics/convex/collision_mesh.hpp"
 #include "polyhedra.hpp"
 #include "scenes.hpp"
 #include "surfaces.hpp"

@@ -11,7 +11,7 @@
 #include "physics/convex/gjk.hpp"
 #include "physics/convex/manifold.hpp"
 #include "physics/convex/penetration.hpp"
-#include "physics/ode_handles.hpp"
+#include "physics/ode/ode_handles.hpp"
 #include "polyhedra.hpp"
 #include "scenes.hpp"
 

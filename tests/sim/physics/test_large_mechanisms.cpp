@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/sparse_ldlt.hpp"
+#include "physics/ode/sparse_ldlt.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_large_mechanisms {

@@ -7,7 +7,7 @@
 #include "bubblesim/world.hpp"
 #include "meshes/finish_mesh.hpp"
 #include "meshes/made_meshes.hpp"
-#include "physics/collision_mesh.hpp"
+#include "physics/convex/collision_mesh.hpp"
 #include "scenes.hpp"
 #include "surfaces.hpp"
 

@@ -2,7 +2,7 @@
 // Combined parameters of two touching surfaces, compared with theory.
 #include <gtest/gtest.h>
 
-#include "physics/surface_pair.hpp"
+#include "physics/contacts/surface_pair.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_surfaces {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/body_state.hpp"
-#include "physics/contact_defaults.hpp"
+#include "physics/ode/body_state.hpp"
+#include "physics/ode/constraint_defaults.hpp"
 #include "physics/joints/kinds.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
-#include "physics/ode_math.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {

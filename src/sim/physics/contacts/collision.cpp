@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collision detection.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/contacts/contact_points.hpp"
+#include "physics/contacts/contact_thinning.hpp"
+#include "physics/contacts/round_contacts.hpp"
+#include "physics/contacts/surface_pair.hpp"
+#include "physics/world/state.hpp"
+
+namespace bubblesim {
+namespace {
+
+struct SearchData {
+  World::State& state;
+  double step;  // s
+};
+
+Vector3 turned(dGeomID geom, const Vector3& direction) {
+  dQuaternion q;
+  dGeomGetQuaternion(geom, q);
+  return to_quaternion(q) * direction;
+}
+
+/// Sets the friction direction, projected on the contact plane; does nothing when it is normal to the plane.
+void direct(const Vector3& wanted, dContact& contact) {
+  const dReal* n = contact.geom.normal;
+  const Vector3 normal(n[0], n[1], n[2]);
+  Vector3 along = wanted - normal * wanted.dot(normal);
+  if (along.norm() < 1e-3 * wanted.norm()) return;
+  along.normalize();
+  contact.surface.mode |= dContactFDir1;
+  for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
+}
+
+/// Makes rigid shapes sink to their rest depth, with a speed that decreases near it.
+void sink(double depth, const SurfacePair& pair, double step, dContact& contact) {
+  const double left = pair.sink - kSurfaceLayer - depth;
+  if (pair.sink_speed == 0 || left <= 0) return;
+  contact.surface.mode |= dContactMotionN;
+  contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
+}
+
+/// Whether a body sleeps. Null is the static world.
+bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
+
+bool sleeps(const PlacedModel& model) {
+  return std::all_of(model.links.begin(), model.links.end(), [](const Link& link) { return sleeps(link.body.get()); });
+}
+
+/// Whether joints or a motor act on the links of a model.
+bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.linear != nullptr; }
+
+void touch(void* data, dGeomID first, dGeomID second) {
+  auto& [state, step] = *static_cast<SearchData*>(data);
+  if (static_cast<const Collider*>(dGeomGetData(second))->number <
+      static_cast<const Collider*>(dGeomGetData(first))->number) {
+    std::swap(first, second);
+  }
+  const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
+  const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
+  if (a.link == b.link) return;
+  dBodyID body_a = dGeomGetBody(first);
+  dBodyID body_b = dGeomGetBody(second);
+  if (sleeps(body_a) && sleeps(body_b)) return;
+  if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
+
+  ContactPoints points;
+  const Surface& surface_a = a.surface();
+  const Surface& surface_b = b.surface();
+  const int most = std::max(std::min(surface_a.max_contacts, surface_b.max_contacts), 1);
+  const int count = std::min(find_contact_points(first, second, points), most);
+  if (count == 0) return;
+  place_on_round_shape(first, second, count, points.data());
+  state.islands.touch(a.island, b.island, count);
+  state.found.pairs.push_back({&a, &b, state.found.points.size(), count});
+  SurfacePair pair = combine(surface_a, surface_b, step);
+  share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
+  for (int i = 0; i < count; ++i) {
+    FoundContact& point = state.found.points.emplace_back();
+    point.has_own_correction = pair.has_own_correction;
+    dContact& contact = point.contact;
+    contact.surface = pair.ode;
+    contact.geom = points[static_cast<std::size_t>(i)];
+    if (pair.torsion_by_depth > 0) {
+      const double patch = pair.torsion_by_depth * std::sqrt(std::max(contact.geom.depth, 0.0));
+      contact.surface.rhoN = std::max(contact.surface.rhoN, patch);
+    }
+    sink(contact.geom.depth, pair, step, contact);
+    contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
+    if (pair.directed != nullptr) {
+      direct(turned(pair.directed == &surface_a ? first : second, pair.directed->fdir1), contact);
+    }
+  }
+}
+
+/// Pairs come in an order that depends on the state only, not on what the search went through before.
+void sort(std::vector<FoundPair>& pairs) {
+  const auto before = [](const FoundPair& a, const FoundPair& b) {
+    return std::make_pair(a.first->number, a.second->number) < std::make_pair(b.first->number, b.second->number);
+  };
+  if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
+}
+
+void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
+
+dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
+
+/// Searches the contacts of all awake bodies.
+void search(World::State& state, double step) {
+  dJointGroupEmpty(state.contacts.get());
+  state.found.clear();
+  state.islands.clear(state.moving.size());
+  for (std::size_t i = 0; i < state.moving.size(); ++i) {
+    if (is_jointed(*state.moving[i])) state.islands.set_jointed(static_cast<int>(i));
+  }
+  if (std::all_of(state.moving.begin(), state.moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) {
+    return;
+  }
+  SearchData data{state, step};
+  // Collide models with each other; shapes of one model collide only with self_collide.
+  if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &data, touch_spaces);
+  for (const PlacedModel* model : state.moving) {
+    dSpaceID space = model->space.get();
+    if (sleeps(*model)) continue;
+    if (model->description.self_collide) dSpaceCollide(space, &data, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &data, touch);
+    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &data, touch);
+  }
+}
+
+}  // namespace
+
+void find_contacts(World::State& state, double step) {
+  search(state, step);
+  while (wake_touched(state)) search(state, step);
+  sort(state.found.pairs);
+  if (state.islands.may_be_beyond_limit()) thin_out(state.found, state.islands);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Friction limits that agree with the normal forces of the same substep: see docs/adr/0024.
+#pragma once
+
+#include <vector>
+
+#include "bubblesim/world.hpp"
+#include "physics/contacts/found_contacts.hpp"
+
+namespace bubblesim {
+
+/// Solves those islands again in which the friction of ODE's exact solution does not follow from its normal forces. The
+/// normal force that limits the friction of a pair of shapes is a fixed point of "limit by it, solve"; Anderson's
+/// mixing of the last two solutions finds it (D. G. Anderson, "Iterative procedures for nonlinear integral equations",
+/// 1965). Its vectors are working memory.
+class FrictionIteration {
+ public:
+  /// Call after the exact solver; `state.bodies_before` are the bodies before it.
+  void run(World::State& state, double step);
+
+ private:
+  struct Pair {
+    const FoundPair* found = nullptr;
+    int island = 0;
+    double load = 0;     // N, sum of the normal forces that act
+    double relied = 0;   // N, sum of those that the friction relies on
+    double missing = 0;  // N, `load` less `relied`
+    double relied_before = 0;
+    double missing_before = 0;
+  };
+  struct Island {
+    bool again = false;  // to be solved again
+    bool disagrees = false;
+    double load = 0;    // N
+    double change = 0;  // N^2, product of what is missing and its change
+    double square = 0;  // N^2, of the change
+  };
+
+  void collect(World::State& state);
+  /// Compares friction and normal forces of the last solution; returns whether an island must be solved again.
+  bool judge(World::State& state);
+  /// Sets the limits of the next solution, and puts the bodies back.
+  void limit(World::State& state);
+  /// Puts the bodies of the islands that are solved again where they were before the solver.
+  void put_back(const World::State& state) const;
+  /// Returns whether there was a solution.
+  bool solve(World::State& state, double step);
+
+  bool is_again(int island) const { return islands_[static_cast<std::size_t>(island)].again; }
+  Island& island_of(const Pair& pair) { return islands_[static_cast<std::size_t>(pair.island)]; }
+
+  int solutions_ = 0;
+  std::vector<Pair> pairs_;
+  std::vector<Island> islands_;
+  std::vector<dBodyID> others_;
+};
+
+}  // namespace bubblesim
