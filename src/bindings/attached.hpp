@@ -21,7 +21,7 @@ struct Attached {
   World& world;
   std::shared_ptr<Kind> device;
 
-  void remove() { world.remove_device(*device); }
+  void remove() { world.devices().remove(*device); }
 };
 
 template <class Kind>
@@ -32,7 +32,7 @@ AccessLock& lock_of(const Attached<Kind>& attached) {
 template <class Kind>
 Attached<Kind> attach(World& world, std::shared_ptr<Kind> device, ObjectId model, double rate) {
   const HoldWithGil hold(world.access());
-  world.add_device(device, model, rate);
+  world.devices().add(device, model, rate);
   return {world, std::move(device)};
 }
 
@@ -42,7 +42,7 @@ Attached<Kind> attach_to_model_of(ObjectId object, Simulation& simulation, const
   World& world = simulation.world();
   const HoldWithGil hold(world.access());
   auto device = std::shared_ptr<Kind>(make(world));
-  world.add_device(device, world.tree().outermost_model_of(object));
+  world.devices().add(device, world.tree().outermost_model_of(object));
   return {world, std::move(device)};
 }
 

@@ -31,7 +31,7 @@ std::unique_ptr<ModelCopy> copy_model(Simulation& simulation, ObjectId model) {
   if (world.tree().at(model).parent != kNoObject) {
     throw InvalidInput(world.tree().short_path(model) + " is not a model of the top level");
   }
-  auto copy = std::make_unique<ModelCopy>(ModelCopy{world.description(model)});
+  auto copy = std::make_unique<ModelCopy>(ModelCopy{world.models().description(model)});
   copy->description.pose = world.pose(model);
   return copy;
 }

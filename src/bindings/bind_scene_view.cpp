@@ -56,7 +56,7 @@ class SceneView {
     py::list lights;
     for (const Light& light : surroundings.lights) lights.append(light_dict(light));
     dict["lights"] = lights;
-    dict["gravity"] = to_list(simulation.world().gravity());
+    dict["gravity"] = to_list(simulation.world().properties().gravity());
     return dict;
   }
 
@@ -65,7 +65,7 @@ class SceneView {
     const HoldWithGil hold(lock_of(simulation));
     const World& world = simulation.world();
     const SceneTree& tree = world.tree();
-    const ModelDescription& description = world.description(model);
+    const ModelDescription& description = world.models().description(model);
     if (tree.at(model).parent != kNoObject) throw InvalidInput(tree.path(model) + " is not a model of the top level");
     const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                      [](const LinkDescription& link) { return !link.visuals.empty(); });
@@ -266,14 +266,14 @@ class SceneView {
   }
 
   static void add_joint(const py::dict& dict, const World& world, ObjectId joint) {
-    const JointDescription& description = world.joint_description(joint);
-    const auto [parent, child] = world.joint_links(joint);
+    const JointDescription& description = world.joints().description(joint);
+    const auto [parent, child] = world.joints().links(joint);
     dict["type"] = description.type;
     dict["parent_link"] = parent;
     dict["child_link"] = child;
-    dict["pose"] = pose_list(world.joint_child_pose(joint));  // the axes are fixed in the child
+    dict["pose"] = pose_list(world.joints().child_pose(joint));  // the axes are fixed in the child
     py::list axes;
-    const int axis_count = world.joint_axes(joint);
+    const int axis_count = world.joints().axes(joint);
     for (int i = 0; i < axis_count && i < static_cast<int>(description.axes.size()); ++i) {
       const AxisDescription& axis = description.axes[static_cast<std::size_t>(i)];
       py::dict of_axis;
@@ -290,7 +290,7 @@ class SceneView {
   }
 
   static void add_sensor(const py::dict& dict, const World& world, const Object& sensor) {
-    const SensorDescription& description = world.sensor_description(sensor.id);
+    const SensorDescription& description = world.models().sensor_description(sensor.id);
     dict["type"] = description.type;
     dict["pose_in_parent"] = pose_list(description.pose);
     dict["update_rate"] = description.update_rate;

@@ -51,7 +51,7 @@ py::tuple proximity_tuple(const Simulation& simulation, ObjectId sensor, const P
 py::tuple camera_optics(Simulation& simulation, ObjectId sensor) {
   const World& world = simulation.world();
   const std::string_view kind = simulation.sensor_kind(sensor);
-  const auto* camera = world.sensor_description(sensor).kind.get_if<CameraDescription>();
+  const auto* camera = world.models().sensor_description(sensor).kind.get_if<CameraDescription>();
   if (camera != nullptr) return py::make_tuple(camera->width, camera->height, camera->horizontal_fov);
   throw WrongObject(world.tree().short_path(sensor) + " is a " + std::string(kind) + ", not a camera");
 }

@@ -61,7 +61,7 @@ struct ShapeDescriber {
 
 std::vector<CollisionShape> collisions(const Simulation& simulation) {
   std::vector<CollisionShape> shapes;
-  for (const PlacedShape& shape : simulation.world().shapes()) {
+  for (const PlacedShape& shape : simulation.world().geometry().shapes()) {
     ShapeText text = std::visit(ShapeDescriber{}, shape.geometry);
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     shapes.push_back({simulation.world().tree().path(shape.link), std::move(text.kind), std::move(text.size),

@@ -24,12 +24,31 @@ Pose7 pose_in(const World& world, ObjectId object, const Pose& frame) {
   return to_list(frame.inverse() * world.pose(object));
 }
 
+/// Functions of World's Python class that are those of a part in C++.
+template <class Result, class... Arguments>
+auto of_joints(Result (WorldJoints::*function)(Arguments...) const) {
+  return [function](const World& w, Arguments... arguments) { return (w.joints().*function)(arguments...); };
+}
+
+template <class... Arguments>
+auto of_joints(void (WorldJoints::*function)(Arguments...)) {
+  return [function](World& w, Arguments... arguments) { (w.joints().*function)(arguments...); };
+}
+
+auto of_properties(double (WorldProperties::*function)(ObjectId) const) {
+  return [function](const World& w, ObjectId object) { return (w.properties().*function)(object); };
+}
+
+auto of_properties(void (WorldProperties::*function)(ObjectId, double)) {
+  return [function](World& w, ObjectId object, double value) { (w.properties().*function)(object, value); };
+}
+
 std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
   switch (world.tree().at(object).kind) {
     case ObjectKind::kModel:
-      return world.description(object).plugins;
+      return world.models().description(object).plugins;
     case ObjectKind::kSensor:
-      return world.sensor_description(object).plugins;
+      return world.models().sensor_description(object).plugins;
     default:
       return {};
   }
@@ -56,7 +75,7 @@ void bind_world(py::module_& module) {
           "alias", [](const World& w, ObjectId id) { return w.tree().at(id).alias; },
           "Return the object's name in paths: its <bubblesim:alias>, or its name.")
       .def("kind", [](const World& w, ObjectId id) { return std::string(kind_name(w.tree().at(id).kind)); })
-      .def("is_static", [](const World& w, ObjectId id) { return w.description(id).is_static; })
+      .def("is_static", [](const World& w, ObjectId id) { return w.models().description(id).is_static; })
       .def("path", [](const World& w, ObjectId id) { return w.tree().path(id); })
       .def("short_path", [](const World& w, ObjectId id) { return w.tree().short_path(id); })
       .def("parent", [](const World& w, ObjectId id) { return w.tree().at(id).parent; })
@@ -66,7 +85,7 @@ void bind_world(py::module_& module) {
           "contact_points",
           [](const World& w) {
             py::list points;
-            for (const TouchPoint& point : w.contact_points()) {
+            for (const TouchPoint& point : w.measurements().contact_points()) {
               const Vector3& at = point.position;
               points.append(py::make_tuple(at.x(), at.y(), at.z(), point.normal_force));
             }
@@ -78,7 +97,7 @@ void bind_world(py::module_& module) {
       .def(
           "sensor_topic",
           [](const World& w, ObjectId id) {
-            const SensorDescription& sensor = w.sensor_description(id);
+            const SensorDescription& sensor = w.models().sensor_description(id);
             return py::make_tuple(sensor.topic, sensor.frame, sensor.update_rate);
           },
           py::arg("sensor"),
@@ -86,7 +105,7 @@ void bind_world(py::module_& module) {
       .def(
           "gz_topic",
           [](const World& w, ObjectId id) {
-            const SensorDescription& sensor = w.sensor_description(id);
+            const SensorDescription& sensor = w.models().sensor_description(id);
             return py::make_tuple(sensor.type, sensor.gz.topic, sensor.gz.info_topic, sensor.gz.frame);
           },
           py::arg("sensor"),
@@ -97,7 +116,7 @@ void bind_world(py::module_& module) {
           [](const World& w, const std::string& signal) {
             for (const ObjectId id : w.tree().objects()) {
               if (w.tree().at(id).kind != ObjectKind::kSensor) continue;
-              const auto* lidar = w.sensor_description(id).kind.get_if<LidarDescription>();
+              const auto* lidar = w.models().sensor_description(id).kind.get_if<LidarDescription>();
               if (lidar != nullptr && lidar->signal == signal) return id;
             }
             return kNoObject;
@@ -107,7 +126,7 @@ void bind_world(py::module_& module) {
       .def(
           "sonar_limits",
           [](const World& w, ObjectId id) {
-            const auto* sonar = w.sensor_description(id).kind.get_if<SonarDescription>();
+            const auto* sonar = w.models().sensor_description(id).kind.get_if<SonarDescription>();
             if (sonar == nullptr) throw WrongObject(w.tree().short_path(id) + " is not a proximity sensor");
             return py::make_tuple(sonar->min_range, sonar->max_range, sonar->half_angle);
           },
@@ -142,14 +161,14 @@ void bind_world(py::module_& module) {
           "apply_wrench",
           [](World& w, ObjectId id, const std::array<double, 3>& force, const std::array<double, 3>& torque,
              const std::optional<std::array<double, 3>>& point, bool local) {
-            w.apply_wrench(id, {to_vector(force), to_vector(torque)},
+            w.wrenches().apply(id, {to_vector(force), to_vector(torque)},
                            point ? std::make_optional(to_vector(*point)) : std::nullopt,
                            local ? WrenchFrame::kObject : WrenchFrame::kWorld);
           },
           py::arg("object"), py::arg("force"), py::arg("torque") = std::array<double, 3>{}, py::kw_only(),
           py::arg("point") = py::none(), py::arg("local") = false,
           "Push a link or model in the next step, N and N m; see Object.apply_wrench.")
-      .def("clear_wrench", &World::clear_wrench, py::arg("object"), py::arg("force") = true, py::arg("torque") = true,
+      .def("clear_wrench", [](World& w, ObjectId id, bool force, bool torque) { w.wrenches().clear(id, force, torque); }, py::arg("object"), py::arg("force") = true, py::arg("torque") = true,
            "Remove the forces or torques that were applied for the next step, or both.")
       .def("set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
            py::arg("turning"),
@@ -162,47 +181,47 @@ void bind_world(py::module_& module) {
       .def(
           "acceleration", [](const World& w, ObjectId id) { return to_list(w.acceleration(id)); },
           "Return the velocity of the object's origin, world axes: the mean over the last step.")
-      .def_property_readonly("gravity", [](const World& w) { return to_list(w.gravity()); })
+      .def_property_readonly("gravity", [](const World& w) { return to_list(w.properties().gravity()); })
       .def(
-          "set_gravity", [](World& w, const std::array<double, 3>& gravity) { w.set_gravity(to_vector(gravity)); },
+          "set_gravity", [](World& w, const std::array<double, 3>& gravity) { w.properties().set_gravity(to_vector(gravity)); },
           py::arg("gravity"), "Set the gravity, m/s^2, until the world is reset.")
-      .def("mass", &World::mass, py::arg("object"), "Return the mass of a link or of all links of a model, kg.")
-      .def("set_mass", &World::set_mass, py::arg("object"), py::arg("mass"),
+      .def("mass", of_properties(&WorldProperties::mass), py::arg("object"), "Return the mass of a link or of all links of a model, kg.")
+      .def("set_mass", of_properties(&WorldProperties::set_mass), py::arg("object"), py::arg("mass"),
            "Set the mass, kg, until the world is reset; the inertia is scaled. That of a model is scaled as a whole.")
-      .def("friction", &World::friction, py::arg("object"), "Return the friction coefficient of its first collision.")
-      .def("set_friction", &World::set_friction, py::arg("object"), py::arg("mu"),
+      .def("friction", of_properties(&WorldProperties::friction), py::arg("object"), "Return the friction coefficient of its first collision.")
+      .def("set_friction", of_properties(&WorldProperties::set_friction), py::arg("object"), py::arg("mu"),
            "Set the friction coefficient of all collisions of a link or model, until the world is reset.")
-      .def("joint_position", &World::joint_position, py::arg("joint"), py::arg("axis") = 0)
-      .def("joint_velocity", &World::joint_velocity, py::arg("joint"), py::arg("axis") = 0)
-      .def("motor_effort", &World::motor_effort, py::arg("joint"), py::arg("axis") = 0,
+      .def("joint_position", of_joints(&WorldJoints::position), py::arg("joint"), py::arg("axis") = 0)
+      .def("joint_velocity", of_joints(&WorldJoints::velocity), py::arg("joint"), py::arg("axis") = 0)
+      .def("motor_effort", of_joints(&WorldJoints::motor_effort), py::arg("joint"), py::arg("axis") = 0,
            "Return the effort of the motor on the child, the mean over the last step; 0 without a motor.")
-      .def("joint_links", &World::joint_links, py::arg("joint"),
+      .def("joint_links", of_joints(&WorldJoints::links), py::arg("joint"),
            "Return the handles of the parent link and the child link; -1 is the world.")
-      .def("joint_axes", &World::joint_axes, py::arg("joint"), "Return the number of axes.")
-      .def("target_position", &World::target_position, py::arg("joint"), py::arg("axis") = 0)
-      .def("target_velocity", &World::target_velocity, py::arg("joint"), py::arg("axis") = 0)
-      .def("target_effort", &World::target_effort, py::arg("joint"), py::arg("axis") = 0)
-      .def("max_force", &World::max_force, py::arg("joint"), py::arg("axis") = 0)
-      .def("motor_mode", &World::motor_mode, py::arg("joint"), py::arg("axis") = 0)
-      .def("set_motor_mode", &World::set_motor_mode, py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
+      .def("joint_axes", of_joints(&WorldJoints::axes), py::arg("joint"), "Return the number of axes.")
+      .def("target_position", of_joints(&WorldJoints::target_position), py::arg("joint"), py::arg("axis") = 0)
+      .def("target_velocity", of_joints(&WorldJoints::target_velocity), py::arg("joint"), py::arg("axis") = 0)
+      .def("target_effort", of_joints(&WorldJoints::target_effort), py::arg("joint"), py::arg("axis") = 0)
+      .def("max_force", of_joints(&WorldJoints::max_force), py::arg("joint"), py::arg("axis") = 0)
+      .def("motor_mode", of_joints(&WorldJoints::motor_mode), py::arg("joint"), py::arg("axis") = 0)
+      .def("set_motor_mode", of_joints(&WorldJoints::set_motor_mode), py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
            "Set the MotorMode, until the world is reset.")
-      .def("set_target_position", &World::set_target_position, py::arg("joint"), py::arg("position"),
+      .def("set_target_position", of_joints(&WorldJoints::set_target_position), py::arg("joint"), py::arg("position"),
            py::arg("axis") = 0)
-      .def("set_target_velocity", &World::set_target_velocity, py::arg("joint"), py::arg("velocity"),
+      .def("set_target_velocity", of_joints(&WorldJoints::set_target_velocity), py::arg("joint"), py::arg("velocity"),
            py::arg("axis") = 0)
-      .def("set_target_effort", &World::set_target_effort, py::arg("joint"), py::arg("effort"), py::arg("axis") = 0,
+      .def("set_target_effort", of_joints(&WorldJoints::set_target_effort), py::arg("joint"), py::arg("effort"), py::arg("axis") = 0,
            "Set the force or torque on the child of an effort-controlled joint; its force limit applies.")
-      .def("joint_type", [](const World& w, ObjectId joint) { return w.joint_description(joint).type; })
+      .def("joint_type", [](const World& w, ObjectId joint) { return w.joints().description(joint).type; })
       .def(
           "joint_limits",
           [](const World& w, ObjectId joint) {
-            const JointDescription& description = w.joint_description(joint);
+            const JointDescription& description = w.joints().description(joint);
             if (description.axes.empty()) return std::make_pair(0.0, 0.0);
             return std::make_pair(description.axes.front().lower, description.axes.front().upper);
           },
           "Return the lower and upper limit of a joint's first axis; infinite without limits.")
-      .def("set_joint_position", &World::set_joint_position, py::arg("joint"), py::arg("position"))
-      .def("set_max_force", &World::set_max_force, py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
+      .def("set_joint_position", of_joints(&WorldJoints::set_position), py::arg("joint"), py::arg("position"))
+      .def("set_max_force", of_joints(&WorldJoints::set_max_force), py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
 }
 
 }  // namespace bubblesim::bindings

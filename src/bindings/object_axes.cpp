@@ -10,7 +10,7 @@ namespace {
 const Quaternion kLookingAlongZ(0.5, 0.5, 0.5, 0.5);
 
 Quaternion joint_axes(const World& world, ObjectId joint) {
-  const JointDescription& description = world.joint_description(joint);
+  const JointDescription& description = world.joints().description(joint);
   // The second axis of a joint is an object below the joint.
   const bool is_second = world.tree().at(world.tree().at(joint).parent).kind == ObjectKind::kJoint;
   if (description.axes.empty()) return Quaternion();
@@ -26,9 +26,9 @@ bool looks_along_an_axis(const SensorDescription& sensor) {
 Quaternion object_axes(const World& world, ObjectId object) {
   const ObjectKind kind = world.tree().at(object).kind;
   if (kind != ObjectKind::kJoint && kind != ObjectKind::kSensor) return Quaternion();
-  if (world.description(object).axes != AxisConvention::kCoppeliaSim) return Quaternion();
+  if (world.models().description(object).axes != AxisConvention::kCoppeliaSim) return Quaternion();
   if (kind == ObjectKind::kJoint) return joint_axes(world, object);
-  return looks_along_an_axis(world.sensor_description(object)) ? kLookingAlongZ : Quaternion();
+  return looks_along_an_axis(world.models().sensor_description(object)) ? kLookingAlongZ : Quaternion();
 }
 
 }  // namespace bubblesim::bindings

@@ -166,7 +166,7 @@ void RunLoop::publish_frame() {
   for (const ObjectId link : next->layout->links) next->poses.push_back(to_frame(world.pose(link)));
   next->joint_positions.reserve(next->layout->axes.size());
   for (const auto& [joint, axis] : next->layout->axes) {
-    next->joint_positions.push_back(static_cast<float>(world.joint_position(joint, axis)));
+    next->joint_positions.push_back(static_cast<float>(world.joints().position(joint, axis)));
   }
   if (memory_) memory_->write(*next);
   std::atomic_store(&frame_, std::shared_ptr<const Frame>(std::move(next)));

@@ -40,7 +40,7 @@ struct Recorder : Device {
 /// A constant push.
 struct Pusher : Device {
   Pusher(ObjectId link, double force) : link_(link), force_(force) {}
-  void update(World& world, double, double) override { world.apply_wrench(link_, {{force_, 0, 0}, {}}); }
+  void update(World& world, double, double) override { world.wrenches().apply(link_, {{force_, 0, 0}, {}}); }
 
   ObjectId link_;
   double force_;
@@ -50,7 +50,7 @@ class Devices : public ::testing::Test {
  protected:
   std::shared_ptr<Recorder> add(double rate) {
     auto device = std::make_shared<Recorder>();
-    world.add_device(device, kNoObject, rate);
+    world.devices().add(device, kNoObject, rate);
     return device;
   }
   static void expect_near(const std::vector<double>& found, const std::vector<double>& wanted) {
@@ -112,14 +112,14 @@ TEST_F(Devices, AreCalledInTheOrderInWhichTheyWereAdded) {
     int name_;
   };
   std::vector<int> log;
-  for (const int name : {1, 2, 3}) world.add_device(std::make_shared<Named>(log, name));
+  for (const int name : {1, 2, 3}) world.devices().add(std::make_shared<Named>(log, name));
   world.advance(0.01, 0.005);
   EXPECT_EQ(log, (std::vector<int>{1, 2, 3, 1, 2, 3}));
 }
 
 TEST_F(Devices, PushUntilTheirNextUpdate) {
   const ObjectId link = world.tree().find("/First/link");
-  world.add_device(std::make_shared<Pusher>(link, 3.0), kNoObject, 100);
+  world.devices().add(std::make_shared<Pusher>(link, 3.0), kNoObject, 100);
   for (int i = 0; i < 10; ++i) world.advance(0.1, kMillisecond);
   EXPECT_NEAR(world.velocity(link).linear.x(), 3.0, 1e-9) << "3 N during 1 s on 1 kg";
   EXPECT_NEAR(world.pose(link).position.x(), 1.5, 2e-3);
@@ -130,15 +130,15 @@ TEST_F(Devices, CommandJoints) {
     void update(World& servo_world, double, double) override {
       const ObjectId hinge = servo_world.tree().find("/joint");
       const double wanted = 0.5;
-      servo_world.set_target_effort(
-          hinge, 100 * (wanted - servo_world.joint_position(hinge)) - 20 * servo_world.joint_velocity(hinge));
+      servo_world.joints().set_target_effort(
+          hinge, 100 * (wanted - servo_world.joints().position(hinge)) - 20 * servo_world.joints().velocity(hinge));
     }
   };
   JointDescription hinge = joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kEffort)}, {}, "world");
   World arm(jointed(hinge), 0);
-  arm.add_device(std::make_shared<Servo>(), arm.tree().find("/Robot"), 1000);
+  arm.devices().add(std::make_shared<Servo>(), arm.tree().find("/Robot"), 1000);
   arm.advance(3, kMillisecond);
-  EXPECT_NEAR(arm.joint_position(arm.tree().find("/joint")), 0.5, 1e-6) << "a PD controller at 1 kHz";
+  EXPECT_NEAR(arm.joints().position(arm.tree().find("/joint")), 0.5, 1e-6) << "a PD controller at 1 kHz";
 }
 
 TEST_F(Devices, AreToldOfAReset) {
@@ -152,7 +152,7 @@ TEST_F(Devices, AreToldOfAReset) {
 
 TEST_F(Devices, StartAgainIdenticallyAfterAReset) {
   const ObjectId link = world.tree().find("/First/link");
-  world.add_device(std::make_shared<Pusher>(link, 3.0), kNoObject, 300);
+  world.devices().add(std::make_shared<Pusher>(link, 3.0), kNoObject, 300);
   const auto run = [&] {
     world.advance(0.123, kMillisecond);
     return world.state_hash();
@@ -172,16 +172,16 @@ TEST_F(Devices, ArePartOfTheStateHash) {
 TEST_F(Devices, LeaveWithTheirModel) {
   const ObjectId first = world.tree().find("/First");
   const ObjectId link = world.tree().find("/First/link");
-  world.add_device(std::make_shared<Pusher>(link, 3.0), first);
+  world.devices().add(std::make_shared<Pusher>(link, 3.0), first);
   world.advance(0.01, 0.005);
-  world.remove_model(first);
+  world.models().remove(first);
   EXPECT_NO_THROW(world.advance(0.01, 0.005));
 }
 
 TEST_F(Devices, CanBeRemoved) {
   const auto device = add(0);
-  world.remove_device(*device);
-  world.remove_device(*device);
+  world.devices().remove(*device);
+  world.devices().remove(*device);
   world.advance(0.01, 0.005);
   EXPECT_TRUE(device->times.empty());
   EXPECT_EQ(world.state_hash(), [] {
@@ -192,22 +192,22 @@ TEST_F(Devices, CanBeRemoved) {
 }
 
 TEST_F(Devices, InvalidOnesAreRefused) {
-  EXPECT_THROW(world.add_device(nullptr), InvalidInput);
-  EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), kNoObject, -1), InvalidInput);
-  EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), kNoObject, kNaN), InvalidInput);
-  EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), world.tree().find("/First/link")), WrongObject);
-  EXPECT_THROW(world.add_device(std::make_shared<Recorder>(), 12345), NoSuchObject);
+  EXPECT_THROW(world.devices().add(nullptr), InvalidInput);
+  EXPECT_THROW(world.devices().add(std::make_shared<Recorder>(), kNoObject, -1), InvalidInput);
+  EXPECT_THROW(world.devices().add(std::make_shared<Recorder>(), kNoObject, kNaN), InvalidInput);
+  EXPECT_THROW(world.devices().add(std::make_shared<Recorder>(), world.tree().find("/First/link")), WrongObject);
+  EXPECT_THROW(world.devices().add(std::make_shared<Recorder>(), 12345), NoSuchObject);
   struct Adder : Device {
-    void update(World& its_world, double, double) override { its_world.add_device(std::make_shared<Recorder>()); }
+    void update(World& its_world, double, double) override { its_world.devices().add(std::make_shared<Recorder>()); }
   };
-  world.add_device(std::make_shared<Adder>());
+  world.devices().add(std::make_shared<Adder>());
   EXPECT_THROW(world.advance(0.01, 0.005), std::logic_error);
 }
 
 TEST_F(Devices, OfASimulationReceiveSimulationTime) {
   Simulation simulation(balls());
   auto device = std::make_shared<Recorder>();
-  simulation.world().add_device(device);
+  simulation.world().devices().add(device);
   simulation.step();
   simulation.reset_world();  // time goes on
   simulation.step();

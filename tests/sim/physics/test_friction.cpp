@@ -234,7 +234,7 @@ TEST(SkidSteer, TurnsAsTheConeSays) {
     world.advance(0.5, kStep);
     const double speed = 0.5;
     for (int i = 0; i < 4; ++i) {
-      world.set_target_velocity(world.tree().find("/wheel" + std::to_string(i) + "_joint"),
+      world.joints().set_target_velocity(world.tree().find("/wheel" + std::to_string(i) + "_joint"),
                                 (i % 2 == 0 ? -speed : speed) / 0.1);
     }
     world.advance(1, kStep);
@@ -270,8 +270,8 @@ double spin_with_castors(double mu, double step) {
     robot.joints.push_back(axle);
   }
   World world(scene({floor(), robot}), 0);
-  world.set_target_velocity(world.tree().find("/left_joint"), -5);
-  world.set_target_velocity(world.tree().find("/right_joint"), 5);
+  world.joints().set_target_velocity(world.tree().find("/left_joint"), -5);
+  world.joints().set_target_velocity(world.tree().find("/right_joint"), 5);
   world.advance(2, step);
   double turned = 0;
   double before = to_rpy(world.pose(world.tree().find("/base")).orientation).z();
@@ -313,9 +313,9 @@ double slip_between_jaws(double load) {
   World world(scene({floor(), gripper, block(mu, 0.5, {0.1, 0.1, 0.1}, at(0, 0, 0.8)),
                      still(model("Table", link_with(Box{{0.1, 0.1, 0.1}}), at(0, 0, 0.7)))}),
               0);
-  for (const char* joint : {"/left_joint", "/right_joint"}) world.set_target_effort(world.tree().find(joint), force);
+  for (const char* joint : {"/left_joint", "/right_joint"}) world.joints().set_target_effort(world.tree().find(joint), force);
   world.advance(0.5, kStep);
-  world.remove_model(world.tree().find("/Table"));
+  world.models().remove(world.tree().find("/Table"));
   const ObjectId box = world.tree().find("/Block");
   const double before = world.pose(box).position.z();
   world.advance(5, kStep);

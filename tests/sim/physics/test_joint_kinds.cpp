@@ -30,24 +30,24 @@ INSTANTIATE_TEST_SUITE_P(Parents, Universal, ::testing::Values("base", "world"))
 TEST_P(Universal, EachAxisTurnsTheChildPositively) {
   for (const int driven : {0, 1}) {
     Jointed pair(joint("universal", {motor(Vector3::UnitZ()), motor(Vector3::UnitY())}, {}, GetParam()));
-    pair.world.set_target_velocity(pair.joint, 0.5, driven);
+    pair.world.joints().set_target_velocity(pair.joint, 0.5, driven);
     pair.world.advance(2, kStep);
     const Pose from = GetParam() == std::string("world") ? Pose() : pair.world.pose(pair.world.tree().find("/base"));
     const Vector3 direction = driven == 0 ? Vector3::UnitZ() : Vector3::UnitY();
     const double turned = turn_about(direction, from, pair.world.pose(pair.arm));
     EXPECT_NEAR(turned, 1, 0.01);
-    EXPECT_NEAR(pair.world.joint_position(pair.joint, driven), turned, 1e-4);
-    EXPECT_NEAR(pair.world.joint_velocity(pair.joint, driven), 0.5, 1e-4);
-    EXPECT_NEAR(pair.world.joint_position(pair.joint, 1 - driven), 0, 1e-4);
+    EXPECT_NEAR(pair.world.joints().position(pair.joint, driven), turned, 1e-4);
+    EXPECT_NEAR(pair.world.joints().velocity(pair.joint, driven), 0.5, 1e-4);
+    EXPECT_NEAR(pair.world.joints().position(pair.joint, 1 - driven), 0, 1e-4);
   }
 }
 
 TEST_P(Universal, SecondAxisTurnsAlongWithTheFirst) {
   Jointed pair(
       joint("universal", {axis(Vector3::UnitZ(), MotorMode::kPosition), motor(Vector3::UnitY())}, {}, GetParam()));
-  pair.world.set_target_position(pair.joint, M_PI / 2, 0);  // the second axis then points along -x
+  pair.world.joints().set_target_position(pair.joint, M_PI / 2, 0);  // the second axis then points along -x
   pair.world.advance(2, kStep);
-  pair.world.set_target_velocity(pair.joint, 0.3, 1);
+  pair.world.joints().set_target_velocity(pair.joint, 0.3, 1);
   pair.world.advance(0.5, kStep);
   const ObjectId base = pair.world.tree().find("/base");
   const bool fixed = GetParam() == std::string("world");
@@ -63,9 +63,9 @@ TEST_P(Universal, LimitsHold) {
   described.axes[1].upper = 0.4;
   Jointed pair(described);
   for (const auto& [speed, end] : {std::pair{1.0, 0.4}, std::pair{-1.0, -0.2}}) {
-    pair.world.set_target_velocity(pair.joint, speed, 1);
+    pair.world.joints().set_target_velocity(pair.joint, speed, 1);
     pair.world.advance(2, kStep);
-    EXPECT_NEAR(pair.world.joint_position(pair.joint, 1), end, 0.01);
+    EXPECT_NEAR(pair.world.joints().position(pair.joint, 1), end, 0.01);
   }
 }
 
@@ -79,9 +79,9 @@ TEST(Screw, MovesByItsLeadForEachTurn) {
   for (const double lead : {0.5, 0.01, -0.1}) {
     for (const char* parent : {"world", "base"}) {
       Jointed pair(screw(lead, parent));
-      pair.world.set_target_velocity(pair.joint, 2 * M_PI);  // a turn per second
+      pair.world.joints().set_target_velocity(pair.joint, 2 * M_PI);  // a turn per second
       pair.world.advance(3, kStep);
-      const double turns = pair.world.joint_position(pair.joint) / (2 * M_PI);
+      const double turns = pair.world.joints().position(pair.joint) / (2 * M_PI);
       EXPECT_NEAR(turns, 3, 0.1);
       const bool fixed = parent == std::string("world");
       const Pose base = fixed ? Pose() : pair.world.pose(pair.world.tree().find("/base"));
@@ -91,7 +91,7 @@ TEST(Screw, MovesByItsLeadForEachTurn) {
           std::remainder(turn_about(Vector3::UnitZ(), base, pair.world.pose(pair.arm)) - turns * 2 * M_PI, 2 * M_PI), 0,
           1e-3)
           << lead;
-      EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 2 * M_PI, 1e-3);
+      EXPECT_NEAR(pair.world.joints().velocity(pair.joint), 2 * M_PI, 1e-3);
     }
   }
 }
@@ -114,9 +114,9 @@ TEST(Screw, LimitsCountWholeTurns) {
   described.axes[0].upper = 9;
   described.axes[0].lower = -1;
   Jointed pair(described);
-  pair.world.set_target_velocity(pair.joint, 5);
+  pair.world.joints().set_target_velocity(pair.joint, 5);
   pair.world.advance(4, kStep);
-  EXPECT_NEAR(pair.world.joint_position(pair.joint), 9, 0.02);
+  EXPECT_NEAR(pair.world.joints().position(pair.joint), 9, 0.02);
 }
 
 /// Two wheels on hinges in `base`, or in the world, coupled by a gearbox; the first has a motor.
@@ -153,24 +153,24 @@ TEST_P(Gearbox, ChildTurnsMinusRatioTimesTheParent) {
     World world(geared(ratio, gears.first, gears.second, gears.apart, gears.reference), 0);
     const ObjectId in = world.tree().find("/joint0");
     const ObjectId out = world.tree().find("/joint1");
-    world.set_target_velocity(in, 3);
+    world.joints().set_target_velocity(in, 3);
     world.advance(4, kStep);
-    EXPECT_NEAR(world.joint_velocity(in), 3, 1e-3);
-    EXPECT_NEAR(world.joint_velocity(out), -ratio * 3, 5e-3 * std::abs(ratio)) << ratio;
+    EXPECT_NEAR(world.joints().velocity(in), 3, 1e-3);
+    EXPECT_NEAR(world.joints().velocity(out), -ratio * 3, 5e-3 * std::abs(ratio)) << ratio;
     const ObjectId gearbox = world.tree().find("/joint2");
-    EXPECT_NEAR(world.joint_position(gearbox, 0), 12, 0.1) << "whole turns count";
-    EXPECT_NEAR(world.joint_position(gearbox, 1), -ratio * world.joint_position(gearbox, 0), 5e-3) << ratio;
+    EXPECT_NEAR(world.joints().position(gearbox, 0), 12, 0.1) << "whole turns count";
+    EXPECT_NEAR(world.joints().position(gearbox, 1), -ratio * world.joints().position(gearbox, 0), 5e-3) << ratio;
   }
 }
 
 TEST_P(Gearbox, HasNoMotor) {
   World world(geared(1, GetParam().first, GetParam().second, GetParam().apart, GetParam().reference), 0);
   const ObjectId gearbox = world.tree().find("/joint2");
-  EXPECT_THROW(world.set_motor_mode(gearbox, MotorMode::kEffort), WrongObject);
-  EXPECT_THROW(world.set_motor_mode(gearbox, MotorMode::kVelocity, 1), WrongObject);
-  EXPECT_NO_THROW(world.set_motor_mode(gearbox, MotorMode::kNone));
+  EXPECT_THROW(world.joints().set_motor_mode(gearbox, MotorMode::kEffort), WrongObject);
+  EXPECT_THROW(world.joints().set_motor_mode(gearbox, MotorMode::kVelocity, 1), WrongObject);
+  EXPECT_NO_THROW(world.joints().set_motor_mode(gearbox, MotorMode::kNone));
   world.advance(0.1, kStep);
-  EXPECT_EQ(world.motor_effort(gearbox), 0);
+  EXPECT_EQ(world.joints().motor_effort(gearbox), 0);
 }
 
 TEST_P(Gearbox, CarriesTorqueByItsRatio) {
@@ -180,21 +180,21 @@ TEST_P(Gearbox, CarriesTorqueByItsRatio) {
   described.models[0].joints[0].axes[0].max_force = 1;
   World world(described, 0);
   const ObjectId in = world.tree().find("/joint0");
-  world.set_target_velocity(in, 100);
+  world.joints().set_target_velocity(in, 100);
   world.advance(1, kStep);
   // 1 N m accelerates the inertias 1 and 1 ratio^2 kg m^2.
-  EXPECT_NEAR(world.joint_velocity(in), 1 / (1 + kRatio * kRatio), 0.01);
+  EXPECT_NEAR(world.joints().velocity(in), 1 / (1 + kRatio * kRatio), 0.01);
 }
 
 TEST_P(Gearbox, GoesWithAModelThatIsPutElsewhere) {
   const Gears& gears = GetParam();
   World world(geared(2, gears.first, gears.second, gears.apart, "base"), 0);
   const ObjectId in = world.tree().find("/joint0");
-  world.set_target_velocity(in, 1);
+  world.joints().set_target_velocity(in, 1);
   world.advance(1, kStep);
   world.set_pose(world.tree().find("/Box"), Pose(100, -50, 3, 0.4, 1, -2));
   world.advance(1, kStep);
-  EXPECT_NEAR(world.joint_velocity(world.tree().find("/joint1")), -2, 0.02);
+  EXPECT_NEAR(world.joints().velocity(world.tree().find("/joint1")), -2, 0.02);
   EXPECT_LT((world.pose(world.tree().find("/Box")).position - Vector3(100, -50, 3)).norm(), 0.05);
 }
 
@@ -217,7 +217,7 @@ TEST_P(Spring, SwingsWithThePeriodOfTheory) {
   double before = -0.3;
   for (int i = 1; passages.size() < 6 && i < 20000; ++i) {
     pair.world.advance(kFineStep, kFineStep);
-    const double now = pair.world.joint_position(pair.joint) - 0.3;
+    const double now = pair.world.joints().position(pair.joint) - 0.3;
     if (before < 0 && now >= 0) passages.push_back((i - now / (now - before)) * kFineStep);
     before = now;
   }
@@ -230,8 +230,8 @@ TEST_P(Spring, OfAnyStiffnessStaysStable) {
   for (const double stiffness : {1.0, 1e3, 1e6, 1e9}) {
     Jointed pair = sprung(GetParam(), stiffness, 2 * std::sqrt(stiffness), 0.3);  // critically damped
     pair.world.advance(12, kStep);
-    EXPECT_NEAR(pair.world.joint_position(pair.joint), 0.3, 1e-3) << stiffness;
-    EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 0, 1e-3) << stiffness;
+    EXPECT_NEAR(pair.world.joints().position(pair.joint), 0.3, 1e-3) << stiffness;
+    EXPECT_NEAR(pair.world.joints().velocity(pair.joint), 0, 1e-3) << stiffness;
   }
 }
 
@@ -242,13 +242,13 @@ TEST_P(Spring, HoldsAWeightWhereTheForcesBalance) {
   described.models[0].joints[0].axes[0].damping = 20;
   Jointed pair(described);
   pair.world.advance(5, kStep);
-  EXPECT_NEAR(pair.world.joint_position(pair.joint), -9.81 / 200, 1e-5);
+  EXPECT_NEAR(pair.world.joints().position(pair.joint), -9.81 / 200, 1e-5);
 }
 
 TEST(TorsionSpring, RemembersWholeTurns) {
   Jointed pair = sprung("continuous", 1, 2, 15);
   pair.world.advance(20, kStep);
-  EXPECT_NEAR(pair.world.joint_position(pair.joint), 15, 1e-3);
+  EXPECT_NEAR(pair.world.joints().position(pair.joint), 15, 1e-3);
 }
 
 class Motorised : public ::testing::TestWithParam<const char*> {};
@@ -259,9 +259,9 @@ TEST_P(Motorised, FrictionTakesItsShareOfTheForce) {
   described.axes[0].max_force = 3;
   described.axes[0].friction = 1;
   Jointed pair(described);
-  pair.world.set_target_velocity(pair.joint, 100);
+  pair.world.joints().set_target_velocity(pair.joint, 100);
   pair.world.advance(0.5, kStep);
-  EXPECT_NEAR(pair.world.joint_velocity(pair.joint), (3 - 1) * 0.5, 1e-6);
+  EXPECT_NEAR(pair.world.joints().velocity(pair.joint), (3 - 1) * 0.5, 1e-6);
 }
 
 TEST_P(Motorised, FrictionHoldsAWeakMotor) {
@@ -269,9 +269,9 @@ TEST_P(Motorised, FrictionHoldsAWeakMotor) {
   described.axes[0].max_force = 1;
   described.axes[0].friction = 2;
   Jointed pair(described);
-  pair.world.set_target_velocity(pair.joint, 5);
+  pair.world.joints().set_target_velocity(pair.joint, 5);
   pair.world.advance(1, kStep);
-  EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 0, 1e-9);
+  EXPECT_NEAR(pair.world.joints().velocity(pair.joint), 0, 1e-9);
 }
 
 TEST_P(Motorised, DampingSetsTheSpeedOfAWeakMotor) {
@@ -279,9 +279,9 @@ TEST_P(Motorised, DampingSetsTheSpeedOfAWeakMotor) {
   described.axes[0].max_force = 3;
   described.axes[0].damping = 2;
   Jointed pair(described);
-  pair.world.set_target_velocity(pair.joint, 100);
+  pair.world.joints().set_target_velocity(pair.joint, 100);
   pair.world.advance(10, kStep);
-  EXPECT_NEAR(pair.world.joint_velocity(pair.joint), 3.0 / 2, 1e-6);
+  EXPECT_NEAR(pair.world.joints().velocity(pair.joint), 3.0 / 2, 1e-6);
 }
 
 /// A leader and a follower, each on a hinge.
@@ -305,10 +305,10 @@ TEST(Mimic, FollowsByMultiplierAndOffset) {
   World world(mimicking({"", 0, -0.5, 0.25, 0.1}), 0);
   const ObjectId leader = world.tree().find("/leader");
   const ObjectId follower = world.tree().find("/follower");
-  world.set_target_velocity(leader, 0.6);
+  world.joints().set_target_velocity(leader, 0.6);
   world.advance(2, kStep);
-  EXPECT_NEAR(world.joint_position(follower), -0.5 * (world.joint_position(leader) - 0.1) + 0.25, 1e-3);
-  EXPECT_NEAR(world.joint_velocity(follower), -0.3, 1e-3);
+  EXPECT_NEAR(world.joints().position(follower), -0.5 * (world.joints().position(leader) - 0.1) + 0.25, 1e-3);
+  EXPECT_NEAR(world.joints().velocity(follower), -0.3, 1e-3);
 }
 
 TEST(Mimic, FollowsBeyondHalfATurn) {
@@ -321,15 +321,15 @@ TEST(Mimic, FollowsBeyondHalfATurn) {
     World world(described, 0);
     const ObjectId leader = world.tree().find("/leader");
     const ObjectId follower = world.tree().find("/follower");
-    world.set_target_velocity(leader, 4);
+    world.joints().set_target_velocity(leader, 4);
     double turned = 0;  // of the leader, with full turns
     for (int i = 0; i < 600; ++i) {
       world.advance(kStep, kStep);
-      turned += std::remainder(world.joint_position(leader) - turned, 2 * M_PI);
+      turned += std::remainder(world.joints().position(leader) - turned, 2 * M_PI);
       if (i < 60) continue;  // it catches up by a fifth in each substep
-      EXPECT_NEAR(world.joint_velocity(follower), 4 * multiplier, 1e-3 * std::abs(4 * multiplier))
+      EXPECT_NEAR(world.joints().velocity(follower), 4 * multiplier, 1e-3 * std::abs(4 * multiplier))
           << "at " << i * kStep << " s";
-      EXPECT_NEAR(std::remainder(world.joint_position(follower) - multiplier * turned, 2 * M_PI), 0, 1e-3);
+      EXPECT_NEAR(std::remainder(world.joints().position(follower) - multiplier * turned, 2 * M_PI), 0, 1e-3);
     }
     EXPECT_NEAR(turned, 12, 0.1);
   }
@@ -338,9 +338,9 @@ TEST(Mimic, FollowsBeyondHalfATurn) {
 TEST(Mimic, StopsAtItsOwnLimit) {
   World world(mimicking({"", 0, 3, 0, 0}), 0);
   const ObjectId leader = world.tree().find("/leader");
-  world.set_target_velocity(leader, 1);
+  world.joints().set_target_velocity(leader, 1);
   world.advance(1.5, kStep);
-  EXPECT_NEAR(world.joint_position(world.tree().find("/follower")), 2, 0.02);
+  EXPECT_NEAR(world.joints().position(world.tree().find("/follower")), 2, 0.02);
 }
 
 TEST(Mimic, OfAJointThatDoesNotExistIsAnError) {

@@ -17,8 +17,8 @@ class Axis {
       : world(described(type, std::move(description), gravity), 0) {}
 
   void run(double duration) { world.advance(duration, kStep); }
-  double position() const { return world.joint_position(joint); }
-  double velocity() const { return world.joint_velocity(joint); }
+  double position() const { return world.joints().position(joint); }
+  double velocity() const { return world.joints().velocity(joint); }
   void push(double velocity) {
     const bool slides = world.tree().at(joint).name == "prismatic";
     const Vector3 along = Vector3::UnitZ() * velocity;
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AnyAxis, ::testing::Values("revolute", "prismati
 
 TEST_P(AnyAxis, VelocityMotorReachesItsTarget) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
-  axis.world.set_target_velocity(axis.joint, -1.5);
+  axis.world.joints().set_target_velocity(axis.joint, -1.5);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), -1.5, 1e-6);
 }
@@ -52,17 +52,17 @@ TEST_P(AnyAxis, ForceLimitBoundsTheAcceleration) {
   AxisDescription weak = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   weak.max_force = 2;
   Axis axis(GetParam(), weak);
-  axis.world.set_target_velocity(axis.joint, 100);
+  axis.world.joints().set_target_velocity(axis.joint, 100);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), 2 * 0.5, 1e-6) << "v = F/m t";
 }
 
 TEST_P(AnyAxis, ForceLimitCanBeSetWhileRunning) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
-  axis.world.set_max_force(axis.joint, 3);
-  axis.world.set_target_velocity(axis.joint, 100);
+  axis.world.joints().set_max_force(axis.joint, 3);
+  axis.world.joints().set_target_velocity(axis.joint, 100);
   axis.run(0.5);
-  EXPECT_EQ(axis.world.max_force(axis.joint), 3);
+  EXPECT_EQ(axis.world.joints().max_force(axis.joint), 3);
   EXPECT_NEAR(axis.velocity(), 3 * 0.5, 1e-6);
 }
 
@@ -70,7 +70,7 @@ TEST_P(AnyAxis, VelocityLimitBoundsTheMotor) {
   AxisDescription slow = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   slow.max_velocity = 0.7;
   Axis axis(GetParam(), slow);
-  axis.world.set_target_velocity(axis.joint, 100);
+  axis.world.joints().set_target_velocity(axis.joint, 100);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), 0.7, 1e-6);
 }
@@ -80,7 +80,7 @@ TEST_P(AnyAxis, PositionMotorReachesItsTargetAndHoldsIt) {
   servo.lower = -2;
   servo.upper = 2;
   Axis axis(GetParam(), servo, {0, 0, -9.81});
-  axis.world.set_target_position(axis.joint, 1.2);
+  axis.world.joints().set_target_position(axis.joint, 1.2);
   axis.run(1);
   EXPECT_NEAR(axis.position(), 1.2, 1e-6);
   axis.run(5);
@@ -93,17 +93,17 @@ TEST_P(AnyAxis, PositionMotorStopsAtALimitBeforeItsTarget) {
   servo.lower = -0.5;
   servo.upper = 0.25;
   Axis axis(GetParam(), servo);
-  axis.world.set_target_position(axis.joint, 9);
+  axis.world.joints().set_target_position(axis.joint, 9);
   axis.run(2);
   EXPECT_NEAR(axis.position(), 0.25, 1e-6);
 }
 
 TEST(EndlessJoint, PositionMotorTakesTheShortWay) {
   Axis axis("continuous", test::axis(Vector3::UnitZ(), MotorMode::kPosition));
-  axis.world.set_target_position(axis.joint, 3);
+  axis.world.joints().set_target_position(axis.joint, 3);
   axis.run(2);
   EXPECT_NEAR(axis.position(), 3, 1e-6);
-  axis.world.set_target_position(axis.joint, -3);
+  axis.world.joints().set_target_position(axis.joint, -3);
   for (int i = 0; i < 40; ++i) {
     axis.run(0.05);
     ASSERT_GT(std::abs(axis.position()), 2.9) << "it must not turn back through zero";
@@ -113,7 +113,7 @@ TEST(EndlessJoint, PositionMotorTakesTheShortWay) {
 
 TEST(EndlessJoint, TargetBeyondATurnMeansTheSameDirection) {
   Axis axis("continuous", test::axis(Vector3::UnitZ(), MotorMode::kPosition));
-  axis.world.set_target_position(axis.joint, 2 * M_PI * 3 + 0.5);
+  axis.world.joints().set_target_position(axis.joint, 2 * M_PI * 3 + 0.5);
   axis.run(2);
   EXPECT_NEAR(axis.position(), 0.5, 1e-6);
 }
@@ -124,7 +124,7 @@ TEST(WideLimits, PositionMotorReachesATargetBeyondHalfATurn) {
   servo.upper = 6.2;
   Axis axis("revolute", servo);
   for (const double target : {4.0, -5.5, 6.2, 0.0}) {
-    axis.world.set_target_position(axis.joint, target);
+    axis.world.joints().set_target_position(axis.joint, target);
     axis.run(3);
     EXPECT_NEAR(axis.position(), target, 1e-6);
     EXPECT_NEAR(axis.velocity(), 0, 1e-6);
@@ -170,12 +170,12 @@ TEST_P(AnyAxis, LimitHoldsALinkThatFallsOnIt) {
   limited.lower = -0.4;
   limited.upper = 0.4;
   Axis axis(GetParam(), limited);
-  axis.world.set_target_effort(axis.joint, 300);
+  axis.world.joints().set_target_effort(axis.joint, 300);
   double back = 0;
   for (int i = 0; i < 100; ++i) {
     axis.run(kStep);
     back = std::min(back, axis.velocity());
-    EXPECT_NEAR(axis.world.motor_effort(axis.joint), 300, 1e-6) << "without the stop's impulse";
+    EXPECT_NEAR(axis.world.joints().motor_effort(axis.joint), 300, 1e-6) << "without the stop's impulse";
   }
   EXPECT_NEAR(axis.position(), 0.4, 1e-6);
   EXPECT_GT(back, -1e-6);
@@ -188,10 +188,10 @@ TEST_P(AnyAxis, LimitHoldsAgainstAMotorOfAnyForce) {
     limited.upper = 0.4;
     limited.max_force = force;
     Axis axis(GetParam(), limited);
-    axis.world.set_target_velocity(axis.joint, 1);
+    axis.world.joints().set_target_velocity(axis.joint, 1);
     axis.run(3);
     EXPECT_NEAR(axis.position(), 0.4, 1e-3) << force;
-    axis.world.set_target_velocity(axis.joint, -0.1);
+    axis.world.joints().set_target_velocity(axis.joint, -0.1);
     axis.run(1);
     EXPECT_NEAR(axis.velocity(), -0.1, 1e-3) << "leaves the limit at its own pace, " << force;
     EXPECT_NEAR(axis.position(), 0.3, 0.01) << force;
@@ -272,14 +272,14 @@ TEST_P(AnyAxis, FrictionAndDampingAddUp) {
 
 TEST_P(AnyAxis, EffortIsAcceleration) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kEffort));
-  axis.world.set_target_effort(axis.joint, -1.5);
+  axis.world.joints().set_target_effort(axis.joint, -1.5);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), -1.5 * 0.5, 1e-9) << "v = F/m t";
-  EXPECT_NEAR(axis.world.motor_effort(axis.joint), -1.5, 1e-9);
-  axis.world.set_target_effort(axis.joint, 0);
+  EXPECT_NEAR(axis.world.joints().motor_effort(axis.joint), -1.5, 1e-9);
+  axis.world.joints().set_target_effort(axis.joint, 0);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), -1.5 * 0.5, 1e-9) << "without effort it moves freely";
-  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0);
+  EXPECT_EQ(axis.world.joints().motor_effort(axis.joint), 0);
 }
 
 TEST_P(AnyAxis, EffortKeepsToTheForceLimitAndNotToTheVelocityLimit) {
@@ -287,10 +287,10 @@ TEST_P(AnyAxis, EffortKeepsToTheForceLimitAndNotToTheVelocityLimit) {
   weak.max_force = 2;
   weak.max_velocity = 0.1;
   Axis axis(GetParam(), weak);
-  axis.world.set_target_effort(axis.joint, 50);
+  axis.world.joints().set_target_effort(axis.joint, 50);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), 2 * 0.5, 1e-9);
-  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 2, 1e-9);
+  EXPECT_NEAR(axis.world.joints().motor_effort(axis.joint), 2, 1e-9);
 }
 
 TEST_P(AnyAxis, EffortPushesAgainstAStop) {
@@ -298,10 +298,10 @@ TEST_P(AnyAxis, EffortPushesAgainstAStop) {
   stopped.lower = -0.2;
   stopped.upper = 0.1;
   Axis axis(GetParam(), stopped);
-  axis.world.set_target_effort(axis.joint, 3);
+  axis.world.joints().set_target_effort(axis.joint, 3);
   axis.run(3);
   EXPECT_NEAR(axis.position(), 0.1, 0.01);
-  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 3, 1e-9) << "the stop holds it, not the motor";
+  EXPECT_NEAR(axis.world.joints().motor_effort(axis.joint), 3, 1e-9) << "the stop holds it, not the motor";
 }
 
 TEST_P(AnyAxis, EffortActsBesideFrictionAndDamping) {
@@ -309,21 +309,21 @@ TEST_P(AnyAxis, EffortActsBesideFrictionAndDamping) {
   both.friction = 0.5;
   both.damping = 0.4;
   Axis axis(GetParam(), both);
-  axis.world.set_target_effort(axis.joint, 2.5);
+  axis.world.joints().set_target_effort(axis.joint, 2.5);
   axis.run(60);
   EXPECT_NEAR(axis.velocity(), (2.5 - 0.5) / 0.4, 1e-6) << "terminal velocity";
 }
 
 TEST_P(AnyAxis, ModesCanBeChangedWhileRunning) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
-  axis.world.set_target_velocity(axis.joint, 1);
-  axis.world.set_target_effort(axis.joint, 2);
+  axis.world.joints().set_target_velocity(axis.joint, 1);
+  axis.world.joints().set_target_effort(axis.joint, 2);
   axis.run(0.1);
   EXPECT_NEAR(axis.velocity(), 1, 1e-6);
-  axis.world.set_motor_mode(axis.joint, MotorMode::kEffort);
+  axis.world.joints().set_motor_mode(axis.joint, MotorMode::kEffort);
   axis.run(0.5);
   EXPECT_NEAR(axis.velocity(), 2, 1e-6);
-  axis.world.set_motor_mode(axis.joint, MotorMode::kVelocity);
+  axis.world.joints().set_motor_mode(axis.joint, MotorMode::kVelocity);
   axis.run(0.1);
   EXPECT_NEAR(axis.velocity(), 1, 1e-6) << "the targets are kept";
 }
@@ -331,35 +331,35 @@ TEST_P(AnyAxis, ModesCanBeChangedWhileRunning) {
 TEST_P(AnyAxis, TargetEffortIsStateAndEndsWithAReset) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kEffort));
   const std::uint64_t before = axis.world.state_hash();
-  axis.world.set_target_effort(axis.joint, 2);
-  EXPECT_EQ(axis.world.target_effort(axis.joint), 2);
+  axis.world.joints().set_target_effort(axis.joint, 2);
+  EXPECT_EQ(axis.world.joints().target_effort(axis.joint), 2);
   EXPECT_NE(axis.world.state_hash(), before);
   axis.world.reset();
-  EXPECT_EQ(axis.world.target_effort(axis.joint), 0);
+  EXPECT_EQ(axis.world.joints().target_effort(axis.joint), 0);
   EXPECT_EQ(axis.world.state_hash(), before);
-  EXPECT_THROW(axis.world.set_target_effort(axis.joint, kNaN), InvalidInput);
-  EXPECT_THROW(axis.world.set_target_effort(axis.joint, kInfinity), InvalidInput);
+  EXPECT_THROW(axis.world.joints().set_target_effort(axis.joint, kNaN), InvalidInput);
+  EXPECT_THROW(axis.world.joints().set_target_effort(axis.joint, kInfinity), InvalidInput);
   EXPECT_EQ(axis.world.state_hash(), before);
 }
 
 TEST_P(AnyAxis, MotorEffortIsKnownInTheFirstStep) {
   Axis axis(GetParam(), test::axis(Vector3::UnitZ(), MotorMode::kVelocity));
-  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0) << "before the first step";
-  axis.world.set_target_velocity(axis.joint, 0.5);
+  EXPECT_EQ(axis.world.joints().motor_effort(axis.joint), 0) << "before the first step";
+  axis.world.joints().set_target_velocity(axis.joint, 0.5);
   axis.run(0.05);
-  EXPECT_NEAR(axis.world.motor_effort(axis.joint), 0.5 / 0.05, 1e-5) << "the momentum divided by the time";
+  EXPECT_NEAR(axis.world.joints().motor_effort(axis.joint), 0.5 / 0.05, 1e-5) << "the momentum divided by the time";
 }
 
 TEST_P(AnyAxis, MotorEffortOfAMotorWithoutForceIsZero) {
   AxisDescription limited = test::axis(Vector3::UnitZ(), MotorMode::kVelocity);
   limited.lower = -10;  // a motor joint of its own
   Axis axis(GetParam(), limited);
-  axis.world.set_target_velocity(axis.joint, 0.5);
+  axis.world.joints().set_target_velocity(axis.joint, 0.5);
   axis.run(0.05);
-  EXPECT_GT(axis.world.motor_effort(axis.joint), 1);
-  axis.world.set_max_force(axis.joint, 0);
+  EXPECT_GT(axis.world.joints().motor_effort(axis.joint), 1);
+  axis.world.joints().set_max_force(axis.joint, 0);
   axis.run(0.05);
-  EXPECT_EQ(axis.world.motor_effort(axis.joint), 0) << "not what it exerted last";
+  EXPECT_EQ(axis.world.joints().motor_effort(axis.joint), 0) << "not what it exerted last";
 }
 
 TEST(Pendulum, SwingsWithThePeriodOfTheory) {
@@ -377,7 +377,7 @@ TEST(Pendulum, SwingsWithThePeriodOfTheory) {
   double before = 0;
   for (int i = 1; passages.size() < 11 && i < 40000; ++i) {
     world.advance(kFineStep, kFineStep);
-    const double now = world.joint_position(id);
+    const double now = world.joints().position(id);
     if (before < 0 && now >= 0) passages.push_back((i - now / (now - before)) * kFineStep);
     before = now;
   }

@@ -127,8 +127,8 @@ TEST(LargeMechanism, MotorsBearTheWeightOfTheLinksBeyondThem) {
       const ObjectId joint = world.tree().find("/" + named("joint", arm, i));
       double moment = 0;
       for (int k = i; k < kLinks; ++k) moment += kGravity * kLength * (k - i + 0.5);
-      EXPECT_NEAR(world.joint_position(joint), 0, 2e-3);
-      EXPECT_NEAR(std::abs(world.motor_effort(joint)), moment, 0.01 * moment) << named("joint", arm, i);
+      EXPECT_NEAR(world.joints().position(joint), 0, 2e-3);
+      EXPECT_NEAR(std::abs(world.joints().motor_effort(joint)), moment, 0.01 * moment) << named("joint", arm, i);
     }
   }
   EXPECT_NEAR(world.pose(world.tree().find("/base")).position.z(), 0.5, 2e-3);
@@ -144,7 +144,7 @@ TEST(LargeMechanism, LinksFallToTheStopsOfTheirJoints) {
   for (int arm = 0; arm < kArms; ++arm) {
     for (int i = 0; i < kLinks; ++i) {
       const double side = arm % 2 == 0 ? 1 : -1;  // about y, positive is down at x > 0
-      EXPECT_NEAR(world.joint_position(world.tree().find("/" + named("joint", arm, i))), 0.1 * side, 2e-3)
+      EXPECT_NEAR(world.joints().position(world.tree().find("/" + named("joint", arm, i))), 0.1 * side, 2e-3)
           << named("joint", arm, i);
     }
   }

@@ -75,7 +75,7 @@ TEST(AddedModel, IsStoodUpon) {
   for (const double x : {0.0, 500.0}) {  // inside and outside the extent of the existing models
     World world(scene({floor(), model("Ball", link_with(Sphere{0.1}), at(x, 0, 2))}), 0);
     world.advance(0.1, 0.005);
-    world.add_model(still(model("Table", link_with(Box{{1, 1, 1}}), at(x, 0, 0.5))));
+    world.models().add(still(model("Table", link_with(Box{{1, 1, 1}}), at(x, 0, 0.5))));
     world.advance(3, 0.005);
     EXPECT_NEAR(world.pose(world.tree().find("/Ball")).position.z(), 1.1, 0.003) << x;
   }
@@ -88,13 +88,13 @@ TEST(AddedModel, BringsItsObjects) {
   const World& world = simulation.world();
   EXPECT_EQ(world.tree().path(id), "/Robot");
   EXPECT_EQ(world.pose(world.tree().find("/Robot/arm")).position, Vector3(6, 6, 7));
-  simulation.world().set_target_velocity(world.tree().find("/Robot/joint"), 0.5);
+  simulation.world().joints().set_target_velocity(world.tree().find("/Robot/joint"), 0.5);
   const ObjectId sonar = world.tree().find("/Robot/Sonar");
   EXPECT_FALSE(simulation.read_proximity(sonar).detected);
   simulation.add_model(still(model("Wall", link_with(Box{{1, 50, 50}}), at(9.5, 6, 7))));
   simulation.step();
   EXPECT_NEAR(simulation.read_proximity(sonar).distance, 4, 0.05) << "it fell a little";
-  EXPECT_GT(world.joint_velocity(world.tree().find("/Robot/joint")), 0.4);
+  EXPECT_GT(world.joints().velocity(world.tree().find("/Robot/joint")), 0.4);
 }
 
 TEST(AddedModel, ThatIsBadIsRefusedAndChangesNothing) {
@@ -139,7 +139,7 @@ TEST(RemovedModel, LeavesAWorldWithoutIt) {
   simulation.remove_model(simulation.world().tree().find("/Table"));
   for (int i = 0; i < 40; ++i) simulation.step();
   EXPECT_NEAR(simulation.world().pose(simulation.world().tree().find("/Ball")).position.z(), 0.1, 0.003);
-  EXPECT_FALSE(simulation.world().cast_ray({0, 0, 5}, {0, 0, -1}, 4.5));
+  EXPECT_FALSE(simulation.world().geometry().cast_ray({0, 0, 5}, {0, 0, -1}, 4.5));
 }
 
 TEST(RemovedModel, WhoseContactsHeldOthersLetsThemFall) {

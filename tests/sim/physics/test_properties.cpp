@@ -48,8 +48,8 @@ void run(World& world, int steps) {
   const ObjectId hinge = world.tree().find("/joint");
   const ObjectId base = world.tree().find("/base");
   for (int i = 0; i < steps; ++i) {
-    world.set_target_velocity(hinge, std::sin(0.1 * i));
-    world.apply_wrench(base, {{1, 0.2, 0}, {0.3, 0.1, 0.2}});
+    world.joints().set_target_velocity(hinge, std::sin(0.1 * i));
+    world.wrenches().apply(base, {{1, 0.2, 0}, {0.3, 0.1, 0.2}});
     world.advance(kStep, kStep);
   }
 }
@@ -58,10 +58,10 @@ TEST(Properties, AChangedMassIsLikeThatOfTheDescription) {
   World heavy(scene({floor(), robot(2)}), 1);
   World light(scene({floor(), robot(1)}), 1);
   const ObjectId model = light.tree().find("/Robot");
-  EXPECT_EQ(light.mass(model), 2);
-  light.set_mass(model, 4);
-  EXPECT_EQ(light.mass(model), 4);
-  EXPECT_EQ(light.mass(light.tree().find("/arm")), 2);
+  EXPECT_EQ(light.properties().mass(model), 2);
+  light.properties().set_mass(model, 4);
+  EXPECT_EQ(light.properties().mass(model), 4);
+  EXPECT_EQ(light.properties().mass(light.tree().find("/arm")), 2);
   run(heavy, 300);
   run(light, 300);
   EXPECT_EQ(light.state_hash(), heavy.state_hash());
@@ -73,18 +73,18 @@ TEST(Properties, AMassChangesTheAccelerationAndNotTheCentre) {
   const Pose before = world.pose(base);
   run(world, 20);
   world.reset();
-  world.set_mass(base, 3);
+  world.properties().set_mass(base, 3);
   EXPECT_EQ(world.pose(base), before);
-  EXPECT_EQ(world.mass(world.tree().find("/Robot")), 4);
-  world.apply_wrench(base, {{8, 0, 0}, {}});
-  world.apply_wrench(world.tree().find("/arm"), {{0, 0, 0}, {}});
+  EXPECT_EQ(world.properties().mass(world.tree().find("/Robot")), 4);
+  world.wrenches().apply(base, {{8, 0, 0}, {}});
+  world.wrenches().apply(world.tree().find("/arm"), {{0, 0, 0}, {}});
   world.advance(kStep, kStep);
   double momentum = 0;
   for (const char* name : {"/base", "/arm"}) {
     const ObjectId link = world.tree().find(name);
     const Twist twist = world.velocity(link);
     const Vector3 lever = world.pose(link).orientation * Vector3(0.1, 0, 0.05);
-    momentum += world.mass(link) * (twist.linear + twist.angular.cross(lever)).x();
+    momentum += world.properties().mass(link) * (twist.linear + twist.angular.cross(lever)).x();
   }
   EXPECT_NEAR(momentum, 8 * kStep, 1e-9);
 }
@@ -100,9 +100,9 @@ double slide(double mu, double angle, bool jointed) {
   World world(scene({floor(0.9), block}), 1);
   const ObjectId id = world.tree().find("/Block");
   for (int i = 0; i < 200; ++i) world.advance(kStep, kStep);
-  world.set_gravity(Vector3(std::sin(angle), 0, -std::cos(angle)) * 9.81);
-  world.set_friction(id, mu);
-  EXPECT_EQ(world.friction(id), mu);
+  world.properties().set_gravity(Vector3(std::sin(angle), 0, -std::cos(angle)) * 9.81);
+  world.properties().set_friction(id, mu);
+  EXPECT_EQ(world.properties().friction(id), mu);
   for (int i = 0; i < 20; ++i) world.advance(kStep, kStep);
   const double before = world.velocity(id).linear.x();
   for (int i = 0; i < 100; ++i) world.advance(kStep, kStep);
@@ -119,8 +119,8 @@ TEST(Properties, AChangedFrictionFollowsCoulombsLaw) {
 
 TEST(Properties, TheFrictionOfAStaticModelCanBeSet) {
   World world(scene({floor(0.9), model("Block", link_with(Box{{0.4, 0.4, 0.1}}), at(0, 0, 0.05))}), 1);
-  world.set_friction(world.tree().find("/Floor"), 0);
-  world.set_gravity({3, 0, -9.81});
+  world.properties().set_friction(world.tree().find("/Floor"), 0);
+  world.properties().set_gravity({3, 0, -9.81});
   for (int i = 0; i < 100; ++i) world.advance(kStep, kStep);
   EXPECT_NEAR(world.velocity(world.tree().find("/Block")).linear.x(), 3 * 100 * kStep, 0.02);
 }
@@ -128,8 +128,8 @@ TEST(Properties, TheFrictionOfAStaticModelCanBeSet) {
 TEST(Properties, AnotherGravityWakesWhatSleeps) {
   World world(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 0.5))}), 1);
   for (int i = 0; i < 400; ++i) world.advance(kStep, kStep);
-  world.set_gravity({0, 0, 2});
-  EXPECT_EQ(world.gravity().z(), 2);
+  world.properties().set_gravity({0, 0, 2});
+  EXPECT_EQ(world.properties().gravity().z(), 2);
   for (int i = 0; i < 200; ++i) world.advance(kStep, kStep);
   EXPECT_NEAR(world.velocity(world.tree().find("/Box")).linear.z(), 2.0 * 200 * kStep, 0.05);
 }
@@ -137,21 +137,21 @@ TEST(Properties, AnotherGravityWakesWhatSleeps) {
 TEST(Properties, AResetPutsAllBack) {
   for (const bool other_models : {false, true}) {
     World world(scene({floor(), robot(1)}), 1);
-    if (other_models) world.add_model(model("Ball", link_with(Sphere{0.1}), at(3, 0, 0.1)));
+    if (other_models) world.models().add(model("Ball", link_with(Sphere{0.1}), at(3, 0, 0.1)));
     world.reset();
     const std::uint64_t start = world.state_hash();
     run(world, 60);
     const std::uint64_t expected = world.state_hash();
-    world.set_gravity({0, 1, -1});
-    world.set_mass(world.tree().find("/Robot"), 5);
-    world.set_friction(world.tree().find("/Robot"), 0.1);
-    world.set_friction(world.tree().find("/Floor"), 0.1);
+    world.properties().set_gravity({0, 1, -1});
+    world.properties().set_mass(world.tree().find("/Robot"), 5);
+    world.properties().set_friction(world.tree().find("/Robot"), 0.1);
+    world.properties().set_friction(world.tree().find("/Floor"), 0.1);
     run(world, 60);
     world.reset();
     EXPECT_EQ(world.state_hash(), start);
-    EXPECT_EQ(world.gravity().z(), -9.81);
-    EXPECT_EQ(world.mass(world.tree().find("/Robot")), 2);
-    EXPECT_EQ(world.friction(world.tree().find("/Floor")), 1);
+    EXPECT_EQ(world.properties().gravity().z(), -9.81);
+    EXPECT_EQ(world.properties().mass(world.tree().find("/Robot")), 2);
+    EXPECT_EQ(world.properties().friction(world.tree().find("/Floor")), 1);
     run(world, 60);
     EXPECT_EQ(world.state_hash(), expected);
   }
@@ -161,20 +161,20 @@ TEST(Properties, RefuseValuesThatCannotBeUsed) {
   World world(scene({floor(), robot(1)}), 1);
   const ObjectId robot = world.tree().find("/Robot");
   for (const double bad : {0.0, -1.0, kNaN, kInfinity, 2e6}) {
-    EXPECT_TRUE(has(error_of([&] { world.set_mass(robot, bad); }), "/Robot: the mass"));
+    EXPECT_TRUE(has(error_of([&] { world.properties().set_mass(robot, bad); }), "/Robot: the mass"));
   }
   for (const double bad : {-0.1, kNaN}) {
-    EXPECT_TRUE(has(error_of([&] { world.set_friction(robot, bad); }), "/Robot: the friction"));
+    EXPECT_TRUE(has(error_of([&] { world.properties().set_friction(robot, bad); }), "/Robot: the friction"));
   }
   for (const double bad : {kNaN, kInfinity, 2e4}) {
-    EXPECT_TRUE(has(error_of([&] { world.set_gravity({0, 0, bad}); }), "gravity"));
+    EXPECT_TRUE(has(error_of([&] { world.properties().set_gravity({0, 0, bad}); }), "gravity"));
   }
   const ObjectId hinge = world.tree().find("/joint");
-  EXPECT_TRUE(has(error_of([&] { world.set_mass(hinge, 1); }), "is a joint: it has no mass"));
-  EXPECT_TRUE(has(error_of([&] { world.set_friction(hinge, 1); }), "is a joint: it has no friction"));
-  EXPECT_TRUE(has(error_of([&] { world.set_mass(world.tree().find("/Floor"), 1); }), "static"));
+  EXPECT_TRUE(has(error_of([&] { world.properties().set_mass(hinge, 1); }), "is a joint: it has no mass"));
+  EXPECT_TRUE(has(error_of([&] { world.properties().set_friction(hinge, 1); }), "is a joint: it has no friction"));
+  EXPECT_TRUE(has(error_of([&] { world.properties().set_mass(world.tree().find("/Floor"), 1); }), "static"));
   World bare(jointed(joint("fixed", {})), 1);
-  EXPECT_TRUE(has(error_of([&] { bare.set_friction(bare.tree().find("/Robot"), 1); }), "has no collisions"));
+  EXPECT_TRUE(has(error_of([&] { bare.properties().set_friction(bare.tree().find("/Robot"), 1); }), "has no collisions"));
 }
 
 }  // namespace

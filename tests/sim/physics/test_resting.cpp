@@ -90,7 +90,7 @@ TEST(Sleep, EndsWhenWhatLiesBelowIsTakenAway) {
   for (const bool removed : {true, false}) {
     Sleeper sleeper;
     const ObjectId base = sleeper.world.tree().find("/Base");
-    removed ? sleeper.world.remove_model(base) : sleeper.world.set_pose(base, at(3, 0, 0.25));
+    removed ? sleeper.world.models().remove(base) : sleeper.world.set_pose(base, at(3, 0, 0.25));
     sleeper.world.advance(1, kStep);
     EXPECT_NEAR(sleeper.world.pose(sleeper.top).position.z(), 0.25, 0.01);
   }
@@ -112,9 +112,9 @@ TEST(Sleep, IsNotForModelsWithJoints) {
   World world(scene({robot}), 0);
   world.advance(5, kStep);
   const ObjectId motor = world.tree().find("/motor");
-  world.set_target_velocity(motor, 1);
+  world.joints().set_target_velocity(motor, 1);
   world.advance(0.1, kStep);
-  EXPECT_NEAR(world.joint_velocity(motor), 1, 1e-3);
+  EXPECT_NEAR(world.joints().velocity(motor), 1, 1e-3);
 }
 
 }  // namespace

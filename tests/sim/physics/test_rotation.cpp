@@ -94,7 +94,7 @@ TEST(FreeRotation, TakesATorqueAsTheRateOfItsMomentum) {
   const Vector3 momentum = spinning.momentum();
   const Vector3 torque(0.5, -1, 2);
   for (int i = 0; i < 20; ++i) {
-    spinning.world.apply_wrench(spinning.id, {{}, torque});
+    spinning.world.wrenches().apply(spinning.id, {{}, torque});
     spinning.world.advance(0.05, 0.005);
   }
   EXPECT_LT(((spinning.momentum() - momentum) - torque).norm(), 1e-9) << "torque times 1 s";

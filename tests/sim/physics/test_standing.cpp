@@ -153,8 +153,8 @@ TEST(Robot, StandsOnMeshesAfterTurningOnTheSpot) {
   World world(scene({floor(), rover()}), 3);
   const auto turn = [&world](double speed) {
     for (const std::string row : {"front", "rear"}) {
-      world.set_target_velocity(world.tree().find("/" + row + "_left_joint"), -speed);
-      world.set_target_velocity(world.tree().find("/" + row + "_right_joint"), speed);
+      world.joints().set_target_velocity(world.tree().find("/" + row + "_left_joint"), -speed);
+      world.joints().set_target_velocity(world.tree().find("/" + row + "_right_joint"), speed);
     }
   };
   const ObjectId robot = world.tree().find("/Robot");

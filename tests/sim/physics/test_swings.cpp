@@ -36,7 +36,7 @@ TEST(Pendulum, KeepsThePeriodOfAWideSwing) {
   // 4 K(sin(angle / 2)) sqrt(I / (m g l)) with I = m / 3 and l = 0.5 m.
   const double period = 4 * std::comp_ellint_1(std::sin(kStart / 2)) * std::sqrt(1.0 / 3 / (kGravity * 0.5));
   std::vector<double> crossings;
-  const auto angle = [&] { return std::remainder(world.joint_position(hinge) + kStart, 2 * M_PI); };
+  const auto angle = [&] { return std::remainder(world.joints().position(hinge) + kStart, 2 * M_PI); };
   double before = angle();
   for (int i = 1; crossings.size() < 21 && i * kStep < 12 * period; ++i) {
     world.advance(kStep, kStep);
@@ -64,7 +64,7 @@ double widest_gap(int rods, double ratio, double step, double duration) {
     world.advance(0.05, step);
     for (int i = 1; i < rods; ++i) {
       const ObjectId hinge = world.tree().find("/to_rod" + std::to_string(i));
-      widest = std::max(widest, (world.pose(hinge).position - world.joint_child_pose(hinge).position).norm());
+      widest = std::max(widest, (world.pose(hinge).position - world.joints().child_pose(hinge).position).norm());
     }
   }
   return widest;

@@ -131,7 +131,7 @@ TEST(StateHash, IsEqualForEqualHistories) {
 TEST(StateHash, SeesTargetsOfJoints) {
   World world(jointed(joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)})), 0);
   const std::uint64_t before = world.state_hash();
-  world.set_target_velocity(world.tree().find("/joint"), 1e-9);
+  world.joints().set_target_velocity(world.tree().find("/joint"), 1e-9);
   EXPECT_NE(world.state_hash(), before);
 }
 

@@ -44,7 +44,7 @@ TEST_F(RobotWorld, PosesAreWhereTheSceneSays) {
   expect_near(world.pose(find("/base")), model.pose * model.links[0].pose, 1e-12);
   expect_near(world.pose(find("/arm")), model.pose * model.links[1].pose, 1e-12);
   expect_near(world.pose(find("/joint")), model.pose * model.joints[0].pose, 1e-12);
-  expect_near(world.joint_child_pose(find("/joint")), model.pose * model.joints[0].pose, 1e-12);
+  expect_near(world.joints().child_pose(find("/joint")), model.pose * model.joints[0].pose, 1e-12);
   expect_near(world.pose(find("/Sonar")), model.pose * model.links[0].pose * model.links[0].sensors[0].pose, 1e-12);
   expect_near(world.pose(find("/Wall/link")), described.models[1].pose, 1e-12);
 }
@@ -108,10 +108,10 @@ TEST_F(RobotWorld, SpinningFreeBodyTurnsAboutItsCentreOfMass) {
 }
 
 TEST_F(RobotWorld, SettingAModelsPoseKeepsItsLinksTogether) {
-  world.set_target_velocity(find("/joint"), 0.5);
+  world.joints().set_target_velocity(find("/joint"), 0.5);
   world.advance(1, kStep);
   const Pose before = world.pose(find("/Robot"));
-  const double angle = world.joint_position(find("/joint"));
+  const double angle = world.joints().position(find("/joint"));
   const Pose wanted(-3, 4, 0.5, 1, -0.5, 2);
   std::vector<std::pair<ObjectId, Pose>> relative;
   for (const char* path : {"/base", "/arm", "/joint", "/Sonar"}) {
@@ -120,7 +120,7 @@ TEST_F(RobotWorld, SettingAModelsPoseKeepsItsLinksTogether) {
   world.set_pose(find("/Robot"), wanted);
   expect_near(world.pose(find("/Robot")), wanted, 1e-9);
   for (const auto& [id, pose] : relative) expect_near(wanted.inverse() * world.pose(id), pose, 1e-9);
-  EXPECT_NEAR(world.joint_position(find("/joint")), angle, 1e-9);
+  EXPECT_NEAR(world.joints().position(find("/joint")), angle, 1e-9);
 }
 
 TEST_F(RobotWorld, SettingALinksPoseMovesItAlone) {
@@ -147,7 +147,7 @@ TEST_F(RobotWorld, ModelFrameIsCarriedByTheCanonicalLink) {
 }
 
 TEST_F(RobotWorld, ShapesAreReportedWhereTheyStand) {
-  const std::vector<PlacedShape> shapes = world.shapes();
+  const std::vector<PlacedShape> shapes = world.geometry().shapes();
   ASSERT_EQ(shapes.size(), 1u);
   EXPECT_TRUE(shapes[0].is_static);
   EXPECT_EQ(shapes[0].link, find("/Wall/link"));
@@ -202,28 +202,28 @@ TEST_F(RobotWorld, BadTargetsAreRefusedByName) {
   const ObjectId id = find("/joint");
   for (const auto& [value, shown] : kBadNumbers) {
     const double bad = value;
-    expect_refused(world, [&] { world.set_target_position(id, bad); }, {"/joint", "target position", shown});
-    expect_refused(world, [&] { world.set_target_velocity(id, bad); }, {"/joint", "target velocity", shown});
+    expect_refused(world, [&] { world.joints().set_target_position(id, bad); }, {"/joint", "target position", shown});
+    expect_refused(world, [&] { world.joints().set_target_velocity(id, bad); }, {"/joint", "target velocity", shown});
   }
-  expect_refused(world, [&] { world.set_max_force(id, kNaN); }, {"/joint", "force limit", "nan"});
-  expect_refused(world, [&] { world.set_max_force(id, -1); }, {"/joint", "force limit", "-1"});
-  world.set_max_force(id, kInfinity);
-  world.set_max_force(id, 1e300);
-  world.set_target_velocity(id, 1);
+  expect_refused(world, [&] { world.joints().set_max_force(id, kNaN); }, {"/joint", "force limit", "nan"});
+  expect_refused(world, [&] { world.joints().set_max_force(id, -1); }, {"/joint", "force limit", "-1"});
+  world.joints().set_max_force(id, kInfinity);
+  world.joints().set_max_force(id, 1e300);
+  world.joints().set_target_velocity(id, 1);
   world.advance(0.1, kStep);
-  EXPECT_NEAR(world.joint_velocity(id), 1, 1e-6) << "a force without limit is fine";
+  EXPECT_NEAR(world.joints().velocity(id), 1, 1e-6) << "a force without limit is fine";
 }
 
 TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
-  expect_refused(world, [&] { world.joint_position(find("/base")); }, {"/base", "link", "not a joint"});
-  expect_refused(world, [&] { world.joint_child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
-  expect_refused(world, [&] { world.set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
+  expect_refused(world, [&] { world.joints().position(find("/base")); }, {"/base", "link", "not a joint"});
+  expect_refused(world, [&] { world.joints().child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
+  expect_refused(world, [&] { world.joints().set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
   expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_pose(find("/Wall"), {}); }, {"/Wall", "static"});
   expect_refused(world, [&] { world.set_velocity(find("/Wall/link"), {}); }, {"/link", "static"});
-  expect_refused(world, [&] { world.joint_position(find("/joint"), 1); }, {"/joint", "index 1"});
-  expect_refused(world, [&] { world.joint_position(find("/joint"), -1); }, {"/joint", "index -1"});
+  expect_refused(world, [&] { world.joints().position(find("/joint"), 1); }, {"/joint", "index 1"});
+  expect_refused(world, [&] { world.joints().position(find("/joint"), -1); }, {"/joint", "index -1"});
 }
 
 TEST_F(RobotWorld, HandlesThatNameNothingAreRefused) {
@@ -232,8 +232,8 @@ TEST_F(RobotWorld, HandlesThatNameNothingAreRefused) {
     expect_refused(world, [&] { world.velocity(id); }, {"no object", std::to_string(id)});
     expect_refused(world, [&] { world.set_pose(id, {}); }, {"no object", std::to_string(id)});
     expect_refused(world, [&] { world.set_velocity(id, {}); }, {"no object", std::to_string(id)});
-    expect_refused(world, [&] { world.joint_position(id); }, {"no object", std::to_string(id)});
-    expect_refused(world, [&] { world.set_max_force(id, 1); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.joints().position(id); }, {"no object", std::to_string(id)});
+    expect_refused(world, [&] { world.joints().set_max_force(id, 1); }, {"no object", std::to_string(id)});
   }
 }
 

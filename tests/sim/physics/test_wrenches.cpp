@@ -43,7 +43,7 @@ class Wrenches : public ::testing::Test {
 TEST_F(Wrenches, MomentumIsForceTimesTime) {
   const Vector3 force(3, -1, 0.5);
   for (int i = 0; i < 20; ++i) {
-    world.apply_wrench(body, {force, {}});
+    world.wrenches().apply(body, {force, {}});
     world.advance(kPass, kStep);
   }
   expect_near(linear() * kMass, force * 20 * kPass, 1e-9);
@@ -51,7 +51,7 @@ TEST_F(Wrenches, MomentumIsForceTimesTime) {
 }
 
 TEST_F(Wrenches, ActDuringOneStep) {
-  world.apply_wrench(body, {{1, 0, 0}, {}});
+  world.wrenches().apply(body, {{1, 0, 0}, {}});
   world.advance(kPass, kStep);
   const Vector3 after_one = linear();
   world.advance(kPass, kStep);
@@ -60,8 +60,8 @@ TEST_F(Wrenches, ActDuringOneStep) {
 }
 
 TEST_F(Wrenches, AddUp) {
-  world.apply_wrench(body, {{1, 0, 0}, {}});
-  world.apply_wrench(body, {{2, 4, 0}, {}});
+  world.wrenches().apply(body, {{1, 0, 0}, {}});
+  world.wrenches().apply(body, {{2, 4, 0}, {}});
   world.advance(kPass, kStep);
   expect_near(linear() * kMass, Vector3(3, 4, 0) * kPass, 1e-12);
 }
@@ -73,7 +73,7 @@ TEST_F(Wrenches, TorqueAboutAPrincipalAxisTurnsAboutIt) {
     torque[axis] = 0.4;
     const Vector3 in_world = world.pose(body).orientation * torque;
     for (int i = 0; i < 10; ++i) {
-      world.apply_wrench(body, {{}, torque}, {}, WrenchFrame::kObject);
+      world.wrenches().apply(body, {{}, torque}, {}, WrenchFrame::kObject);
       world.advance(kPass, kStep);
     }
     expect_near(world.velocity(body).angular, in_world * 0.5 / kInertia[axis], 1e-9);
@@ -84,7 +84,7 @@ TEST_F(Wrenches, TorqueAboutAPrincipalAxisTurnsAboutIt) {
 TEST_F(Wrenches, AForceBesideTheCentreAlsoTurns) {
   const Vector3 force(0, 3, 0);
   const Vector3 lever(0.2, 0, 0.1);
-  world.apply_wrench(body, {force, {}}, centre() + lever);
+  world.wrenches().apply(body, {force, {}}, centre() + lever);
   world.advance(kStep, kStep);
   const Quaternion turned = free_body().models[0].pose.orientation;
   const Vector3 torque = turned.conjugate() * lever.cross(force);
@@ -98,8 +98,8 @@ TEST_F(Wrenches, TheFrameOfTheObjectIsThatOfAllVectors) {
   World other(free_body(), 0);
   const Wrench wrench{{1, -2, 3}, {0.1, 0.2, -0.3}};
   const Vector3 point(0.4, 0.1, -0.2);
-  world.apply_wrench(body, wrench, point, WrenchFrame::kObject);
-  other.apply_wrench(body, {before.orientation * wrench.force, before.orientation * wrench.torque}, before * point);
+  world.wrenches().apply(body, wrench, point, WrenchFrame::kObject);
+  other.wrenches().apply(body, {before.orientation * wrench.force, before.orientation * wrench.torque}, before * point);
   world.advance(kPass, kStep);
   other.advance(kPass, kStep);
   expect_near(world.velocity(body).linear, other.velocity(body).linear, 1e-12);
@@ -108,8 +108,8 @@ TEST_F(Wrenches, TheFrameOfTheObjectIsThatOfAllVectors) {
 
 TEST_F(Wrenches, OnAModelActOnItsCanonicalLink) {
   World other(free_body(), 0);
-  world.apply_wrench(find("/Body"), {{1, 2, 3}, {4, 5, 6}});
-  other.apply_wrench(body, {{1, 2, 3}, {4, 5, 6}});
+  world.wrenches().apply(find("/Body"), {{1, 2, 3}, {4, 5, 6}});
+  other.wrenches().apply(body, {{1, 2, 3}, {4, 5, 6}});
   world.advance(kPass, kStep);
   other.advance(kPass, kStep);
   EXPECT_EQ(world.state_hash(), other.state_hash());
@@ -118,34 +118,34 @@ TEST_F(Wrenches, OnAModelActOnItsCanonicalLink) {
 TEST_F(Wrenches, OnTwoJoinedLinksMoveBoth) {
   World pair(jointed(joint("fixed", {})), 0);
   const ObjectId base = pair.tree().find("/Robot/base");
-  pair.apply_wrench(base, {{1, 0, 0}, {}});
+  pair.wrenches().apply(base, {{1, 0, 0}, {}});
   pair.advance(kPass, kStep);
   EXPECT_NEAR(pair.velocity(base).linear.x(), kPass / 2, 1e-6) << "1 N moves two links of 1 kg";
 }
 
 TEST_F(Wrenches, CanBeCleared) {
-  world.apply_wrench(body, {{1, 0, 0}, {0, 1, 0}});
-  world.clear_wrench(body, true, false);
+  world.wrenches().apply(body, {{1, 0, 0}, {0, 1, 0}});
+  world.wrenches().clear(body, true, false);
   world.advance(kPass, kStep);
   expect_near(linear(), {}, 1e-12);
   EXPECT_GT(world.velocity(body).angular.norm(), 0.01);
   world.reset();
-  world.apply_wrench(body, {{1, 0, 0}, {0, 1, 0}});
-  world.clear_wrench(body);
+  world.wrenches().apply(body, {{1, 0, 0}, {0, 1, 0}});
+  world.wrenches().clear(body);
   EXPECT_EQ(world.state_hash(), World(free_body(), 0).state_hash());
 }
 
 TEST_F(Wrenches, AreForgottenByAReset) {
   const std::uint64_t before = world.state_hash();
-  world.apply_wrench(body, {{1, 0, 0}, {}});
+  world.wrenches().apply(body, {{1, 0, 0}, {}});
   EXPECT_NE(world.state_hash(), before);
   world.reset();
   EXPECT_EQ(world.state_hash(), before);
 }
 
 TEST_F(Wrenches, OfARemovedModelAreForgotten) {
-  world.apply_wrench(body, {{1, 0, 0}, {}});
-  world.remove_model(find("/Body"));
+  world.wrenches().apply(body, {{1, 0, 0}, {}});
+  world.models().remove(find("/Body"));
   EXPECT_NO_THROW(world.advance(kPass, kStep));
 }
 
@@ -157,13 +157,13 @@ TEST_F(Wrenches, WakeASleepingBody) {
   const double before = ground.pose(link).position.x();
   ground.advance(1, kStep);
   ASSERT_EQ(ground.pose(link).position.x(), before);
-  ground.apply_wrench(link, {{2, 0, 0}, {}});
+  ground.wrenches().apply(link, {{2, 0, 0}, {}});
   ground.advance(kPass, kStep);
   EXPECT_NEAR(ground.velocity(link).linear.x(), 2 * kPass, 1e-6);
 }
 
 TEST_F(Wrenches, SmallOnesAct) {
-  world.apply_wrench(body, {{1e-6, 0, 0}, {0, 1e-7, 0}});
+  world.wrenches().apply(body, {{1e-6, 0, 0}, {0, 1e-7, 0}});
   world.advance(kPass, kStep);
   EXPECT_NEAR(linear().x(), 1e-6 * kPass / kMass, 1e-15);
   EXPECT_GT(world.velocity(body).angular.norm(), 1e-9);
@@ -171,12 +171,12 @@ TEST_F(Wrenches, SmallOnesAct) {
 
 TEST_F(Wrenches, WithoutForceOrTorqueDoNotWakeIt) {
   const std::uint64_t before = world.state_hash();
-  world.apply_wrench(body, {});
+  world.wrenches().apply(body, {});
   EXPECT_EQ(world.state_hash(), before);
 }
 
 TEST_F(Wrenches, TooLargeForTheWorldAreADivergence) {
-  world.apply_wrench(body, {{1e9, 0, 0}, {}});
+  world.wrenches().apply(body, {{1e9, 0, 0}, {}});
   EXPECT_THROW(world.advance(kPass, kStep), Diverged);
   world.reset();
   EXPECT_NO_THROW(world.advance(kPass, kStep));
@@ -184,15 +184,15 @@ TEST_F(Wrenches, TooLargeForTheWorldAreADivergence) {
 
 TEST_F(Wrenches, InvalidOnesAreRefused) {
   const std::uint64_t before = world.state_hash();
-  EXPECT_THROW(world.apply_wrench(body, {{kNaN, 0, 0}, {}}), InvalidInput);
-  EXPECT_THROW(world.apply_wrench(body, {{}, {0, kInfinity, 0}}), InvalidInput);
-  EXPECT_THROW(world.apply_wrench(body, {{1e10, 0, 0}, {}}), InvalidInput);
-  EXPECT_THROW(world.apply_wrench(body, {{1, 0, 0}, {}}, Vector3(kNaN, 0, 0)), InvalidInput);
-  EXPECT_THROW(world.apply_wrench(find("/Wall/link"), {{1, 0, 0}, {}}), WrongObject);
-  EXPECT_THROW(world.apply_wrench(find("/Wall"), {{1, 0, 0}, {}}), WrongObject);
-  EXPECT_THROW(world.apply_wrench(12345, {{1, 0, 0}, {}}), NoSuchObject);
+  EXPECT_THROW(world.wrenches().apply(body, {{kNaN, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.wrenches().apply(body, {{}, {0, kInfinity, 0}}), InvalidInput);
+  EXPECT_THROW(world.wrenches().apply(body, {{1e10, 0, 0}, {}}), InvalidInput);
+  EXPECT_THROW(world.wrenches().apply(body, {{1, 0, 0}, {}}, Vector3(kNaN, 0, 0)), InvalidInput);
+  EXPECT_THROW(world.wrenches().apply(find("/Wall/link"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_THROW(world.wrenches().apply(find("/Wall"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_THROW(world.wrenches().apply(12345, {{1, 0, 0}, {}}), NoSuchObject);
   World pair(jointed(joint("revolute", {axis(Vector3::UnitZ())})), 0);
-  EXPECT_THROW(pair.apply_wrench(pair.tree().find("/joint"), {{1, 0, 0}, {}}), WrongObject);
+  EXPECT_THROW(pair.wrenches().apply(pair.tree().find("/joint"), {{1, 0, 0}, {}}), WrongObject);
   EXPECT_EQ(world.state_hash(), before);
 }
 

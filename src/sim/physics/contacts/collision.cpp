@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collision detection.
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "physics/ode/constraint_defaults.hpp"
 #include "physics/contacts/contact_points.hpp"
 #include "physics/contacts/contact_thinning.hpp"
 #include "physics/contacts/round_contacts.hpp"
 #include "physics/contacts/surface_pair.hpp"
-#include "physics/world/state.hpp"
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
 
-struct SearchData {
-  World::State& state;
-  double step;  // s
-};
+static_assert(Islands::kNone == Collider::kNoModel);
 
 Vector3 turned(dGeomID geom, const Vector3& direction) {
   dQuaternion q;
@@ -52,16 +49,15 @@ bool sleeps(const PlacedModel& model) {
 }
 
 /// Whether joints or a motor act on the links of a model.
-bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.linear != nullptr; }
+bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.exists(); }
 
 void touch(void* data, dGeomID first, dGeomID second) {
-  auto& [state, step] = *static_cast<SearchData*>(data);
-  if (static_cast<const Collider*>(dGeomGetData(second))->number <
-      static_cast<const Collider*>(dGeomGetData(first))->number) {
-    std::swap(first, second);
-  }
-  const auto& a = *static_cast<const Collider*>(dGeomGetData(first));
-  const auto& b = *static_cast<const Collider*>(dGeomGetData(second));
+  auto& substep = *static_cast<Substep*>(data);
+  Contacts& contacts = substep.contacts;
+  const double step = substep.duration;
+  if (collider_of(second).number < collider_of(first).number) std::swap(first, second);
+  const Collider& a = collider_of(first);
+  const Collider& b = collider_of(second);
   if (a.link == b.link) return;
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
@@ -75,12 +71,12 @@ void touch(void* data, dGeomID first, dGeomID second) {
   const int count = std::min(find_contact_points(first, second, points), most);
   if (count == 0) return;
   place_on_round_shape(first, second, count, points.data());
-  state.islands.touch(a.island, b.island, count);
-  state.found.pairs.push_back({&a, &b, state.found.points.size(), count});
+  contacts.islands.touch(a.model, b.model, count);
+  contacts.found.pairs.push_back({&a, &b, contacts.found.points.size(), count});
   SurfacePair pair = combine(surface_a, surface_b, step);
   share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
   for (int i = 0; i < count; ++i) {
-    FoundContact& point = state.found.points.emplace_back();
+    FoundContact& point = contacts.found.points.emplace_back();
     point.has_own_correction = pair.has_own_correction;
     dContact& contact = point.contact;
     contact.surface = pair.ode;
@@ -109,36 +105,31 @@ void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(fi
 
 dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
-/// Searches the contacts of all awake bodies.
-void search(World::State& state, double step) {
-  dJointGroupEmpty(state.contacts.get());
-  state.found.clear();
-  state.islands.clear(state.moving.size());
-  for (std::size_t i = 0; i < state.moving.size(); ++i) {
-    if (is_jointed(*state.moving[i])) state.islands.set_jointed(static_cast<int>(i));
+}  // namespace
+
+void search_contacts(Substep& substep) {
+  const MovingModels& moving = substep.moving;
+  dJointGroupEmpty(substep.ode.contact_joints.get());
+  substep.contacts.found.clear();
+  substep.contacts.islands.clear(moving.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (is_jointed(*moving[i])) substep.contacts.islands.set_jointed(static_cast<int>(i));
   }
-  if (std::all_of(state.moving.begin(), state.moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) {
-    return;
-  }
-  SearchData data{state, step};
+  if (std::all_of(moving.begin(), moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) return;
   // Collide models with each other; shapes of one model collide only with self_collide.
-  if (state.moving.size() > 1) dSpaceCollide(state.movers.get(), &data, touch_spaces);
-  for (const PlacedModel* model : state.moving) {
+  if (moving.size() > 1) dSpaceCollide(substep.spaces.movers.get(), &substep, touch_spaces);
+  for (const PlacedModel* model : moving) {
     dSpaceID space = model->space.get();
     if (sleeps(*model)) continue;
-    if (model->description.self_collide) dSpaceCollide(space, &data, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.statics.get()), &data, touch);
-    dSpaceCollide2(as_geom(space), as_geom(state.planes.get()), &data, touch);
+    if (model->description.self_collide) dSpaceCollide(space, &substep, touch);
+    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.statics.get()), &substep, touch);
+    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.planes.get()), &substep, touch);
   }
 }
 
-}  // namespace
-
-void find_contacts(World::State& state, double step) {
-  search(state, step);
-  while (wake_touched(state)) search(state, step);
-  sort(state.found.pairs);
-  if (state.islands.may_be_beyond_limit()) thin_out(state.found, state.islands);
+void order_contacts(Contacts& contacts) {
+  sort(contacts.found.pairs);
+  if (contacts.islands.may_be_beyond_limit()) thin_out(contacts.found, contacts.islands);
 }
 
 }  // namespace bubblesim

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
+#include "physics/parts/collider.hpp"
 
 namespace bubblesim {
 namespace {

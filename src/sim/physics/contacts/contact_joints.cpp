@@ -2,7 +2,7 @@
 #include "physics/contacts/contact_joints.hpp"
 
 #include "physics/contacts/contact_cone.hpp"
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -16,8 +16,8 @@ Vector3 torque_about_point(const FoundPair& pair, const FoundContact& point) {
 
 }  // namespace
 
-void join(World::State& state, const FoundPair& pair, FoundContact& point) {
-  dJointID joint = dJointCreateContact(state.world.get(), state.contacts.get(), &point.contact);
+void join(OdeWorld& ode, const FoundPair& pair, FoundContact& point) {
+  dJointID joint = dJointCreateContact(ode.id(), ode.contact_joints.get(), &point.contact);
   dJointAttach(joint, pair.first->link->body.get(), pair.second->link->body.get());
   dJointSetFeedback(joint, &point.feedback);
 }
@@ -27,26 +27,27 @@ void take_force(const FoundPair& pair, FoundContact& point) {
   if (point.contact.surface.rho > 0) point.torque = torque_about_point(pair, point);
 }
 
-void join_contacts(World::State& state, double step) {
-  Recollection recollection(state.memory);
-  for (const FoundPair& pair : state.found.pairs) {
-    const int island = state.islands.of(pair.first->island);
-    if (!state.islands.is_jointed(island)) continue;
+void join_contacts(Substep& substep) {
+  Contacts& contacts = substep.contacts;
+  Recollection recollection(contacts.memory);
+  for (const FoundPair& pair : contacts.found.pairs) {
+    const int island = contacts.islands.of(pair.first->model);
+    if (!contacts.islands.is_jointed(island)) continue;
     const RememberedPair* remembered = recollection.pair(pair);
-    FoundContact* points = &state.found.points[pair.begin];
-    limit_friction(pair, remembered, state.memory, step, state.islands.is_beyond_limit(island), points);
-    for (int i = 0; i < pair.count; ++i) join(state, pair, points[i]);
+    FoundContact* points = &contacts.found.points[pair.begin];
+    limit_friction(pair, remembered, contacts.memory, substep.duration, contacts.islands.is_beyond_limit(island), points);
+    for (int i = 0; i < pair.count; ++i) join(substep.ode, pair, points[i]);
   }
 }
 
-void gather_contacts(World::State& state) {
-  for (const FoundPair& pair : state.found.pairs) {
-    if (!state.islands.is_jointed(state.islands.of(pair.first->island))) continue;
+void gather_contacts(Contacts& contacts) {
+  for (const FoundPair& pair : contacts.found.pairs) {
+    if (!contacts.islands.is_jointed(contacts.islands.of(pair.first->model))) continue;
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
-      take_force(pair, state.found.points[i]);
+      take_force(pair, contacts.found.points[i]);
     }
   }
-  remember_contacts(state.found, state.memory, state.memory_before);
+  remember_contacts(contacts.found, contacts.memory, contacts.memory_before);
 }
 
 }  // namespace bubblesim

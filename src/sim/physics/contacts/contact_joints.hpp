@@ -2,15 +2,20 @@
 // ODE's contact joints, which the solvers of islands with joints use, and their forces.
 #pragma once
 
-#include "bubblesim/world.hpp"
-#include "physics/contacts/found_contacts.hpp"
+#include "physics/contacts/substep.hpp"
 
 namespace bubblesim {
 
 /// Creates the joint of a point.
-void join(World::State& state, const FoundPair& pair, FoundContact& point);
+void join(OdeWorld& ode, const FoundPair& pair, FoundContact& point);
 
 /// Takes the force and the torque that ODE applied.
 void take_force(const FoundPair& pair, FoundContact& point);
+
+/// Creates the joints of the contacts that were found in islands with joints.
+void join_contacts(Substep& substep);
+
+/// Takes the forces of the contacts after the solvers, and remembers them.
+void gather_contacts(Contacts& contacts);
 
 }  // namespace bubblesim

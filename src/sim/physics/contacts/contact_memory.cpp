@@ -5,7 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
+#include "physics/parts/collider.hpp"
 #include "scene/fnv1a.hpp"
 
 namespace bubblesim {
@@ -107,14 +108,11 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
   return expected;
 }
 
-void forget_contacts(World::State& state, ObjectId model) {
-  std::vector<RememberedPair>& pairs = state.memory.pairs;
-  const auto belongs = [&](const Collider* shape) {
-    return state.tree().outermost_model_of(shape->link->object) == model;
-  };
+void forget_contacts(ContactMemory& memory, const std::function<bool(const Collider&)>& belongs) {
+  std::vector<RememberedPair>& pairs = memory.pairs;
   // Their points stay until the next substep; nothing refers to them.
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](const RememberedPair& pair) { return belongs(pair.first) || belongs(pair.second); }),
+                             [&](const RememberedPair& pair) { return belongs(*pair.first) || belongs(*pair.second); }),
               pairs.end());
 }
 

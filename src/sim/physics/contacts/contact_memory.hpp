@@ -4,9 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
-#include "bubblesim/world.hpp"
+#include "bubblesim/math.hpp"
 #include "physics/contacts/contact_points.hpp"
 #include "physics/contacts/found_contacts.hpp"
 
@@ -74,7 +75,7 @@ ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remem
 /// working memory.
 void remember_contacts(const FoundContacts& found, ContactMemory& memory, ContactMemory& before);
 
-/// Drops the contacts of an outermost model that was moved or will be removed.
-void forget_contacts(World::State& state, ObjectId model);
+/// Drops the contacts of the shapes for which `belongs` is true: of a model that was moved or will be removed.
+void forget_contacts(ContactMemory& memory, const std::function<bool(const Collider&)>& belongs);
 
 }  // namespace bubblesim

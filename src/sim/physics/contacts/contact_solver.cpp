@@ -7,7 +7,7 @@
 
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
-#include "physics/world/state.hpp"
+#include "physics/parts/link.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "physics/contacts/contact_points.hpp"
-#include "physics/world/state.hpp"
+#include "physics/parts/collider.hpp"
 
 namespace bubblesim {
 namespace {
@@ -35,7 +35,7 @@ std::map<int, std::vector<Patch>> patches_by_island(const FoundContacts& found, 
   std::map<std::pair<const Link*, const Link*>, std::vector<std::size_t>> by_links;  // indices into `all`
   std::vector<std::pair<int, Patch>> all;
   for (const FoundPair& pair : found.pairs) {
-    const int island = islands.of(pair.first->island);
+    const int island = islands.of(pair.first->model);
     if (!islands.is_jointed(island) || islands.contacts(island) <= Islands::kFew) continue;
     std::vector<std::size_t>& patches = by_links[std::minmax(pair.first->link, pair.second->link)];
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {

@@ -5,7 +5,8 @@
 
 #include "physics/convex/manifold.hpp"
 #include "physics/convex/terrain_contacts.hpp"
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
+#include "physics/parts/collider.hpp"
 
 namespace bubblesim {
 namespace {
@@ -52,7 +53,7 @@ void add_plane_contacts(dGeomID convex, dGeomID plane, std::vector<ManifoldPoint
 }
 
 void add_mesh_contacts(dGeomID convex, dGeomID mesh, std::vector<ManifoldPoint>& points) {
-  const TriangleTree& tree = static_cast<const Collider*>(dGeomGetData(mesh))->mesh->tree();
+  const TriangleTree& tree = collider_of(mesh).mesh->tree();
   const Transform frame = geom_transform(mesh);
   const Transform own = geom_transform(convex);
   for (const ConvexPart& part : parts_of(convex)) add_terrain_contacts(ConvexShape(part, own), tree, frame, points);

@@ -6,7 +6,7 @@
 
 #include "physics/contacts/contact_cone.hpp"
 #include "physics/contacts/contact_joints.hpp"
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -68,37 +68,40 @@ Loads compare(const FoundPair& pair, FoundContact* points) {
 
 }  // namespace
 
-void FrictionIteration::run(World::State& state, double step) {
+void FrictionIteration::run(Substep& substep, const std::vector<KeptBody>& before) {
+  FoundContacts& found = substep.contacts.found;
   const auto disagrees = [&](const FoundPair& pair) {
-    if (!is_exact(state.islands, state.islands.of(pair.first->island))) return false;
-    const Loads loads = compare(pair, &state.found.points[pair.begin]);
+    Islands& islands = substep.contacts.islands;
+    if (!is_exact(islands, islands.of(pair.first->model))) return false;
+    const Loads loads = compare(pair, &found.points[pair.begin]);
     return std::abs(loads.act - loads.relied) > kAgreement * loads.act;
   };
-  if (std::none_of(state.found.pairs.begin(), state.found.pairs.end(), disagrees)) return;
-  collect(state);
-  for (solutions_ = 1; judge(state) && solutions_ < kMostSolutions; ++solutions_) {
-    limit(state);
-    if (solve(state, step)) continue;
-    judge(state);
+  if (std::none_of(found.pairs.begin(), found.pairs.end(), disagrees)) return;
+  collect(substep);
+  for (solutions_ = 1; judge(found) && solutions_ < kMostSolutions; ++solutions_) {
+    limit(found, before);
+    if (solve(substep, before)) continue;
+    judge(found);
     break;
   }
 }
 
-void FrictionIteration::collect(World::State& state) {
+void FrictionIteration::collect(Substep& substep) {
+  Islands& islands = substep.contacts.islands;
   pairs_.clear();
-  for (const FoundPair& found : state.found.pairs) {
-    const int island = state.islands.of(found.first->island);
-    if (is_exact(state.islands, island)) pairs_.push_back({&found, island});
+  for (const FoundPair& found : substep.contacts.found.pairs) {
+    const int island = islands.of(found.first->model);
+    if (is_exact(islands, island)) pairs_.push_back({&found, island});
   }
-  islands_.assign(state.moving.size(), {true});
+  islands_.assign(substep.moving.size(), {true});
 }
 
-bool FrictionIteration::judge(World::State& state) {
+bool FrictionIteration::judge(FoundContacts& found) {
   for (Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
     pair.relied_before = pair.relied;
     pair.missing_before = pair.missing;
-    const Loads loads = compare(*pair.found, &state.found.points[pair.found->begin]);
+    const Loads loads = compare(*pair.found, &found.points[pair.found->begin]);
     pair.load = loads.act;
     pair.relied = loads.relied;
     pair.missing = loads.act - loads.relied;
@@ -107,7 +110,7 @@ bool FrictionIteration::judge(World::State& state) {
   bool again = false;
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
-    const double mu = greatest_mu(state.found.points[pair.found->begin]);
+    const double mu = greatest_mu(found.points[pair.found->begin]);
     const double least = kSmallPair * island_of(pair).load * std::min(mu, 1.0);
     if (mu * std::abs(pair.missing) <= kAgreement * std::max(mu * pair.load, least)) continue;
     again = island_of(pair).disagrees = true;
@@ -116,7 +119,7 @@ bool FrictionIteration::judge(World::State& state) {
   return again;
 }
 
-void FrictionIteration::limit(World::State& state) {
+void FrictionIteration::limit(FoundContacts& found, const std::vector<KeptBody>& before) {
   for (const Pair& pair : pairs_) {
     const double change = pair.missing - pair.missing_before;
     island_of(pair).change += pair.missing * change;
@@ -124,10 +127,10 @@ void FrictionIteration::limit(World::State& state) {
   }
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
-    FoundContact* points = &state.found.points[pair.found->begin];
+    FoundContact* points = &found.points[pair.found->begin];
     for (int i = 0; i < pair.found->count; ++i) take_force(*pair.found, points[i]);
   }
-  put_back(state);
+  put_back(before);
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
     const Island& island = island_of(pair);
@@ -138,7 +141,7 @@ void FrictionIteration::limit(World::State& state) {
           pair.relied + pair.missing - part * (pair.relied - pair.relied_before + pair.missing - pair.missing_before);
     }
     load = std::clamp(load, 0.0, kMostChange * std::max(pair.relied, pair.load));
-    FoundContact* points = &state.found.points[pair.found->begin];
+    FoundContact* points = &found.points[pair.found->begin];
     for (int i = 0; i < pair.found->count; ++i) {
       FoundContact& point = points[i];
       // Points of a pair exchange loads without end: their shares change by half.
@@ -152,32 +155,32 @@ void FrictionIteration::limit(World::State& state) {
   }
 }
 
-void FrictionIteration::put_back(const World::State& state) const {
-  for (const KeptBody& kept : state.bodies_before) {
+void FrictionIteration::put_back(const std::vector<KeptBody>& before) const {
+  for (const KeptBody& kept : before) {
     if (is_again(kept.island)) set_numbers(kept.body, kept.numbers);
   }
 }
 
-bool FrictionIteration::solve(World::State& state, double step) {
-  dJointGroupEmpty(state.contacts.get());
+bool FrictionIteration::solve(Substep& substep, const std::vector<KeptBody>& before) {
+  dJointGroupEmpty(substep.ode.contact_joints.get());
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
-    FoundContact* points = &state.found.points[pair.found->begin];
-    for (int i = 0; i < pair.found->count; ++i) join(state, *pair.found, points[i]);
+    FoundContact* points = &substep.contacts.found.points[pair.found->begin];
+    for (int i = 0; i < pair.found->count; ++i) join(substep.ode, *pair.found, points[i]);
   }
   others_.clear();
-  for (std::size_t i = 0; i < state.moving.size(); ++i) {
-    if (is_again(state.islands.of(static_cast<int>(i)))) continue;
-    for (const Link& link : state.moving[i]->links) {
+  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
+    if (is_again(substep.contacts.islands.of(static_cast<int>(i)))) continue;
+    for (const Link& link : substep.moving[i]->links) {
       if (dBodyIsEnabled(link.body.get()) != 0) others_.push_back(link.body.get());
     }
   }
   for (dBodyID body : others_) dBodyDisable(body);
-  dWorldStep(state.world.get(), step);
+  dWorldStep(substep.ode.id(), substep.duration);
   const bool solved = !ode::solver_warned();
   if (!solved) {
-    put_back(state);
-    ode::step_iteratively(state.world.get(), step, state.random);
+    put_back(before);
+    ode::step_iteratively(substep.ode.id(), substep.duration, substep.ode.random);
   }
   for (dBodyID body : others_) dBodyEnable(body);
   return solved;

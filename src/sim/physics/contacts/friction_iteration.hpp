@@ -4,10 +4,17 @@
 
 #include <vector>
 
-#include "bubblesim/world.hpp"
-#include "physics/contacts/found_contacts.hpp"
+#include "physics/contacts/substep.hpp"
+#include "physics/ode/body_state.hpp"
 
 namespace bubblesim {
+
+/// A body as it was before a step.
+struct KeptBody {
+  dBodyID body;
+  int island;
+  BodyNumbers numbers;
+};
 
 /// Solves those islands again in which the friction of ODE's exact solution does not follow from its normal forces. The
 /// normal force that limits the friction of a pair of shapes is a fixed point of "limit by it, solve"; Anderson's
@@ -15,8 +22,8 @@ namespace bubblesim {
 /// 1965). Its vectors are working memory.
 class FrictionIteration {
  public:
-  /// Call after the exact solver; `state.bodies_before` are the bodies before it.
-  void run(World::State& state, double step);
+  /// Call after the exact solver; `before` are the bodies before it.
+  void run(Substep& substep, const std::vector<KeptBody>& before);
 
  private:
   struct Pair {
@@ -36,15 +43,15 @@ class FrictionIteration {
     double square = 0;  // N^2, of the change
   };
 
-  void collect(World::State& state);
+  void collect(Substep& substep);
   /// Compares friction and normal forces of the last solution; returns whether an island must be solved again.
-  bool judge(World::State& state);
+  bool judge(FoundContacts& found);
   /// Sets the limits of the next solution, and puts the bodies back.
-  void limit(World::State& state);
+  void limit(FoundContacts& found, const std::vector<KeptBody>& before);
   /// Puts the bodies of the islands that are solved again where they were before the solver.
-  void put_back(const World::State& state) const;
+  void put_back(const std::vector<KeptBody>& before) const;
   /// Returns whether there was a solution.
-  bool solve(World::State& state, double step);
+  bool solve(Substep& substep, const std::vector<KeptBody>& before);
 
   bool is_again(int island) const { return islands_[static_cast<std::size_t>(island)].again; }
   Island& island_of(const Pair& pair) { return islands_[static_cast<std::size_t>(pair.island)]; }

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "physics/contacts/convex_geom.hpp"
+#include "physics/convex/swept.hpp"
 #include "physics/convex/terrain_contacts.hpp"
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -27,8 +28,12 @@ struct FastLink {
 /// Finds where the links of a substep first meet other bodies.
 class ImpactSearch {
  public:
-  ImpactSearch(World::State& state, const std::vector<FastLink>& fast)
-      : state_(state), fast_(fast), stopped_(state.moving.size(), 1), probe_(dCreateBox(nullptr, 1, 1, 1)) {}
+  ImpactSearch(const Substep& substep, const std::vector<FastLink>& fast)
+      : moving_(substep.moving),
+        spaces_(substep.spaces),
+        fast_(fast),
+        stopped_(substep.moving.size(), 1),
+        probe_(dCreateBox(nullptr, 1, 1, 1)) {}
 
   /// By moving model: the fraction of the substep at which it is stopped; 1 if it is not.
   const std::vector<double>& find() {
@@ -72,7 +77,7 @@ class ImpactSearch {
     dGeomSetCategoryBits(probe_.get(), dGeomGetCategoryBits(collider.geom.get()));
     dGeomSetCollideBits(probe_.get(), dGeomGetCollideBits(collider.geom.get()));
     swept_ = Bounds(centre - size / 2, centre + size / 2);
-    for (dSpaceID space : {state_.movers.get(), state_.statics.get(), state_.planes.get()}) {
+    for (dSpaceID space : {spaces_.movers.get(), spaces_.statics.get(), spaces_.planes.get()}) {
       dSpaceCollide2(probe_.get(), reinterpret_cast<dGeomID>(space), this, meet);
     }
   }
@@ -81,7 +86,7 @@ class ImpactSearch {
     auto& search = *static_cast<ImpactSearch*>(data);
     dGeomID other = first == search.probe_.get() ? second : first;
     if (dGeomIsSpace(other) != 0) return dSpaceCollide2(search.probe_.get(), other, data, meet);
-    const auto& collider = *static_cast<const Collider*>(dGeomGetData(other));
+    const Collider& collider = collider_of(other);
     if (!search.is_fast(collider.link)) search.test(*search.current_, collider);
   }
 
@@ -100,7 +105,7 @@ class ImpactSearch {
 
   void test(const Collider& a, const Collider& b) {
     if (!may_touch(a, b)) return;
-    if (a.island == b.island && !state_.moving[static_cast<std::size_t>(a.island)]->description.self_collide) return;
+    if (a.model == b.model && !moving_[static_cast<std::size_t>(a.model)]->description.self_collide) return;
     const RigidMotion motion_a = motion_of(*a.link);
     const RigidMotion motion_b = motion_of(*b.link);
     shapes_of(a.geom.get(), shapes_a_);
@@ -118,10 +123,10 @@ class ImpactSearch {
   }
 
   void stop(const Collider& a, const Collider& b, double fraction) {
-    double& at = stopped_[static_cast<std::size_t>(a.island)];
+    double& at = stopped_[static_cast<std::size_t>(a.model)];
     at = std::min(at, fraction);
     if (!is_fast(b.link)) return;  // a slow body goes on: it sinks in by less than half its size
-    double& other = stopped_[static_cast<std::size_t>(b.island)];
+    double& other = stopped_[static_cast<std::size_t>(b.model)];
     other = std::min(other, fraction);
   }
 
@@ -170,7 +175,8 @@ class ImpactSearch {
     }
   }
 
-  World::State& state_;
+  const MovingModels& moving_;
+  const Spaces& spaces_;
   const std::vector<FastLink>& fast_;
   std::vector<double> stopped_;
   ode::GeomHandle probe_;
@@ -182,8 +188,8 @@ class ImpactSearch {
 };
 
 /// Puts a model where it was at a fraction of the substep: all its links, so that its joints stay closed.
-void put_back(const World::State& state, const PlacedModel& model, double fraction, double step) {
-  const Vector3 excess = state.gravity * (step * (1 - fraction));  // of the speed of fall
+void put_back(const PlacedModel& model, const Vector3& gravity, double fraction, double step) {
+  const Vector3 excess = gravity * (step * (1 - fraction));  // of the speed of fall
   for (const Link& link : model.links) {
     dBodyID body = link.body.get();
     const Transform at = RigidMotion(link.sweep.start, body_transform(body)).at(fraction);
@@ -236,32 +242,32 @@ void measure(const Collider& collider, Sweep& sweep) {
   sweep.spin_reach = std::max(sweep.spin_reach, lever + size.reach - size.half);
 }
 
-void note_motion(World::State& state) {
-  for (PlacedModel* model : state.moving) {
+void note_motion(const MovingModels& moving) {
+  for (PlacedModel* model : moving) {
     for (Link& link : model->links) {
       link.sweep.start = body_transform(link.body.get());
     }
   }
 }
 
-void stop_at_impacts(World::State& state, double step) {
+void stop_at_impacts(Substep& substep) {
   thread_local std::vector<FastLink> fast;
   fast.clear();
-  for (PlacedModel* model : state.moving) {
+  for (PlacedModel* model : substep.moving) {
     for (const Link& link : model->links) {
       const Sweep& sweep = link.sweep;
       if (sweep.half_size == Sweep::kNoSize) continue;
       const Vector3 travel = to_vector(dBodyGetPosition(link.body.get())) - sweep.start.position;
-      const double turned = to_vector(dBodyGetAngularVel(link.body.get())).norm() * step * sweep.spin_reach;
+      const double turned = to_vector(dBodyGetAngularVel(link.body.get())).norm() * substep.duration * sweep.spin_reach;
       const double left = sweep.half_size - turned;
       if (left < 0 || travel.squaredNorm() > left * left) fast.push_back({model, &link});
     }
   }
   if (fast.empty()) return;
-  ImpactSearch search(state, fast);
+  ImpactSearch search(substep, fast);
   const std::vector<double>& stopped = search.find();
   for (std::size_t i = 0; i < stopped.size(); ++i) {
-    if (stopped[i] < 1) put_back(state, *state.moving[i], stopped[i], step);
+    if (stopped[i] < 1) put_back(*substep.moving[i], substep.gravity, stopped[i], substep.duration);
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which part of the errors of joints a substep corrects; contacts have their own part.
-//
 // A substep moves a body along the tangent of its path, and its joint opens by h^2 w^2 r / 2. The correction in the
 // next substep makes the velocity that of the chord; a small one lags behind the motion and takes its energy. Above 1
 // it extrapolates. Only while bodies swing: at rest it would keep rounding errors alive, and ODE's exact solver finds
 // no solution more often.
+#include "physics/motion/joint_correction.hpp"
+
 #include <cmath>
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -33,14 +33,14 @@ void note_lever(PlacedModel& model, dBodyID body, const Vector3& anchor) {
   if (length > kLeastLever) model.levers.push_back({body, length});
 }
 
-void correct_joints(const World::State& state, double step) {
+void correct_joints(const MovingModels& moving, dWorldID world, double step) {
   double part = kAtRest;
-  for (const PlacedModel* model : state.moving) {
+  for (const PlacedModel* model : moving) {
     if (!swings(*model, step)) continue;
     part = kInMotion;
     break;
   }
-  dWorldSetERP(state.world.get(), part);
+  dWorldSetERP(world, part);
 }
 
 }  // namespace bubblesim

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 #include "scene/fnv1a.hpp"
 
 namespace bubblesim {
@@ -24,8 +24,8 @@ void wake_model(PlacedModel& model) {
   for (const Link& link : model.links) dBodyEnable(link.body.get());
 }
 
-void wake_group(World::State& state, ObjectId group) {
-  for (PlacedModel* model : state.moving) {
+void wake_group(const MovingModels& moving, ObjectId group) {
+  for (PlacedModel* model : moving) {
     if (model->rest.group == group) wake_model(*model);
   }
 }
@@ -54,55 +54,57 @@ void put_to_sleep(PlacedModel& model, ObjectId group) {
 
 }  // namespace
 
-void wake_commanded(World::State& state) {
-  for (const PlacedModel* model : state.moving) {
+void wake_commanded(const MovingModels& moving) {
+  for (const PlacedModel* model : moving) {
     if (model->rest.group != kNoObject && std::any_of(model->links.begin(), model->links.end(), is_awake)) {
-      wake_group(state, model->rest.group);
+      wake_group(moving, model->rest.group);
     }
   }
 }
 
-bool wake_touched(World::State& state) {
+bool wake_touched(const MovingModels& moving, const FoundContacts& found) {
   bool any = false;
-  for (const FoundPair& pair : state.found.pairs) {
+  for (const FoundPair& pair : found.pairs) {
     for (const Collider* shape : {pair.first, pair.second}) {
       // Pairs of sleeping and static shapes are not searched: the other one is awake.
-      if (shape->island == Islands::kNone) continue;
-      const ObjectId group = state.moving[static_cast<std::size_t>(shape->island)]->rest.group;
+      if (shape->model == Collider::kNoModel) continue;
+      const ObjectId group = moving[static_cast<std::size_t>(shape->model)]->rest.group;
       if (group == kNoObject) continue;
-      wake_group(state, group);
+      wake_group(moving, group);
       any = true;
     }
   }
   return any;
 }
 
-void rest(World::State& state, double step) {
-  const std::size_t count = state.moving.size();
-  std::vector<double>& least = state.least_rest;  // by island
+void rest(Substep& substep) {
+  const MovingModels& moving = substep.moving;
+  Islands& islands = substep.contacts.islands;
+  const std::size_t count = moving.size();
+  thread_local std::vector<double> least;  // s, by island
   least.assign(count, std::numeric_limits<double>::infinity());
   bool any = false;
   for (std::size_t i = 0; i < count; ++i) {
-    PlacedModel& model = *state.moving[i];
+    PlacedModel& model = *moving[i];
     if (model.rest.group != kNoObject) continue;
-    if (model.rest.may_sleep) measure(model, step);
-    double& time = least[static_cast<std::size_t>(state.islands.of(static_cast<int>(i)))];
+    if (model.rest.may_sleep) measure(model, substep.duration);
+    double& time = least[static_cast<std::size_t>(islands.of(static_cast<int>(i)))];
     time = std::min(time, model.rest.may_sleep ? model.rest.time : 0);
     any = any || model.rest.time >= kTime;
   }
   if (!any) return;
   std::vector<ObjectId> groups(count, kNoObject);
   for (std::size_t i = 0; i < count; ++i) {
-    PlacedModel& model = *state.moving[i];
-    const auto island = static_cast<std::size_t>(state.islands.of(static_cast<int>(i)));
+    PlacedModel& model = *moving[i];
+    const auto island = static_cast<std::size_t>(islands.of(static_cast<int>(i)));
     if (model.rest.group != kNoObject || least[island] < kTime) continue;
     if (groups[island] == kNoObject) groups[island] = model.object;
     put_to_sleep(model, groups[island]);
   }
 }
 
-void wake(World::State& state) {
-  for (PlacedModel* model : state.moving) wake_model(*model);
+void wake(const MovingModels& moving) {
+  for (PlacedModel* model : moving) wake_model(*model);
 }
 
 void add_rest(Fnv1a& hash, const PlacedModel& model) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/parts/motion_meter.hpp"
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 

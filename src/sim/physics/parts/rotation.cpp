@@ -15,7 +15,7 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/world/state.hpp"
+#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
@@ -141,18 +141,6 @@ void Rotation::turn_freely(double step) {
   const Vector3 velocity = q * velocity_at(q);
   dBodySetQuaternion(body_, to_ode(q).data());
   dBodySetAngularVel(body_, velocity.x(), velocity.y(), velocity.z());
-}
-
-void begin_rotations(World::State& state, double step) {
-  for (PlacedModel* model : state.moving) {
-    for (Rotation& rotation : model->rotations) rotation.begin(step);
-  }
-}
-
-void end_rotations(World::State& state, double step) {
-  for (PlacedModel* model : state.moving) {
-    for (Rotation& rotation : model->rotations) rotation.end(step);
-  }
 }
 
 }  // namespace bubblesim

@@ -7,15 +7,13 @@
 
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
-#include "physics/ode/constraint_defaults.hpp"
 #include "physics/contacts/convex_geom.hpp"
+#include "physics/motion/impact.hpp"
+#include "physics/motion/joint_correction.hpp"
 #include "physics/world/state.hpp"
 
 namespace bubblesim {
 namespace {
-
-constexpr unsigned kLeastMemory = 4096;  // bytes of working memory of a world; by default ODE takes 64 kB
-constexpr int kIterations = 50;          // of the iterative solver
 
 void set_pose(dGeomID geom, const Pose& pose) {
   dGeomSetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
@@ -77,9 +75,9 @@ bool is_watched(const LinkDescription& link, const std::string& collision) {
 /// Creates the ODE objects of one model; its objects are in the tree already.
 class ModelBuilder {
  public:
-  ModelBuilder(const World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> prepared)
+  ModelBuilder(const WorldState& state, ObjectId id, std::shared_ptr<const PreparedModel> prepared)
       : state_(state), id_(id), placed_(std::make_unique<PlacedModel>(id, std::move(prepared))), model_(*placed_) {
-    if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.movers.get()));
+    if (!model_.description.is_static) model_.space.reset(dSimpleSpaceCreate(state.spaces.movers.get()));
   }
 
   std::unique_ptr<PlacedModel> build() {
@@ -118,7 +116,7 @@ class ModelBuilder {
     link.centre_of_mass = description.centre_of_mass;
     link.pose = pose;
     if (!model_.description.is_static) {
-      link.body = make_body(state_.world.get(), description, pose);
+      link.body = make_body(state_.ode.id(), description, pose);
       link.mass = description.mass;
       if (Rotation::is_needed(link.body.get())) model_.rotations.emplace_back(link.body.get());
     }
@@ -161,7 +159,7 @@ class ModelBuilder {
     dGeomSetCategoryBits(geom, bits);
     dGeomSetCollideBits(geom, bits);
     if (std::holds_alternative<Plane>(description.geometry)) {
-      dSpaceAdd(state_.planes.get(), geom);
+      dSpaceAdd(state_.spaces.planes.get(), geom);
     } else if (link.body == nullptr) {
       set_pose(geom, pose);  // added to the statics' space when their extent is known
     } else {
@@ -193,7 +191,7 @@ class ModelBuilder {
         site.parent_shaft = shaft_point(description.gearbox_reference, description.parent);
         site.child_shaft = shaft_point(description.gearbox_reference, description.child);
       }
-      joint.joint = make_joint(state_.world.get(), description, site);
+      joint.joint = make_joint(state_.ode.id(), description, site);
     }
     if (joint.joint) {
       for (dBodyID body : {body_named(description.parent), child.body.get()}) {
@@ -204,14 +202,12 @@ class ModelBuilder {
       meter_motors(joint, description, pose);
     }
     if (joint.joint && !description.sensors.empty()) {
-      joint.meter = make_meter(parent == nullptr ? nullptr : parent->body.get(), child.body.get());
+      joint.meter = std::make_unique<WrenchMeter>(parent, child, joint.in_child);
     }
     for (const SensorDescription& sensor : description.sensors) {
       const auto* force_torque = sensor.kind.get_if<ForceTorqueDescription>();
       if (joint.meter != nullptr && force_torque != nullptr) {
-        WrenchSignal& signal = joint.meter->signals.emplace_back(*force_torque);
-        signal.sensor = model_.sensors.size();
-        signal.in_child = joint.in_child * sensor.pose;
+        joint.meter->add_sensor(*force_torque, model_.sensors.size(), sensor.pose);
       }
       model_.sensors.push_back(sensor.pose);
     }
@@ -261,7 +257,7 @@ class ModelBuilder {
     }
   }
 
-  const World::State& state_;
+  const WorldState& state_;
   ObjectId id_;
   std::unique_ptr<PlacedModel> placed_;
   PlacedModel& model_;
@@ -269,28 +265,13 @@ class ModelBuilder {
 
 }  // namespace
 
-World::State::State(const Vector3& gravity_, std::uint64_t seed_)
-    : first_gravity(gravity_), gravity(gravity_), seed(seed_), random(static_cast<std::uint32_t>(seed_)) {
-  ode::prepare_this_thread();
-  threading.reset(dThreadingAllocateSelfThreadedImplementation());
-  world.reset(dWorldCreate());
-  dWorldSetStepThreadingImplementation(world.get(), dThreadingImplementationGetFunctions(threading.get()),
-                                       threading.get());
-  dWorldStepReserveInfo memory{};
-  memory.struct_size = sizeof memory;
-  memory.reserve_factor = 1.2F;  // ODE's default
-  memory.reserve_minimum = kLeastMemory;
-  dWorldSetStepMemoryReservationPolicy(world.get(), &memory);
-  dWorldSetGravity(world.get(), gravity.x(), gravity.y(), gravity.z());
-  dWorldSetCFM(world.get(), kConstraintSoftness);
-  dWorldSetContactSurfaceLayer(world.get(), kSurfaceLayer);
-  movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
-  planes.reset(dSimpleSpaceCreate(nullptr));
-  dWorldSetQuickStepNumIterations(world.get(), kIterations);
-  contacts.reset(dJointGroupCreate(0));
+WorldState::WorldState(const Vector3& gravity_, std::uint64_t seed_)
+    : first_gravity(gravity_), gravity(gravity_), seed(seed_), ode(gravity_, seed_) {
+  spaces.movers.reset(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
+  spaces.planes.reset(dSimpleSpaceCreate(nullptr));
 }
 
-void place_model(World::State& state, ObjectId id, std::shared_ptr<const PreparedModel> model) {
+void place_model(WorldState& state, ObjectId id, std::shared_ptr<const PreparedModel> model) {
   state.models.push_back(ModelBuilder(state, id, std::move(model)).build());
   state.model_at.resize(state.tree().places());
   state.model_at[SceneTree::index_of(id)] = state.models.back().get();

@@ -18,16 +18,16 @@ namespace {
 /// Directs wrenches to a device during its update.
 class Updating {
  public:
-  Updating(World::State& state, DeviceSlot& slot) : state_(state) { state_.updating = &slot; }
+  Updating(WorldState& state, DeviceSlot& slot) : state_(state) { state_.updating = &slot; }
   ~Updating() { state_.updating = nullptr; }
   Updating(const Updating&) = delete;
   Updating& operator=(const Updating&) = delete;
 
  private:
-  World::State& state_;
+  WorldState& state_;
 };
 
-void check_not_updating(const World::State& state) {
+void check_not_updating(const WorldState& state) {
   if (state.updating == nullptr) return;
   throw std::logic_error("a device cannot add or remove devices in its update; do it between steps");
 }
@@ -37,7 +37,7 @@ void check_not_updating(const World::State& state) {
 void Device::reset(World&) {}
 void Device::transfer(StateArchive&) {}
 
-void update_devices(World& world, World::State& state, double time, double step) {
+void update_devices(World& world, WorldState& state, double time, double step) {
   for (DeviceSlot& slot : state.devices) {
     if (slot.substeps == 0) {
       const double due = slot.ahead + slot.period;
@@ -52,7 +52,7 @@ void update_devices(World& world, World::State& state, double time, double step)
   }
 }
 
-void reset_devices(World& world, std::vector<DeviceSlot> devices, World::State& state) {
+void reset_devices(World& world, std::vector<DeviceSlot> devices, WorldState& state) {
   state.devices = std::move(devices);
   for (DeviceSlot& slot : state.devices) {
     slot.substeps = 0;
@@ -62,34 +62,34 @@ void reset_devices(World& world, std::vector<DeviceSlot> devices, World::State& 
   for (DeviceSlot& slot : state.devices) slot.device->reset(world);
 }
 
-void remove_devices(World::State& state, ObjectId model) {
+void remove_devices(WorldState& state, ObjectId model) {
   auto& devices = state.devices;
   const auto of_model = [&](const DeviceSlot& slot) { return slot.model == model; };
   devices.erase(std::remove_if(devices.begin(), devices.end(), of_model), devices.end());
 }
 
-void World::add_device(std::shared_ptr<Device> device, ObjectId model, double rate) {
-  check_not_updating(*state_);
+void WorldDevices::add(std::shared_ptr<Device> device, ObjectId model, double rate) {
+  check_not_updating(state());
   if (device == nullptr) throw InvalidInput("add_device needs a device, not a null pointer");
   if (model != kNoObject) {
-    const Object& object = state_->tree().at(model);
+    const Object& object = state().tree().at(model);
     if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
-      throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
+      throw WrongObject(state().shown(model) + " is a " + std::string(kind_name(object.kind)) +
                         ": a device belongs to an outermost model or to the world");
     }
   }
   if (!(rate >= 0 && std::isfinite(rate))) {
     throw InvalidInput("the rate " + text(rate) + " Hz of a device is not usable: it must be zero or more");
   }
-  DeviceSlot& slot = state_->devices.emplace_back();
+  DeviceSlot& slot = state().devices.emplace_back();
   slot.device = std::move(device);
   slot.model = model;
   slot.period = rate > 0 ? 1 / rate : 0;
 }
 
-void World::remove_device(const Device& device) {
-  check_not_updating(*state_);
-  auto& devices = state_->devices;
+void WorldDevices::remove(const Device& device) {
+  check_not_updating(state());
+  auto& devices = state().devices;
   const auto is_it = [&](const DeviceSlot& slot) { return slot.device.get() == &device; };
   devices.erase(std::remove_if(devices.begin(), devices.end(), is_it), devices.end());
 }

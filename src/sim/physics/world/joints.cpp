@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joint functions of World.
+// Joints: their positions, and commands for their motors.
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bubblesim/error.hpp"
-#include "bubblesim/world.hpp"
+#include "bubblesim/world_joints.hpp"
 #include "check/checks.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMaxTarget = 1e6;  // rad, m, rad/s or m/s
 
-const PlacedJoint& placed_joint(const World::State& state, ObjectId id) {
+const PlacedJoint& placed_joint(const WorldState& state, ObjectId id) {
   const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kJoint) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) + ", not a joint");
@@ -32,7 +32,7 @@ struct JointAxis {
   int index;
 };
 
-JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
+JointAxis joint_axis(const WorldState& state, ObjectId id, int axis) {
   const PlacedJoint& placed = placed_joint(state, id);
   if (placed.object != id) axis = 1;
   if (placed.joint == nullptr) throw WrongObject(state.shown(id) + " belongs to a static model: it does not move");
@@ -43,7 +43,7 @@ JointAxis joint_axis(const World::State& state, ObjectId id, int axis) {
   return {*placed.joint, axis};
 }
 
-void check_target(const World::State& state, ObjectId id, const char* what, double value) {
+void check_target(const WorldState& state, ObjectId id, const char* what, double value) {
   if (within(value, kMaxTarget)) return;
   throw InvalidInput(state.shown(id) + ": the " + what + " " + text(value) +
                      " is not usable: it must be finite and at most 1e6");
@@ -66,107 +66,107 @@ std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& jo
 
 }  // namespace
 
-Pose World::joint_child_pose(ObjectId joint) const {
-  const PlacedJoint& placed = placed_joint(*state_, joint);
-  return link_pose(state_->link(placed.child)) * placed.in_child;
+Pose WorldJoints::child_pose(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(state(), joint);
+  return link_pose(state().link(placed.child)) * placed.in_child;
 }
 
-double World::joint_position(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.position(found.index);
 }
 
-double World::joint_velocity(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.velocity(found.index);
 }
 
-double World::motor_effort(ObjectId joint, int axis) const {
-  const int index = joint_axis(*state_, joint, axis).index;
-  const auto& meter = placed_joint(*state_, joint).motor_meters[static_cast<std::size_t>(index)];
-  return meter == nullptr || state_->last_duration == 0 ? 0 : meter->impulse() / state_->last_duration;
+double WorldJoints::motor_effort(ObjectId joint, int axis) const {
+  const int index = joint_axis(state(), joint, axis).index;
+  const auto& meter = placed_joint(state(), joint).motor_meters[static_cast<std::size_t>(index)];
+  return meter == nullptr || state().last_duration == 0 ? 0 : meter->impulse() / state().last_duration;
 }
 
-std::pair<ObjectId, ObjectId> World::joint_links(ObjectId joint) const {
-  const PlacedJoint& placed = placed_joint(*state_, joint);
+std::pair<ObjectId, ObjectId> WorldJoints::links(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(state(), joint);
   return {placed.parent, placed.child};
 }
 
-int World::joint_axes(ObjectId joint) const {
-  const PlacedJoint& placed = placed_joint(*state_, joint);
+int WorldJoints::axes(ObjectId joint) const {
+  const PlacedJoint& placed = placed_joint(state(), joint);
   return placed.joint == nullptr ? 0 : placed.joint->axis_count();
 }
 
-double World::target_position(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::target_position(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_position(found.index);
 }
 
-double World::target_velocity(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::target_velocity(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_velocity(found.index);
 }
 
-double World::target_effort(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::target_effort(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_effort(found.index);
 }
 
-double World::max_force(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::max_force(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.axis(found.index).max_force;
 }
 
-MotorMode World::motor_mode(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+MotorMode WorldJoints::motor_mode(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.axis(found.index).motor;
 }
 
-void World::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+void WorldJoints::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
   if (mode != MotorMode::kNone && found.joint.motor_joint(found.index) == nullptr) {
-    throw WrongObject(state_->shown(joint) + " is a gearbox, which has no motor: drive one of the hinges of its links");
+    throw WrongObject(state().shown(joint) + " is a gearbox, which has no motor: drive one of the hinges of its links");
   }
   found.joint.set_motor_mode(found.index, mode);
 }
 
-void World::set_target_position(ObjectId joint, double position, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
-  check_target(*state_, joint, "target position", position);
+void WorldJoints::set_target_position(ObjectId joint, double position, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
+  check_target(state(), joint, "target position", position);
   found.joint.set_target_position(found.index, position);
 }
 
-void World::set_target_velocity(ObjectId joint, double velocity, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
-  check_target(*state_, joint, "target velocity", velocity);
+void WorldJoints::set_target_velocity(ObjectId joint, double velocity, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
+  check_target(state(), joint, "target velocity", velocity);
   found.joint.set_target_velocity(found.index, velocity);
 }
 
-void World::set_target_effort(ObjectId joint, double effort, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+void WorldJoints::set_target_effort(ObjectId joint, double effort, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
   if (!within(effort, kMaxEffort)) {
-    throw InvalidInput(state_->shown(joint) + ": the target effort " + text(effort) +
+    throw InvalidInput(state().shown(joint) + ": the target effort " + text(effort) +
                        " is not usable: it must be finite and at most 1e9");
   }
   found.joint.set_target_effort(found.index, effort);
 }
 
-const JointDescription& World::joint_description(ObjectId joint) const {
-  placed_joint(*state_, joint);
-  return state_->model_of(joint).description.joints[state_->tree().at(joint).index];
+const JointDescription& WorldJoints::description(ObjectId joint) const {
+  placed_joint(state(), joint);
+  return state().model_of(joint).description.joints[state().tree().at(joint).index];
 }
 
-void World::set_joint_position(ObjectId joint, double position) {
-  const PlacedJoint& placed = placed_joint(*state_, joint);
-  const JointDescription& description = joint_description(joint);
+void WorldJoints::set_position(ObjectId joint, double position) {
+  const PlacedJoint& placed = placed_joint(state(), joint);
+  const JointDescription& description = this->description(joint);
   const bool slides = description.type == "prismatic";
   if (!slides && description.type != "revolute" && description.type != "continuous") {
-    throw WrongObject(state_->shown(joint) + " is a " + description.type +
+    throw WrongObject(state().shown(joint) + " is a " + description.type +
                       " joint: the position can be set only for revolute, continuous and prismatic joints");
   }
-  check_target(*state_, joint, "position", position);
-  const double way = position - joint_position(joint);
-  const Pose frame = pose(joint);
+  check_target(state(), joint, "position", position);
+  const double way = position - this->position(joint);
+  const Pose frame = pose_of(state(), joint);
   const Vector3 axis = frame.orientation * description.axes.front().direction;
   Pose motion;
   if (slides) {
@@ -175,31 +175,31 @@ void World::set_joint_position(ObjectId joint, double position) {
     motion.orientation = Quaternion(Eigen::AngleAxisd(way, axis.normalized()));
     motion.position = frame.position - motion.orientation * frame.position;
   }
-  const std::vector<ObjectId> moved = hanging_on(state_->model_of(joint), placed);
+  const std::vector<ObjectId> moved = hanging_on(state().model_of(joint), placed);
   if (std::find(moved.begin(), moved.end(), placed.parent) != moved.end()) {
-    throw WrongObject(state_->shown(joint) + " belongs to a closed chain of links: its position cannot be set");
+    throw WrongObject(state().shown(joint) + " belongs to a closed chain of links: its position cannot be set");
   }
-  for (const ObjectId link : moved) set_pose(link, motion * pose(link));
+  for (const ObjectId link : moved) move_object(state(), link, motion * pose_of(state(), link));
 }
 
-void World::set_max_force(ObjectId joint, double force, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+void WorldJoints::set_max_force(ObjectId joint, double force, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
   if (!(force >= 0)) {
-    throw InvalidInput(state_->shown(joint) + ": the force limit " + text(force) +
+    throw InvalidInput(state().shown(joint) + ": the force limit " + text(force) +
                        " is not usable: it must be zero or more");
   }
   found.joint.set_max_force(found.index, force);
 }
 
-double World::motor_gain(ObjectId joint, int axis) const {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+double WorldJoints::motor_gain(ObjectId joint, int axis) const {
+  const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.motor_gain(found.index);
 }
 
-void World::set_motor_gain(ObjectId joint, double gain, int axis) {
-  const JointAxis found = joint_axis(*state_, joint, axis);
+void WorldJoints::set_motor_gain(ObjectId joint, double gain, int axis) {
+  const JointAxis found = joint_axis(state(), joint, axis);
   if (!(gain >= 0 && gain <= kMaxGain)) {
-    throw InvalidInput(state_->shown(joint) + ": the motor gain " + text(gain) +
+    throw InvalidInput(state().shown(joint) + ": the motor gain " + text(gain) +
                        " is not usable: it must be from 0 to 1000");
   }
   found.joint.set_motor_gain(found.index, gain);

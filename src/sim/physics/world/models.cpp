@@ -1,136 +1,104 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data of all models together, updated when a model is added or removed: names in the tree, static shapes, islands.
-#include <algorithm>
-#include <limits>
-#include <map>
-#include <string>
-#include <variant>
+// Adds and removes models.
+#include "bubblesim/world_models.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "check/scene_check.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
+#include "scene/scene_hash.hpp"
+#include "scene/unit_rotations.hpp"
 
 namespace bubblesim {
-namespace {
 
-// Static shapes of finite size are in a quadtree, so a moving shape is tested only against those near it. With 6 levels
-// its cells are 1/64 of the scene and take 350 kB.
-constexpr int kQuadtreeDepth = 6;
-
-/// Levels for a number of shapes: up to sixteen times as many cells as shapes.
-int quadtree_depth(std::size_t shapes) {
-  int depth = 2;
-  for (; shapes > 1 && depth < kQuadtreeDepth; shapes = (shapes + 3) / 4) ++depth;
-  return depth;
+void forget_contacts(WorldState& state, ObjectId model) {
+  forget_contacts(state.contacts.memory, [&](const Collider& shape) {
+    return state.tree().outermost_model_of(shape.link->object) == model;
+  });
 }
 
-/// Bounding box of the finite static shapes; grows with the shapes.
-struct Extent {
-  Vector3 low{-1, -1, -1};
-  Vector3 high{1, 1, 1};
-
-  void include(dGeomID geom) {
-    dReal box[6];
-    dGeomGetAABB(geom, box);
-    low = low.cwiseMin(Vector3(box[0], box[2], box[4]));
-    high = high.cwiseMax(Vector3(box[1], box[3], box[5]));
+ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings) {
+  check_not_diverged(state());
+  std::vector<Problem> problems = check_model(model);
+  for (const ObjectId id : state().tree().models()) {
+    if (state().tree().at(id).name != model.name) continue;
+    problems.push_back({model.source.file, model.source.line, "/" + model.name,
+                        "a model with this name exists already; choose another name, or remove that model first"});
   }
-};
-
-}  // namespace
-
-double total_mass(const PlacedModel& model) {
-  if (model.space == nullptr) return std::numeric_limits<double>::infinity();
-  double mass = 0;
-  for (const Link& link : model.links) mass += link.mass;
-  return mass;
-}
-
-void lower_bottom(World::State& state) {
-  const Vector3 down = state.gravity.normalized();
-  for (const auto& model : state.models) {
-    for (const Link& link : model->links) state.bottom = std::max(state.bottom, link_pose(link).position.dot(down));
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  ode::prepare_this_thread();
+  make_rotations_unit(model);
+  const bool is_static = model.is_static;
+  const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
+  prepared->added_hash = hash_of(*prepared->description);
+  // The scene and its other simulations keep their tree.
+  auto tree = std::make_shared<SceneTree>(*state().shared_tree);
+  const ObjectId id = enter_model(*tree, *prepared->description);
+  const std::shared_ptr<const SceneTree> before = std::exchange(state().shared_tree, std::move(tree));
+  try {
+    place_model(state(), id, prepared);
+  } catch (...) {
+    state().shared_tree = before;
+    throw;
   }
-}
-
-ObjectId enter_model(SceneTree& tree, const ModelDescription& model) {
-  const ObjectId id = tree.add(ObjectKind::kModel, model.name, kNoObject, 0, model.alias);
-  std::map<std::string, ObjectId> models{{"", id}};  // the outermost model, and nested models by name
-  // `a::b` becomes `b` below `a`.
-  const auto add = [&](ObjectKind kind, const auto& part, std::size_t index) {
-    const std::string& name = part.name;
-    const std::size_t split = name.rfind("::");
-    const auto outer = models.find(split == std::string::npos ? "" : name.substr(0, split));
-    if (split == std::string::npos || outer == models.end()) return tree.add(kind, name, id, index, part.alias);
-    return tree.add(kind, name.substr(split + 2), outer->second, index, part.alias);
-  };
-  for (std::size_t i = 0; i < model.nested.size(); ++i) {
-    models[model.nested[i].name] = add(ObjectKind::kModel, model.nested[i], i);
-  }
-  std::size_t sensors = 0;
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    const ObjectId link = add(ObjectKind::kLink, model.links[i], i);
-    for (const SensorDescription& sensor : model.links[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, link, sensors++, sensor.alias);
-    }
-  }
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const ObjectId joint = add(ObjectKind::kJoint, model.joints[i], i);
-    for (const SensorDescription& sensor : model.joints[i].sensors) {
-      tree.add(ObjectKind::kSensor, sensor.name, joint, sensors++, sensor.alias);
-    }
-    // The second axis of a steered wheel is a separate object, so that scripts can refer to it.
-    for (std::size_t axis = 1; axis < model.joints[i].axes.size(); ++axis) {
-      tree.add(ObjectKind::kJoint, "axis" + std::to_string(axis + 1), joint, i);
-    }
-  }
+  if (is_static) gather_statics(state());
+  list_moving(state());
+  ++state().revision;
+  state().has_scene_models = false;
   return id;
 }
 
-void list_moving(World::State& state) {
-  state.moving.clear();
-  int link_number = 0;
-  for (const auto& model : state.models) {
-    const bool moves = model->space != nullptr;
-    const int number = moves ? static_cast<int>(state.moving.size()) : Islands::kNone;
-    if (moves) state.moving.push_back(model.get());
-    const double mass = total_mass(*model);
-    for (Collider& collider : model->colliders) {
-      collider.island = number;
-      collider.model_mass = mass;
-    }
-    for (Link& link : model->links) link.number = link_number += moves ? 1 : 0;
-  }
-  lower_bottom(state);
-  state.colliders.clear();
-  for (const bool moves : {true, false}) {
-    for (const auto& model : state.models) {
-      if ((model->space != nullptr) != moves) continue;
-      for (Collider& collider : model->colliders) {
-        collider.number = static_cast<int>(state.colliders.size());
-        state.colliders.push_back(&collider);
-      }
-    }
+void WorldModels::check_removable(ObjectId model) const {
+  const std::vector<ObjectId>& lost = state().lost_models;
+  if (state().interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(state());
+  const Object& object = state().tree().at(model);
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    throw WrongObject(state().shown(model) + " is a " + std::string(kind_name(object.kind)) +
+                      ": it cannot be removed on its own; remove its model");
   }
 }
 
-void gather_statics(World::State& state) {
-  Extent extent;
-  std::vector<dGeomID> geoms;
-  for (const auto& model : state.models) {
-    for (const Collider& collider : model->colliders) {
-      dGeomID geom = collider.geom.get();
-      if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
-      if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.statics.get(), geom);
-      geoms.push_back(geom);
-      extent.include(geom);
-    }
+void WorldModels::remove(ObjectId model) {
+  check_removable(model);
+  dJointGroupEmpty(state().ode.contact_joints.get());  // contacts of the last step may refer to the model's bodies
+  state().touches.clear();                            // and these refer to its shapes
+  forget_contacts(state(), model);
+  state().contacts.found.clear();
+  auto tree = std::make_shared<SceneTree>(*state().shared_tree);
+  tree->remove(model);
+  state().statics_stale = state().statics_stale || description(model).is_static;
+  const auto is_it = [model](const auto& placed) { return placed->object == model; };
+  state().models.erase(std::find_if(state().models.begin(), state().models.end(), is_it));
+  state().model_at[SceneTree::index_of(model)] = nullptr;
+  state().shared_tree = std::move(tree);
+  remove_devices(state(), model);
+  forget_wrenches(state());
+  std::vector<ObjectId>& lost = state().lost_models;
+  lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
+  if (lost.empty()) state().diverged = state().interrupted;
+  list_moving(state());
+  wake(state().moving);
+  ++state().revision;
+  state().has_scene_models = false;
+}
+
+const ModelDescription& WorldModels::description(ObjectId model) const { return state().model_of(model).description; }
+
+const SensorDescription& WorldModels::sensor_description(ObjectId sensor) const {
+  const Object& object = state().tree().at(sensor);
+  if (object.kind != ObjectKind::kSensor) {
+    throw WrongObject(state().shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
   }
-  const Vector3 centre = (extent.low + extent.high) / 2;
-  const Vector3 half = (extent.high - extent.low) / 2;
-  const dVector3 ode_centre = {centre.x(), centre.y(), centre.z()};
-  const dVector3 ode_half = {half.x(), half.y(), half.z()};
-  state.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(geoms.size())));
-  for (dGeomID geom : geoms) dSpaceAdd(state.statics.get(), geom);
-  state.statics_stale = false;
+  const Object& carrier = state().tree().at(object.parent);
+  const ModelDescription& model = state().model_of(sensor).description;
+  const std::vector<SensorDescription>& sensors =
+      carrier.kind == ObjectKind::kJoint ? model.joints[carrier.index].sensors : model.links[carrier.index].sensors;
+  const std::vector<ObjectId> below = state().tree().children(carrier.id, ObjectKind::kSensor);
+  return sensors[static_cast<std::size_t>(std::find(below.begin(), below.end(), sensor) - below.begin())];
 }
 
 }  // namespace bubblesim

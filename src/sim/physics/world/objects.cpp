@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses and velocities of a world's objects.
+// Poses and velocities of objects.
 #include <cmath>
 #include <string>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
 #include "check/checks.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
 
@@ -13,7 +14,7 @@ namespace bubblesim {
 namespace {
 
 /// The links of a model, or the link itself; throws for other objects and for static models.
-std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
+std::vector<const Link*> moving_links(const WorldState& state, ObjectId id) {
   const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
@@ -29,7 +30,7 @@ std::vector<const Link*> moving_links(const World::State& state, ObjectId id) {
 }
 
 /// The link that carries an object; kNoObject for objects that are fixed to the world.
-ObjectId carrier(const World::State& state, const Object& object) {
+ObjectId carrier(const WorldState& state, const Object& object) {
   switch (object.kind) {
     case ObjectKind::kModel:
       return state.frame(object.id).canonical_link;
@@ -46,7 +47,7 @@ ObjectId carrier(const World::State& state, const Object& object) {
   return kNoObject;
 }
 
-void check_velocity(const World::State& state, ObjectId object, const Twist& velocity) {
+void check_velocity(const WorldState& state, ObjectId object, const Twist& velocity) {
   if (within(velocity.linear, kMaxSpeed) && within(velocity.angular, kMaxSpeed)) return;
   throw InvalidInput(state.shown(object) + ": the velocity " + text(velocity.linear) + " m/s, " +
                      text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
@@ -54,27 +55,20 @@ void check_velocity(const World::State& state, ObjectId object, const Twist& vel
 
 }  // namespace
 
-Pose link_pose(const Link& link) {
-  if (link.body == nullptr) return link.pose;
-  Pose pose = body_pose(link.body.get());
-  pose.position -= pose.orientation * link.centre_of_mass;
-  return pose;
-}
-
-Pose World::pose(ObjectId object) const {
-  const Object& found = state_->tree().at(object);
-  const ObjectId link = carrier(*state_, found);
-  const Pose base = link == kNoObject ? Pose() : link_pose(state_->link(link));
+Pose pose_of(const WorldState& state, ObjectId object) {
+  const Object& found = state.tree().at(object);
+  const ObjectId link = carrier(state, found);
+  const Pose base = link == kNoObject ? Pose() : link_pose(state.link(link));
   switch (found.kind) {
     case ObjectKind::kModel:
-      return base * state_->frame(object).in_canonical_link;
+      return base * state.frame(object).in_canonical_link;
     case ObjectKind::kLink:
       return base;
     case ObjectKind::kJoint:
-      return base * state_->model_of(object).joints[found.index].in_parent;
+      return base * state.model_of(object).joints[found.index].in_parent;
     case ObjectKind::kSensor: {
-      const PlacedModel& model = state_->model_of(object);
-      const Object& above = state_->tree().at(found.parent);
+      const PlacedModel& model = state.model_of(object);
+      const Object& above = state.tree().at(found.parent);
       const Pose& in_carrier = model.sensors[found.index];
       return above.kind == ObjectKind::kJoint ? base * model.joints[above.index].in_child * in_carrier
                                               : base * in_carrier;
@@ -83,14 +77,18 @@ Pose World::pose(ObjectId object) const {
   return base;
 }
 
-Twist World::velocity(ObjectId object) const {
-  const ObjectId link = carrier(*state_, state_->tree().at(object));
-  dBodyID body = link == kNoObject ? nullptr : state_->link(link).body.get();
+Twist velocity_of(const WorldState& state, ObjectId object) {
+  const ObjectId link = carrier(state, state.tree().at(object));
+  dBodyID body = link == kNoObject ? nullptr : state.link(link).body.get();
   if (body == nullptr) return {};
-  const Vector3 lever = pose(object).position - to_vector(dBodyGetPosition(body));
+  const Vector3 lever = pose_of(state, object).position - to_vector(dBodyGetPosition(body));
   const Twist of_body = body_velocity(body);
   return {of_body.linear + of_body.angular.cross(lever), of_body.angular};
 }
+
+Pose World::pose(ObjectId object) const { return pose_of(*state_, object); }
+
+Twist World::velocity(ObjectId object) const { return velocity_of(*state_, object); }
 
 Vector3 World::acceleration(ObjectId object) const {
   const ObjectId id = carrier(*state_, state_->tree().at(object));
@@ -106,20 +104,20 @@ Vector3 World::acceleration(ObjectId object) const {
   return of_centre + angular.cross(lever) + now.angular.cross(now.angular.cross(lever));
 }
 
-void World::set_pose(ObjectId object, const Pose& pose) {
-  const std::vector<const Link*> links = moving_links(*state_, object);
+void move_object(WorldState& state, ObjectId object, const Pose& pose) {
+  const std::vector<const Link*> links = moving_links(state, object);
   if (!within(pose.position, kMaxDistance)) {
-    throw InvalidInput(state_->shown(object) + ": the position " + text(pose.position) +
+    throw InvalidInput(state.shown(object) + ": the position " + text(pose.position) +
                        " is not usable: it must be finite and within 1e6 m of the origin");
   }
   if (!within(pose.orientation.norm() - 1, 1e-3)) {
-    throw InvalidInput(state_->shown(object) + ": the orientation " + text(pose.orientation) +
+    throw InvalidInput(state.shown(object) + ": the orientation " + text(pose.orientation) +
                        " (x, y, z, w) is not usable: it must be a quaternion of length 1");
   }
   const Pose wanted(pose.position, pose.orientation.normalized());
-  const Pose before = this->pose(object);
-  wake(*state_);
-  forget_contacts(*state_, state_->tree().outermost_model_of(object));
+  const Pose before = pose_of(state, object);
+  wake(state.moving);
+  forget_contacts(state, state.tree().outermost_model_of(object));
   for (const Link* link : links) {
     const Pose moved = wanted * (before.inverse() * link_pose(*link));
     const Vector3 centre = moved * link->centre_of_mass;
@@ -127,6 +125,8 @@ void World::set_pose(ObjectId object, const Pose& pose) {
     dBodySetQuaternion(link->body.get(), to_ode(moved.orientation).data());
   }
 }
+
+void World::set_pose(ObjectId object, const Pose& pose) { move_object(*state_, object, pose); }
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
   const std::vector<const Link*> links = moving_links(*state_, object);
@@ -141,25 +141,29 @@ void World::set_velocity(ObjectId object, const Twist& velocity) {
   }
 }
 
+void World::set_planar_velocity(ObjectId model, double x, double y, double turning) {
+  const Object& object = state_->tree().at(model);
+  if (object.kind != ObjectKind::kModel || object.parent != kNoObject) {
+    throw WrongObject(state_->shown(model) + " is a " + std::string(kind_name(object.kind)) +
+                      ": the planar velocity can be set for outermost models only");
+  }
+  PlacedModel& placed = state_->model_of(model);
+  if (placed.description.is_static) throw WrongObject(state_->shown(model) + " is static: it cannot be moved");
+  if (!within(x, kMaxSpeed) || !within(y, kMaxSpeed) || !within(turning, kMaxSpeed)) {
+    throw InvalidInput(state_->shown(model) + ": the planar velocity must be finite and at most 1e6");
+  }
+  dBodyID body = state_->link(placed.frame.canonical_link).body.get();
+  if (!placed.planar_motor.exists()) placed.planar_motor = make_planar_motor(state_->ode.id(), placed);
+  // ODE's motor moves the centre of mass, which moves in a circle around the model's origin.
+  const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).position;
+  placed.planar_motor.set_velocity({x - turning * arm.y(), y + turning * arm.x(), turning});
+  dBodyEnable(body);
+}
+
 void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) {
   check_velocity(*state_, object, velocity);
   set_pose(object, pose);
   set_velocity(object, velocity);
-}
-
-std::vector<Light> World::link_lights() const {
-  std::vector<Light> lights;
-  for (const auto& model : state_->models) {
-    for (std::size_t i = 0; i < model->links.size(); ++i) {
-      for (Light light : model->description.links[i].lights) {
-        const Pose pose = link_pose(model->links[i]);
-        light.position = pose * light.position;
-        light.direction = pose.orientation * light.direction;
-        lights.push_back(std::move(light));
-      }
-    }
-  }
-  return lights;
 }
 
 }  // namespace bubblesim

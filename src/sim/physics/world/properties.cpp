@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mass, friction and gravity, which may differ from those of the description until the world is reset.
+#include "bubblesim/world_properties.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -7,8 +8,8 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
-#include "bubblesim/world.hpp"
 #include "check/checks.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr double kMaxMass = 1e6;  // kg, as in descriptions
 
 /// The link itself, or those of the model.
-std::vector<ObjectId> links_of(const World::State& state, ObjectId id, const char* what) {
+std::vector<ObjectId> links_of(const WorldState& state, ObjectId id, const char* what) {
   const Object& object = state.tree().at(id);
   if (object.kind == ObjectKind::kLink) return {id};
   if (object.kind == ObjectKind::kModel) return state.tree().parts(id, ObjectKind::kLink);
@@ -28,7 +29,7 @@ std::vector<ObjectId> links_of(const World::State& state, ObjectId id, const cha
 
 /// Calls `use` with the collisions of an object.
 template <class Use>
-void with_colliders(World::State& state, ObjectId id, const Use& use) {
+void with_colliders(WorldState& state, ObjectId id, const Use& use) {
   for (const ObjectId link : links_of(state, id, "friction")) {
     for (Collider& collider : state.model_of(id).colliders) {
       if (collider.link->object == link) use(collider);
@@ -52,32 +53,9 @@ void apply_friction(Collider& collider, double mu) {
 
 }  // namespace
 
-void set_inertia(dBodyID body, const LinkDescription& link, double mass) {
-  const double factor = mass / link.mass;
-  const Vector3 diagonal = link.inertia_diagonal * factor;
-  const Vector3 products = link.inertia_products * factor;
-  dMass made;
-  dMassSetParameters(&made, mass, 0, 0, 0, diagonal.x(), diagonal.y(), diagonal.z(), products.x(), products.y(),
-                     products.z());
-  dBodySetMass(body, &made);
-}
-
-void apply_mass(PlacedModel& model, Link& link, double mass) {
-  std::size_t index = 0;
-  while (&model.links[index] != &link) ++index;
-  const double factor = mass / link.mass;
-  link.mass = mass;
-  set_inertia(link.body.get(), model.description.links[index], mass);
-  for (Rotation& rotation : model.rotations) {
-    if (rotation.body() == link.body.get()) rotation.scale(factor);
-  }
-  for (Collider& collider : model.colliders) collider.model_mass = total_mass(model);
-  if (model.planar_motor.linear != nullptr) limit_planar_motor(model.planar_motor, model);
-}
-
-void apply_gravity(World::State& state, const Vector3& gravity) {
+void apply_gravity(WorldState& state, const Vector3& gravity) {
   state.gravity = gravity;
-  dWorldSetGravity(state.world.get(), gravity.x(), gravity.y(), gravity.z());
+  dWorldSetGravity(state.ode.id(), gravity.x(), gravity.y(), gravity.z());
   for (PlacedModel* model : state.moving) {
     model->rest.may_sleep = model->prepared->is_prop && gravity != Vector3::Zero();
   }
@@ -93,7 +71,7 @@ void transfer_masses(StateArchive& archive, PlacedModel& model) {
   }
 }
 
-void transfer_frictions(StateArchive& archive, World::State& state) {
+void transfer_frictions(StateArchive& archive, WorldState& state) {
   std::vector<ChangedFriction> changes;
   for (Collider* collider : state.colliders) {
     if (collider->own_surface == nullptr) continue;
@@ -113,68 +91,68 @@ void transfer_frictions(StateArchive& archive, World::State& state) {
   }
 }
 
-Vector3 World::gravity() const { return state_->gravity; }
+Vector3 WorldProperties::gravity() const { return state().gravity; }
 
-void World::set_gravity(const Vector3& gravity) {
+void WorldProperties::set_gravity(const Vector3& gravity) {
   if (!within(gravity, kMaxGravity)) {
     throw InvalidInput("the gravity " + text(gravity) + " is not usable: it must be finite and at most 1e4 m/s^2");
   }
-  const Vector3 before = state_->gravity.normalized();
-  wake(*state_);
-  apply_gravity(*state_, gravity);
-  for (PlacedModel* model : state_->moving) {
+  const Vector3 before = state().gravity.normalized();
+  wake(state().moving);
+  apply_gravity(state(), gravity);
+  for (PlacedModel* model : state().moving) {
     for (Link& link : model->links) link.rest_pose = body_pose(link.body.get());
   }
   if (gravity.normalized().dot(before) > 1 - 1e-9) return;
-  state_->bottom = 0;
-  lower_bottom(*state_);
+  state().bottom = 0;
+  lower_bottom(state());
 }
 
-double World::mass(ObjectId object) const {
+double WorldProperties::mass(ObjectId object) const {
   double mass = 0;
-  const ModelDescription& model = state_->model_of(object).description;
-  for (const ObjectId id : links_of(*state_, object, "mass")) {
-    mass += model.is_static ? model.links[state_->tree().at(id).index].mass : state_->link(id).mass;
+  const ModelDescription& model = state().model_of(object).description;
+  for (const ObjectId id : links_of(state(), object, "mass")) {
+    mass += model.is_static ? model.links[state().tree().at(id).index].mass : state().link(id).mass;
   }
   return mass;
 }
 
-void World::set_mass(ObjectId object, double mass) {
-  const std::vector<ObjectId> links = links_of(*state_, object, "mass");
-  PlacedModel& model = state_->model_of(object);
+void WorldProperties::set_mass(ObjectId object, double mass) {
+  const std::vector<ObjectId> links = links_of(state(), object, "mass");
+  PlacedModel& model = state().model_of(object);
   if (model.description.is_static) {
-    throw WrongObject(state_->shown(object) + " is static: its mass has no effect");
+    throw WrongObject(state().shown(object) + " is static: its mass has no effect");
   }
   if (!(mass > 0 && mass <= kMaxMass)) {
-    throw InvalidInput(state_->shown(object) + ": the mass " + text(mass) +
+    throw InvalidInput(state().shown(object) + ": the mass " + text(mass) +
                        " kg is not usable: it must be more than 0 and at most 1e6 kg");
   }
   const double before = this->mass(object);
   for (const ObjectId id : links) {
-    Link& link = model.links[state_->tree().at(id).index];
+    Link& link = model.links[state().tree().at(id).index];
     apply_mass(model, link, links.size() == 1 ? mass : link.mass * (mass / before));
     dBodyEnable(link.body.get());
   }
 }
 
-double World::friction(ObjectId object) const {
+double WorldProperties::friction(ObjectId object) const {
   const Collider* first = nullptr;
-  with_colliders(*state_, object, [&](const Collider& collider) { first = first == nullptr ? &collider : first; });
-  if (first == nullptr) throw WrongObject(state_->shown(object) + " has no collisions, and therefore no friction");
+  with_colliders(state(), object, [&](const Collider& collider) { first = first == nullptr ? &collider : first; });
+  if (first == nullptr) throw WrongObject(state().shown(object) + " has no collisions, and therefore no friction");
   return first->surface().mu;
 }
 
-void World::set_friction(ObjectId object, double mu) {
+void WorldProperties::set_friction(ObjectId object, double mu) {
   friction(object);
   if (!(mu >= 0)) {
-    throw InvalidInput(state_->shown(object) + ": the friction " + text(mu) + " is not usable: it must be 0 or more");
+    throw InvalidInput(state().shown(object) + ": the friction " + text(mu) + " is not usable: it must be 0 or more");
   }
-  with_colliders(*state_, object, [&](Collider& collider) {
+  with_colliders(state(), object, [&](Collider& collider) {
     apply_friction(collider, mu);
     dBodyID body = collider.link->body.get();
     if (body != nullptr) dBodyEnable(body);
   });
-  if (state_->model_of(object).description.is_static) wake(*state_);
+  if (state().model_of(object).description.is_static) wake(state().moving);
 }
 
 }  // namespace bubblesim

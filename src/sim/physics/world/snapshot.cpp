@@ -17,7 +17,7 @@ namespace bubblesim {
 namespace {
 
 /// Transfers a pointer to a shape as its number.
-void transfer_shape(StateArchive& archive, const World::State& state, const Collider*& shape) {
+void transfer_shape(StateArchive& archive, const WorldState& state, const Collider*& shape) {
   std::uint32_t number = shape == nullptr ? 0 : static_cast<std::uint32_t>(shape->number);
   archive(number);
   if (!archive.restores()) return;
@@ -25,7 +25,7 @@ void transfer_shape(StateArchive& archive, const World::State& state, const Coll
   shape = state.colliders[number];
 }
 
-void transfer_memory(StateArchive& archive, const World::State& state, ContactMemory& memory) {
+void transfer_memory(StateArchive& archive, const WorldState& state, ContactMemory& memory) {
   memory.pairs.resize(archive.count(memory.pairs.size()));
   memory.points.resize(archive.count(memory.points.size()));
   for (RememberedPair& pair : memory.pairs) {
@@ -42,45 +42,38 @@ void transfer_memory(StateArchive& archive, const World::State& state, ContactMe
   }
 }
 
-void transfer_touches(StateArchive& archive, World::State& state) {
-  state.touches.resize(archive.count(state.touches.size()));
-  for (Touch& touch : state.touches) {
+void transfer_touches(StateArchive& archive, WorldState& state) {
+  std::vector<Touch>& touches = state.touches.all;
+  touches.resize(archive.count(touches.size()));
+  for (Touch& touch : touches) {
     transfer_shape(archive, state, touch.watched);
     transfer_shape(archive, state, touch.other);
-    archive(touch.impulse, touch.step);
+    archive(touch.impulse, touch.substep);
     touch.points.resize(archive.count(touch.points.size()));
     for (ContactPoint& point : touch.points) archive(point.position, point.normal, point.depth, point.force);
   }
 }
 
-void transfer_planar_motor(StateArchive& archive, const World::State& state, PlacedModel& model) {
+void transfer_planar_motor(StateArchive& archive, const WorldState& state, PlacedModel& model) {
   PlanarMotor& motor = model.planar_motor;
-  bool used = motor.linear != nullptr;
+  bool used = motor.exists();
   archive(used);
-  if (used != (motor.linear != nullptr)) motor = used ? make_planar_motor(state, model) : PlanarMotor{};
+  if (used != motor.exists()) motor = used ? make_planar_motor(state.ode.id(), model) : PlanarMotor();
   if (!used) return;
-  double x = dJointGetLMotorParam(motor.linear.get(), dParamVel);
-  double y = dJointGetLMotorParam(motor.linear.get(), dParamVel2);
-  double turning = dJointGetAMotorParam(motor.angular.get(), dParamVel);
+  auto [x, y, turning] = motor.velocity();
   archive(x, y, turning);
-  if (!archive.restores()) return;
-  dJointSetLMotorParam(motor.linear.get(), dParamVel, x);
-  dJointSetLMotorParam(motor.linear.get(), dParamVel2, y);
-  dJointSetAMotorParam(motor.angular.get(), dParamVel, turning);
+  if (archive.restores()) motor.set_velocity({x, y, turning});
 }
 
 void transfer_joint(StateArchive& archive, PlacedJoint& placed) {
   if (placed.joint != nullptr) archive(*placed.joint);
-  if (placed.meter != nullptr) {
-    archive(placed.meter->sum);
-    for (WrenchSignal& signal : placed.meter->signals) archive(signal);
-  }
+  if (placed.meter != nullptr) archive(*placed.meter);
   for (const auto& meter : placed.motor_meters) {
     if (meter != nullptr) archive(*meter);
   }
 }
 
-void transfer_model(StateArchive& archive, const World::State& state, PlacedModel& model) {
+void transfer_model(StateArchive& archive, const WorldState& state, PlacedModel& model) {
   transfer_masses(archive, model);
   for (Link& link : model.links) {
     transfer_body(archive, link.body.get());
@@ -95,7 +88,7 @@ void transfer_model(StateArchive& archive, const World::State& state, PlacedMode
 }
 
 /// Those of `models` and of the world, in their order.
-std::vector<DeviceSlot*> devices_of(World::State& state, const std::vector<ObjectId>& models) {
+std::vector<DeviceSlot*> devices_of(WorldState& state, const std::vector<ObjectId>& models) {
   std::vector<DeviceSlot*> devices;
   for (DeviceSlot& slot : state.devices) {
     if (slot.model == kNoObject || std::find(models.begin(), models.end(), slot.model) != models.end()) {
@@ -115,10 +108,10 @@ std::uint64_t kind_of(const Device& device) {
 
 void transfer(StateArchive& archive, Wrench& wrench) { archive(wrench.force, wrench.torque); }
 
-void transfer_physics(StateArchive& archive, World::State& state) {
+void transfer_physics(StateArchive& archive, WorldState& state) {
   if (archive.restores()) {
-    dJointGroupEmpty(state.contacts.get());  // the contacts of the last substep
-    state.found.clear();
+    dJointGroupEmpty(state.ode.contact_joints.get());  // the contacts of the last substep
+    state.contacts.found.clear();
     state.history.clear();
     state.lost_models.clear();
     state.diverged = true;  // until all of it is restored
@@ -133,9 +126,9 @@ void transfer_physics(StateArchive& archive, World::State& state) {
   }
   for (PlacedModel* model : state.moving) transfer_model(archive, state, *model);
   transfer_frictions(archive, state);
-  transfer_memory(archive, state, state.memory);
+  transfer_memory(archive, state, state.contacts.memory);
   transfer_touches(archive, state);
-  archive(state.wrenches, state.last_duration, state.steps, state.bottom, state.age);
+  archive(state.wrenches, state.last_duration, state.touches.substeps, state.bottom, state.age);
   if (archive.restores()) state.diverged = false;
 }
 
@@ -165,7 +158,7 @@ void World::transfer(StateArchive& archive) {
   }
   ode::prepare_this_thread();
   transfer_physics(archive, *state_);
-  archive(state_->seed, state_->random);
+  archive(state_->seed, state_->ode.random);
 }
 
 }  // namespace bubblesim

@@ -8,6 +8,11 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
 #include "check/checks.hpp"
+#include "physics/contacts/collision.hpp"
+#include "physics/contacts/contact_joints.hpp"
+#include "physics/motion/impact.hpp"
+#include "physics/motion/joint_correction.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
 
@@ -15,7 +20,7 @@ namespace bubblesim {
 namespace {
 
 constexpr double kMaxDuration = 1000;  // s, of one call
-constexpr std::size_t kRememberedPasses = 10;
+constexpr std::size_t kRememberedSteps = 10;
 
 bool is_finite(dBodyID body) {
   return within(to_vector(dBodyGetPosition(body)), kMaxDistance) &&
@@ -23,7 +28,7 @@ bool is_finite(dBodyID body) {
          within(to_vector(dBodyGetAngularVel(body)), kMaxSpeed);
 }
 
-void check_bodies(World::State& state) {
+void check_bodies(WorldState& state) {
   const Link* first = nullptr;
   for (const PlacedModel* model : state.moving) {
     for (const Link& link : model->links) {
@@ -43,31 +48,79 @@ void check_bodies(World::State& state) {
                  " rad/s; check masses, inertias, forces and overlapping shapes, or use a smaller physics substep");
 }
 
-void substep(World::State& state, const Wrenches& wrenches, double step) {
+/// Searches contacts, and wakes what awake bodies touch.
+void find_contacts(Substep& substep) {
+  search_contacts(substep);
+  while (wake_touched(substep.moving, substep.contacts.found)) search_contacts(substep);
+  order_contacts(substep.contacts);
+}
+
+void drive_joints(const MovingModels& moving, double step) {
+  for (const PlacedModel* model : moving) {
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.joint) placed.joint->drive(step);
+      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
+        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
+      }
+    }
+  }
+}
+
+/// Rotates the bodies with unequal moments of inertia: call before and after ODE's step.
+void begin_rotations(const MovingModels& moving, double step) {
+  for (PlacedModel* model : moving) {
+    for (Rotation& rotation : model->rotations) rotation.begin(step);
+  }
+}
+
+void end_rotations(const MovingModels& moving, double step) {
+  for (PlacedModel* model : moving) {
+    for (Rotation& rotation : model->rotations) rotation.end(step);
+  }
+}
+
+void begin_meters(const MovingModels& moving) {
+  for (PlacedModel* model : moving) {
+    for (auto& [index, meter] : model->motion_meters) meter.begin();
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.meter != nullptr) placed.meter->begin();
+    }
+  }
+}
+
+void end_meters(const MovingModels& moving, const Vector3& gravity, double step) {
+  for (PlacedModel* model : moving) {
+    for (auto& [index, meter] : model->motion_meters) meter.end(step, gravity);
+    for (const PlacedJoint& placed : model->joints) {
+      if (placed.meter != nullptr) placed.meter->end(step);
+      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
+        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(step);
+      }
+    }
+  }
+}
+
+void simulate(WorldState& state, const Wrenches& wrenches, double step) {
+  const MovingModels& moving = state.moving;
+  Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts};
   try {
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
-    wake_commanded(state);
-    find_contacts(state, step);
-    for (const PlacedModel* model : state.moving) {
-      for (const PlacedJoint& placed : model->joints) {
-        if (placed.joint) placed.joint->drive(step);
-        for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
-          if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
-        }
-      }
-    }
-    join_contacts(state, step);
-    aim_meters(state);
-    correct_joints(state, step);
-    note_motion(state);
-    begin_rotations(state, step);
-    solve(state, step);
-    end_rotations(state, step);
-    stop_at_impacts(state, step);
-    gather_contacts(state);
-    rest(state, step);
-    gather_forces(state, step);
+    wake_commanded(moving);
+    find_contacts(substep);
+    drive_joints(moving, step);
+    join_contacts(substep);
+    begin_meters(moving);
+    correct_joints(moving, state.ode.id(), step);
+    note_motion(moving);
+    begin_rotations(moving, step);
+    state.solvers.solve(substep);
+    end_rotations(moving, step);
+    stop_at_impacts(substep);
+    gather_contacts(state.contacts);
+    rest(substep);
+    state.touches.add(state.contacts.found, step);
+    end_meters(moving, state.gravity, step);
   } catch (const Diverged&) {
     state.diverged = state.interrupted = true;
     throw;
@@ -76,7 +129,7 @@ void substep(World::State& state, const Wrenches& wrenches, double step) {
 }
 
 /// Records the current states, for the report of a divergence.
-void remember(World::State& state, double duration) {
+void remember(WorldState& state, double duration) {
   std::vector<LinkState> now;
   for (PlacedModel* model : state.moving) {
     for (Link& link : model->links) {
@@ -85,7 +138,7 @@ void remember(World::State& state, double duration) {
     }
   }
   state.last_duration = duration;
-  if (state.history.size() == kRememberedPasses) state.history.pop_front();
+  if (state.history.size() == kRememberedSteps) state.history.pop_front();
   state.history.push_back({state.age, std::move(now)});
 }
 
@@ -98,18 +151,18 @@ void World::advance(double duration, double step, std::optional<double> time) {
   if (!(duration >= 0 && duration <= kMaxDuration)) {
     throw InvalidInput("a duration of " + text(duration) + " s is not usable: it must be from 0 to 1000 s");
   }
-  if (state_->diverged) throw Diverged("the physics diverged earlier; reset the world or load the scene again");
+  check_not_diverged(*state_);
   ode::prepare_this_thread();
   remember(*state_, duration);
-  forget_forces(*state_);
+  clear_meters(*state_);
   const Wrenches wrenches = std::exchange(state_->wrenches, {});
   const double start = time.value_or(state_->age);
   const long substeps = std::lround(duration / step);
   for (long done = 0; done < substeps; ++done) {
     update_devices(*this, *state_, start + static_cast<double>(done) * step, step);
-    substep(*state_, wrenches, step);
+    simulate(*state_, wrenches, step);
   }
-  dWorldCleanupWorkingMemory(state_->world.get());  // a third of the memory of a small world, for one of many
+  dWorldCleanupWorkingMemory(state_->ode.id());  // a third of the memory of a small world, for one of many
   state_->age += duration;
 }
 

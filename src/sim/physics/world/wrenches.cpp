@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces and torques from outside the physics.
+#include "bubblesim/world_wrenches.hpp"
+
 #include <string>
 
 #include "bubblesim/error.hpp"
@@ -10,7 +11,7 @@
 namespace bubblesim {
 namespace {
 
-ObjectId pushed_link(const World::State& state, ObjectId id) {
+ObjectId pushed_link(const WorldState& state, ObjectId id) {
   const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
@@ -22,7 +23,7 @@ ObjectId pushed_link(const World::State& state, ObjectId id) {
   return object.kind == ObjectKind::kModel ? state.frame(id).canonical_link : id;
 }
 
-void check_vector(const World::State& state, ObjectId id, const char* what, const Vector3& value, const char* unit,
+void check_vector(const WorldState& state, ObjectId id, const char* what, const Vector3& value, const char* unit,
                   double most) {
   if (within(value, most)) return;
   throw InvalidInput(state.shown(id) + ": the " + what + " " + text(value) + " " + unit +
@@ -30,46 +31,46 @@ void check_vector(const World::State& state, ObjectId id, const char* what, cons
 }
 
 /// Where wrenches go that are applied now.
-Wrenches& receiving(World::State& state) {
+Wrenches& receiving(WorldState& state) {
   return state.updating == nullptr ? state.wrenches : state.updating->wrenches;
 }
 
 }  // namespace
 
-void World::check_wrench(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point) const {
-  pushed_link(*state_, object);
-  check_vector(*state_, object, "force", wrench.force, "N", kMaxEffort);
-  check_vector(*state_, object, "torque", wrench.torque, "N m", kMaxEffort);
-  if (point) check_vector(*state_, object, "point", *point, "m", kMaxDistance);
+void WorldWrenches::check(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point) const {
+  pushed_link(state(), object);
+  check_vector(state(), object, "force", wrench.force, "N", kMaxEffort);
+  check_vector(state(), object, "torque", wrench.torque, "N m", kMaxEffort);
+  if (point) check_vector(state(), object, "point", *point, "m", kMaxDistance);
 }
 
-void World::apply_wrench(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point,
+void WorldWrenches::apply(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point,
                          WrenchFrame frame) {
-  check_wrench(object, wrench, point);
-  const ObjectId link = pushed_link(*state_, object);
+  check(object, wrench, point);
+  const ObjectId link = pushed_link(state(), object);
   if (wrench.force == Vector3::Zero() && wrench.torque == Vector3::Zero()) return;  // does not wake it
-  const Pose axes = frame == WrenchFrame::kObject ? pose(object) : Pose();
+  const Pose axes = frame == WrenchFrame::kObject ? pose_of(state(), object) : Pose();
   const Vector3 force = axes.orientation * wrench.force;
   Vector3 torque = axes.orientation * wrench.torque;
   if (point) {
-    const Vector3 centre = to_vector(dBodyGetPosition(state_->link(link).body.get()));
+    const Vector3 centre = to_vector(dBodyGetPosition(state().link(link).body.get()));
     torque += (axes * *point - centre).cross(force);
   }
-  Wrench& sum = receiving(*state_)[link];
+  Wrench& sum = receiving(state())[link];
   sum.force += force;
   sum.torque += torque;
 }
 
-void World::clear_wrench(ObjectId object, bool force, bool torque) {
-  Wrenches& wrenches = receiving(*state_);
-  const auto found = wrenches.find(pushed_link(*state_, object));
+void WorldWrenches::clear(ObjectId object, bool force, bool torque) {
+  Wrenches& wrenches = receiving(state());
+  const auto found = wrenches.find(pushed_link(state(), object));
   if (found == wrenches.end()) return;
   if (force) found->second.force = Vector3::Zero();
   if (torque) found->second.torque = Vector3::Zero();
   if (force && torque) wrenches.erase(found);
 }
 
-void push_links(const World::State& state, const Wrenches& wrenches) {
+void push_links(const WorldState& state, const Wrenches& wrenches) {
   for (const auto& [link, wrench] : wrenches) {
     dBodyID body = state.link(link).body.get();
     dBodyEnable(body);
@@ -78,7 +79,7 @@ void push_links(const World::State& state, const Wrenches& wrenches) {
   }
 }
 
-void forget_wrenches(World::State& state) {
+void forget_wrenches(WorldState& state) {
   const auto forget = [&](Wrenches& wrenches) {
     for (auto entry = wrenches.begin(); entry != wrenches.end();) {
       entry = !state.tree().contains(entry->first) ? wrenches.erase(entry) : std::next(entry);

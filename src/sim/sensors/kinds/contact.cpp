@@ -16,7 +16,7 @@ class ContactSensor final : public Sensor {
 
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    std::vector<Contact> contacts = moment.world.contacts(link_);
+    std::vector<Contact> contacts = moment.world.measurements().contacts(link_);
     const auto foreign = [this](const Contact& contact) { return !watches(description_, contact.collision); };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), foreign), contacts.end());
     measurement = ContactReading{std::move(contacts)};

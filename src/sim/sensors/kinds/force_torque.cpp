@@ -13,7 +13,7 @@ class ForceTorque final : public Sensor {
 
  private:
   void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    const Wrench wrench = moment.world.sensor_wrench(id_);
+    const Wrench wrench = moment.world.measurements().sensor_wrench(id_);
     ForceTorqueReading reading{wrench.force, wrench.torque};
     distort(reading.force, description_.force_noise, moment, id_, 0);
     distort(reading.torque, description_.torque_noise, moment, id_, 3);

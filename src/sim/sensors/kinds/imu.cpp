@@ -15,7 +15,7 @@ class Imu final : public Sensor {
     const World& world = moment.world;
     ImuReading reading;
     reading.orientation = world.pose(id_).orientation;
-    const Inertial motion = world.sensor_motion(id_);
+    const Inertial motion = world.measurements().sensor_motion(id_);
     reading.angular_velocity = motion.angular_velocity;
     reading.linear_acceleration = motion.specific_force;
     distort(reading.angular_velocity, description_.angular_velocity_noise, moment, id_, 0);
