@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "cbor_reader.hpp"
+#include "cbor/cbor_reader.hpp"
 
 namespace bubblesim::bindings {
 namespace {

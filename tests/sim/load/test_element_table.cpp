@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "load/sdf/element_kinds.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/element_kinds.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 
 namespace bubblesim::test::test_element_table {
 namespace {

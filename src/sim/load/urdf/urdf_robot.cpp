@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
 #include "scene/describe.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
 
 namespace bubblesim {
