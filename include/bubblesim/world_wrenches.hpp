@@ -19,7 +19,8 @@ class WorldWrenches : public WorldPart {
   /// the link's centre of mass, and with a torque. `frame` is that of all three vectors. They are converted now and
   /// then constant in world axes. Wrenches add up; a sleeping body wakes. A wrench that Device::update() applies acts
   /// until the device's next update instead.
-  void apply(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point = {}, WrenchFrame frame = WrenchFrame::kWorld);
+  void apply(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point = {},
+             WrenchFrame frame = WrenchFrame::kWorld);
   /// Throws what apply() would throw.
   void check(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point = {}) const;
   /// Removes the forces or the torques applied so far, or both.

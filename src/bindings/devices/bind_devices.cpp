@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "devices/attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
+#include "devices/attached.hpp"
 #include "devices/number_target.hpp"
 
 namespace bubblesim::bindings {

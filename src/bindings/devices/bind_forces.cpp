@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "devices/attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/buoyancy.hpp"
 #include "bubblesim/drag.hpp"
@@ -15,6 +14,7 @@
 #include "bubblesim/multicopter_velocity_control.hpp"
 #include "bubblesim/rotor.hpp"
 #include "bubblesim/wind.hpp"
+#include "devices/attached.hpp"
 #include "numpy_values.hpp"
 
 namespace bubblesim::bindings {

@@ -14,9 +14,9 @@
 #include "bindings.hpp"
 #include "bubblesim/messages/bridge.hpp"
 #include "bubblesim/messages/number_fields.hpp"
+#include "devices/number_target.hpp"
 #include "message_codec.hpp"
 #include "messages/message_lookup.hpp"
-#include "devices/number_target.hpp"
 #include "messages/reading_message.hpp"
 
 namespace bubblesim::bindings {

@@ -17,10 +17,10 @@
 #include "camera_messages.hpp"
 #include "contact_messages.hpp"
 #include "guarded.hpp"
-#include "sensors/held_reading.hpp"
 #include "lidar_messages.hpp"
 #include "motion_messages.hpp"
 #include "number_list.hpp"
+#include "sensors/held_reading.hpp"
 #include "vector_messages.hpp"
 #include "world/world_poses.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "devices/attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/point_spring.hpp"
+#include "devices/attached.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
 

@@ -9,18 +9,18 @@
 #include <chrono>
 #include <map>
 
-#include "devices/attached.hpp"
 #include "bindings.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/triangle_mesh.hpp"
 #include "bubblesim/warnings.hpp"
+#include "devices/attached.hpp"
 #include "guarded.hpp"
-#include "scene/loaded_scene.hpp"
 #include "numpy_values.hpp"
-#include "world/object_view.hpp"
+#include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
+#include "world/object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {

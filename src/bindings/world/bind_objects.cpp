@@ -42,8 +42,8 @@ void set_angular_velocity(const ObjectView& view, const NumpyArray& velocity) {
 void apply_wrench(const ObjectView& view, const NumpyArray& force, const NumpyArray& torque,
                   const std::optional<NumpyArray>& point, bool local) {
   view.world().wrenches().apply(view.id(), {to_vector(force, "force"), to_vector(torque, "torque")},
-                            point ? std::make_optional(to_vector(*point, "point")) : std::nullopt,
-                            local ? WrenchFrame::kObject : WrenchFrame::kWorld);
+                                point ? std::make_optional(to_vector(*point, "point")) : std::nullopt,
+                                local ? WrenchFrame::kObject : WrenchFrame::kWorld);
 }
 
 }  // namespace

@@ -162,14 +162,16 @@ void bind_world(py::module_& module) {
           [](World& w, ObjectId id, const std::array<double, 3>& force, const std::array<double, 3>& torque,
              const std::optional<std::array<double, 3>>& point, bool local) {
             w.wrenches().apply(id, {to_vector(force), to_vector(torque)},
-                           point ? std::make_optional(to_vector(*point)) : std::nullopt,
-                           local ? WrenchFrame::kObject : WrenchFrame::kWorld);
+                               point ? std::make_optional(to_vector(*point)) : std::nullopt,
+                               local ? WrenchFrame::kObject : WrenchFrame::kWorld);
           },
           py::arg("object"), py::arg("force"), py::arg("torque") = std::array<double, 3>{}, py::kw_only(),
           py::arg("point") = py::none(), py::arg("local") = false,
           "Push a link or model in the next step, N and N m; see Object.apply_wrench.")
-      .def("clear_wrench", [](World& w, ObjectId id, bool force, bool torque) { w.wrenches().clear(id, force, torque); }, py::arg("object"), py::arg("force") = true, py::arg("torque") = true,
-           "Remove the forces or torques that were applied for the next step, or both.")
+      .def(
+          "clear_wrench", [](World& w, ObjectId id, bool force, bool torque) { w.wrenches().clear(id, force, torque); },
+          py::arg("object"), py::arg("force") = true, py::arg("torque") = true,
+          "Remove the forces or torques that were applied for the next step, or both.")
       .def("set_planar_velocity", &World::set_planar_velocity, py::arg("model"), py::arg("x"), py::arg("y"),
            py::arg("turning"),
            "Move a model as a whole, m/s along the world's x and y and rad/s about its z, until the world is reset.")
@@ -183,12 +185,15 @@ void bind_world(py::module_& module) {
           "Return the velocity of the object's origin, world axes: the mean over the last step.")
       .def_property_readonly("gravity", [](const World& w) { return to_list(w.properties().gravity()); })
       .def(
-          "set_gravity", [](World& w, const std::array<double, 3>& gravity) { w.properties().set_gravity(to_vector(gravity)); },
+          "set_gravity",
+          [](World& w, const std::array<double, 3>& gravity) { w.properties().set_gravity(to_vector(gravity)); },
           py::arg("gravity"), "Set the gravity, m/s^2, until the world is reset.")
-      .def("mass", of_properties(&WorldProperties::mass), py::arg("object"), "Return the mass of a link or of all links of a model, kg.")
+      .def("mass", of_properties(&WorldProperties::mass), py::arg("object"),
+           "Return the mass of a link or of all links of a model, kg.")
       .def("set_mass", of_properties(&WorldProperties::set_mass), py::arg("object"), py::arg("mass"),
            "Set the mass, kg, until the world is reset; the inertia is scaled. That of a model is scaled as a whole.")
-      .def("friction", of_properties(&WorldProperties::friction), py::arg("object"), "Return the friction coefficient of its first collision.")
+      .def("friction", of_properties(&WorldProperties::friction), py::arg("object"),
+           "Return the friction coefficient of its first collision.")
       .def("set_friction", of_properties(&WorldProperties::set_friction), py::arg("object"), py::arg("mu"),
            "Set the friction coefficient of all collisions of a link or model, until the world is reset.")
       .def("joint_position", of_joints(&WorldJoints::position), py::arg("joint"), py::arg("axis") = 0)
@@ -203,13 +208,14 @@ void bind_world(py::module_& module) {
       .def("target_effort", of_joints(&WorldJoints::target_effort), py::arg("joint"), py::arg("axis") = 0)
       .def("max_force", of_joints(&WorldJoints::max_force), py::arg("joint"), py::arg("axis") = 0)
       .def("motor_mode", of_joints(&WorldJoints::motor_mode), py::arg("joint"), py::arg("axis") = 0)
-      .def("set_motor_mode", of_joints(&WorldJoints::set_motor_mode), py::arg("joint"), py::arg("mode"), py::arg("axis") = 0,
-           "Set the MotorMode, until the world is reset.")
+      .def("set_motor_mode", of_joints(&WorldJoints::set_motor_mode), py::arg("joint"), py::arg("mode"),
+           py::arg("axis") = 0, "Set the MotorMode, until the world is reset.")
       .def("set_target_position", of_joints(&WorldJoints::set_target_position), py::arg("joint"), py::arg("position"),
            py::arg("axis") = 0)
       .def("set_target_velocity", of_joints(&WorldJoints::set_target_velocity), py::arg("joint"), py::arg("velocity"),
            py::arg("axis") = 0)
-      .def("set_target_effort", of_joints(&WorldJoints::set_target_effort), py::arg("joint"), py::arg("effort"), py::arg("axis") = 0,
+      .def("set_target_effort", of_joints(&WorldJoints::set_target_effort), py::arg("joint"), py::arg("effort"),
+           py::arg("axis") = 0,
            "Set the force or torque on the child of an effort-controlled joint; its force limit applies.")
       .def("joint_type", [](const World& w, ObjectId joint) { return w.joints().description(joint).type; })
       .def(
@@ -221,7 +227,8 @@ void bind_world(py::module_& module) {
           },
           "Return the lower and upper limit of a joint's first axis; infinite without limits.")
       .def("set_joint_position", of_joints(&WorldJoints::set_position), py::arg("joint"), py::arg("position"))
-      .def("set_max_force", of_joints(&WorldJoints::set_max_force), py::arg("joint"), py::arg("force"), py::arg("axis") = 0);
+      .def("set_max_force", of_joints(&WorldJoints::set_max_force), py::arg("joint"), py::arg("force"),
+           py::arg("axis") = 0);
 }
 
 }  // namespace bubblesim::bindings

@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "check/scene_check.hpp"
-#include "physics/world/state.hpp"
+#include "physics/parts/prepared_model.hpp"
 #include "rays/prepared_rays.hpp"
+#include "scene/model_tree.hpp"
 #include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"

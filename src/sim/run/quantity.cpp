@@ -50,7 +50,8 @@ std::vector<const ReadingQuantity*> of_readings(const World& world, ObjectId obj
   std::vector<const ReadingQuantity*> all;
   for (const SensorDefinition* kind : kinds) {
     for (const ReadingQuantity& quantity : kind->quantities) {
-      if (object == kNoObject || quantity.shape(world.models().sensor_description(object).kind)) all.push_back(&quantity);
+      if (object == kNoObject || quantity.shape(world.models().sensor_description(object).kind))
+        all.push_back(&quantity);
     }
   }
   return all;

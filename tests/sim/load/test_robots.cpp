@@ -54,7 +54,9 @@ constexpr double kWheelRadius = 0.3;
 class Tricycle : public ::testing::Test {
  protected:
   void steer(double angle) { world().joints().set_target_position(world().tree().find("/Steering"), angle); }
-  void drive(double wheel_speed) { world().joints().set_target_velocity(world().tree().find("/FrontMotor"), wheel_speed); }
+  void drive(double wheel_speed) {
+    world().joints().set_target_velocity(world().tree().find("/FrontMotor"), wheel_speed);
+  }
   void run(double duration) {
     for (int i = 0; i < std::lround(duration / simulation.time_step()); ++i) simulation.step();
   }

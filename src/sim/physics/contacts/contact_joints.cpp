@@ -35,7 +35,8 @@ void join_contacts(Substep& substep) {
     if (!contacts.islands.is_jointed(island)) continue;
     const RememberedPair* remembered = recollection.pair(pair);
     FoundContact* points = &contacts.found.points[pair.begin];
-    limit_friction(pair, remembered, contacts.memory, substep.duration, contacts.islands.is_beyond_limit(island), points);
+    limit_friction(pair, remembered, contacts.memory, substep.duration, contacts.islands.is_beyond_limit(island),
+                   points);
     for (int i = 0; i < pair.count; ++i) join(substep.ode, pair, points[i]);
   }
 }

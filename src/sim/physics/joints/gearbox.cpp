@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/ode/body_state.hpp"
-#include "physics/ode/constraint_defaults.hpp"
 #include "physics/joints/kinds.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
+#include "physics/ode/body_state.hpp"
+#include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {

@@ -2,9 +2,9 @@
 // screw: the child rotates about an axis and slides along it by its lead per turn.
 #include <cmath>
 
-#include "physics/ode/constraint_defaults.hpp"
 #include "physics/joints/kinds.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
+#include "physics/ode/constraint_defaults.hpp"
 
 namespace bubblesim {
 namespace {

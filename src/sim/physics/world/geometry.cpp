@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/world_geometry.hpp"
-
 #include "physics/world/state.hpp"
 #include "rays/ray_shapes.hpp"
 
 namespace bubblesim {
 
 std::optional<RayHit> WorldGeometry::cast_ray(const Vector3& origin, const Vector3& unit_direction, double max_distance,
-                                      ObjectId ignored_model) const {
+                                              ObjectId ignored_model) const {
   std::optional<RayHit> nearest;
   for (const auto& model : state().models) {
     if (model->object == ignored_model) continue;

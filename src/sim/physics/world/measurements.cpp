@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bubblesim/world_measurements.hpp"
-
 #include <string>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/world_measurements.hpp"
 #include "physics/world/state.hpp"
 
 namespace bubblesim {

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adds and removes models.
-#include "bubblesim/world_models.hpp"
-
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "bubblesim/world_models.hpp"
 #include "check/scene_check.hpp"
 #include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
+#include "scene/model_tree.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
 
 namespace bubblesim {
 
 void forget_contacts(WorldState& state, ObjectId model) {
-  forget_contacts(state.contacts.memory, [&](const Collider& shape) {
-    return state.tree().outermost_model_of(shape.link->object) == model;
-  });
+  forget_contacts(state.contacts.memory,
+                  [&](const Collider& shape) { return state.tree().outermost_model_of(shape.link->object) == model; });
 }
 
 ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings) {
@@ -65,7 +64,7 @@ void WorldModels::check_removable(ObjectId model) const {
 void WorldModels::remove(ObjectId model) {
   check_removable(model);
   dJointGroupEmpty(state().ode.contact_joints.get());  // contacts of the last step may refer to the model's bodies
-  state().touches.clear();                            // and these refer to its shapes
+  state().touches.clear();                             // and these refer to its shapes
   forget_contacts(state(), model);
   state().contacts.found.clear();
   auto tree = std::make_shared<SceneTree>(*state().shared_tree);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bubblesim/world_properties.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/world_properties.hpp"
 #include "check/checks.hpp"
 #include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"

@@ -100,8 +100,6 @@ Twist velocity_of(const WorldState& state, ObjectId object);
 /// Moves a model or a link, see World::set_pose().
 void move_object(WorldState& state, ObjectId object, const Pose& pose);
 
-/// Adds a model and its objects to the tree.
-ObjectId enter_model(SceneTree& tree, const ModelDescription& model);
 /// Builds a model whose objects are in the tree already. gather_statics() completes it when it is static.
 void place_model(WorldState& state, ObjectId id, std::shared_ptr<const PreparedModel> model);
 /// Updates the list of moving models and their indices, after models were added or removed.

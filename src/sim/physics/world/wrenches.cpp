@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bubblesim/world_wrenches.hpp"
-
 #include <string>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/world_wrenches.hpp"
 #include "check/checks.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
@@ -31,9 +30,7 @@ void check_vector(const WorldState& state, ObjectId id, const char* what, const 
 }
 
 /// Where wrenches go that are applied now.
-Wrenches& receiving(WorldState& state) {
-  return state.updating == nullptr ? state.wrenches : state.updating->wrenches;
-}
+Wrenches& receiving(WorldState& state) { return state.updating == nullptr ? state.wrenches : state.updating->wrenches; }
 
 }  // namespace
 
@@ -45,7 +42,7 @@ void WorldWrenches::check(ObjectId object, const Wrench& wrench, const std::opti
 }
 
 void WorldWrenches::apply(ObjectId object, const Wrench& wrench, const std::optional<Vector3>& point,
-                         WrenchFrame frame) {
+                          WrenchFrame frame) {
   check(object, wrench, point);
   const ObjectId link = pushed_link(state(), object);
   if (wrench.force == Vector3::Zero() && wrench.torque == Vector3::Zero()) return;  // does not wake it

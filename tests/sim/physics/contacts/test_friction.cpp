@@ -235,7 +235,7 @@ TEST(SkidSteer, TurnsAsTheConeSays) {
     const double speed = 0.5;
     for (int i = 0; i < 4; ++i) {
       world.joints().set_target_velocity(world.tree().find("/wheel" + std::to_string(i) + "_joint"),
-                                (i % 2 == 0 ? -speed : speed) / 0.1);
+                                         (i % 2 == 0 ? -speed : speed) / 0.1);
     }
     world.advance(1, kStep);
     const double before = to_rpy(world.pose(world.tree().find("/base")).orientation).z();
@@ -313,7 +313,8 @@ double slip_between_jaws(double load) {
   World world(scene({floor(), gripper, block(mu, 0.5, {0.1, 0.1, 0.1}, at(0, 0, 0.8)),
                      still(model("Table", link_with(Box{{0.1, 0.1, 0.1}}), at(0, 0, 0.7)))}),
               0);
-  for (const char* joint : {"/left_joint", "/right_joint"}) world.joints().set_target_effort(world.tree().find(joint), force);
+  for (const char* joint : {"/left_joint", "/right_joint"})
+    world.joints().set_target_effort(world.tree().find(joint), force);
   world.advance(0.5, kStep);
   world.models().remove(world.tree().find("/Table"));
   const ObjectId box = world.tree().find("/Block");

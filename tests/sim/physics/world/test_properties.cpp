@@ -174,7 +174,8 @@ TEST(Properties, RefuseValuesThatCannotBeUsed) {
   EXPECT_TRUE(has(error_of([&] { world.properties().set_friction(hinge, 1); }), "is a joint: it has no friction"));
   EXPECT_TRUE(has(error_of([&] { world.properties().set_mass(world.tree().find("/Floor"), 1); }), "static"));
   World bare(jointed(joint("fixed", {})), 1);
-  EXPECT_TRUE(has(error_of([&] { bare.properties().set_friction(bare.tree().find("/Robot"), 1); }), "has no collisions"));
+  EXPECT_TRUE(
+      has(error_of([&] { bare.properties().set_friction(bare.tree().find("/Robot"), 1); }), "has no collisions"));
 }
 
 }  // namespace

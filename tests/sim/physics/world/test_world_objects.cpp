@@ -217,7 +217,8 @@ TEST_F(RobotWorld, BadTargetsAreRefusedByName) {
 TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
   expect_refused(world, [&] { world.joints().position(find("/base")); }, {"/base", "link", "not a joint"});
   expect_refused(world, [&] { world.joints().child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
-  expect_refused(world, [&] { world.joints().set_target_velocity(find("/Sonar"), 1); }, {"/Sonar", "sensor", "not a joint"});
+  expect_refused(world, [&] { world.joints().set_target_velocity(find("/Sonar"), 1); },
+                 {"/Sonar", "sensor", "not a joint"});
   expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_pose(find("/Wall"), {}); }, {"/Wall", "static"});

@@ -8,10 +8,10 @@
 
 #include "files/file_text.hpp"
 #include "load/find/model_folders.hpp"
-#include "load/sdf/elements/check_values.hpp"
-#include "load/sdf/elements/sdf_element.hpp"
 #include "load/sdf/documents/unique_names.hpp"
 #include "load/sdf/documents/upgrade.hpp"
+#include "load/sdf/elements/check_values.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_model.hpp"
 #include "load/xml/xml_parser.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "bubblesim/scene.hpp"
 #include "load/load_context.hpp"
-#include "load/sdf/models/frames.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
+#include "load/sdf/models/frames.hpp"
 
 namespace bubblesim {
 

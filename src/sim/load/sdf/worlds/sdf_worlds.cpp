@@ -10,14 +10,14 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "check/checks.hpp"
-#include "load/sdf/models/frames.hpp"
 #include "load/sdf/elements/own_elements.hpp"
+#include "load/sdf/models/frames.hpp"
 #include "load/sdf/models/sdf_models.hpp"
 #include "load/sdf/models/sdf_names_and_axes.hpp"
 #include "load/sdf/models/sdf_plugins.hpp"
+#include "load/sdf/models/sdf_visuals.hpp"
 #include "load/sdf/worlds/sdf_randomize.hpp"
 #include "load/sdf/worlds/sdf_state.hpp"
-#include "load/sdf/models/sdf_visuals.hpp"
 #include "load/substeps.hpp"
 
 namespace bubblesim {
