@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contacts/collision.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -27,10 +27,10 @@ std::vector<ObjectId> links_of(const WorldState& state, ObjectId id, const char*
 }
 
 /// Calls `use` with the collisions of an object.
-template <class Use>
-void with_colliders(WorldState& state, ObjectId id, const Use& use) {
+template <class State, class Use>
+void with_colliders(State& state, ObjectId id, const Use& use) {
   for (const ObjectId link : links_of(state, id, "friction")) {
-    for (Collider& collider : state.model_of(id).colliders) {
+    for (auto& collider : state.model_of(id).colliders) {
       if (collider.link->object == link) use(collider);
     }
   }
