@@ -8,7 +8,7 @@
 
 #include "bubblesim/access_lock.hpp"
 #include "bubblesim/simulation.hpp"
-#include "world/object_view.hpp"
+#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 

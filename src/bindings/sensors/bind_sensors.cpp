@@ -15,7 +15,7 @@
 #include "numpy_values.hpp"
 #include "sensors/record_class.hpp"
 #include "world/object_axes.hpp"
-#include "world/object_view.hpp"
+#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {

@@ -20,7 +20,7 @@
 #include "numpy_values.hpp"
 #include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
-#include "world/object_view.hpp"
+#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {

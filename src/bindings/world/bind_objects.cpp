@@ -9,7 +9,7 @@
 #include "bubblesim/urdf.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
-#include "world/object_view.hpp"
+#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {
