@@ -13,9 +13,9 @@
 #include "bubblesim/simulation.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
+#include "object_view.hpp"
 #include "sensors/record_class.hpp"
 #include "world/object_axes.hpp"
-#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {

@@ -18,9 +18,9 @@
 #include "devices/attached.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
+#include "object_view.hpp"
 #include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
-#include "object_view.hpp"
 
 namespace bubblesim::bindings {
 namespace {
