@@ -6,7 +6,7 @@ import { Emitter } from "./emitter.js";
 /// links) when they have other colours, and "cleared" before the objects of another scene come.
 export class Scene extends Emitter {
   objects = new Map(); // by handle
-  models = []; // handles of the top level
+  models = []; // handles of the top-level models
   environment = null;
   info = null; // what window.share returns
   linkIndex = new Map(); // handle of a link: its row in the poses of frames
@@ -36,7 +36,7 @@ export class Scene extends Emitter {
     });
   }
 
-  /// The objects below one, or the models of the top level.
+  /// The objects below one, or the top-level models.
   children(handle = -1) {
     if (handle === -1) return this.models.map((each) => this.objects.get(each)).filter(Boolean);
     return this.objects.get(handle)?.children ?? [];
@@ -48,7 +48,7 @@ export class Scene extends Emitter {
     return undefined;
   }
 
-  /// The model of the top level of an object.
+  /// The top-level model of an object.
   outermost(object) {
     let each = object;
     while (each && each.parent !== -1) each = this.objects.get(each.parent);

@@ -18,7 +18,7 @@ from bubblesim.remote.control_lane import path_of
 from bubblesim.remote.token import read
 from bubblesim.web.node_client import NoAnswerError, NodeClient
 
-_PERIOD = 1 / 60  # s between two looks at the frames
+_PERIOD = 1 / 60  # s between two polls of the frames
 _IDLE = 0.25  # s, without pages
 _MOST_EVENTS = 10_000
 _BETWEEN_TRIES = 0.5  # s, for a simulator that is gone

@@ -2,7 +2,7 @@
 """The connection of one page: its calls, the frames and the events.
 
 The first message of a page is the token, as text. All others are binary. Those of the page are CBOR lists:
-``[number, function, arguments, connection]`` is a call, ``[count]`` says that a frame was drawn. Those of the server
+``[number, function, arguments, connection]`` is a call, ``[count]`` reports that a frame was drawn. Those of the server
 are frames, which begin with a zero byte (see FrameReader.packed), and CBOR lists: ``[number, reply]`` answers a call,
 ``[null, name, data]`` is an event.
 """

@@ -19,7 +19,7 @@ from bubblesim.web.threads import in_thread
 
 _OWN = "/bubblesim/drawings"  # pages have the drawings of scripts from the simulator
 _KINDS = ("visualization_msgs/Marker", "visualization_msgs/MarkerArray")
-_BETWEEN_SCANS = 2.0  # s between two looks for topics
+_BETWEEN_SCANS = 2.0  # s between two searches for topics
 _MOST_MARKERS = 5000
 _MOST_POINTS = 200_000  # of one marker
 _DEEPEST = 100  # frames

@@ -28,7 +28,7 @@ py::object text(std::string_view bytes) {
   PyObject* made = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "strict");
   if (made == nullptr) {
     PyErr_Clear();
-    throw CborError("a text is not valid UTF-8");
+    throw CborError("a string is not valid UTF-8");
   }
   return owned(made);
 }

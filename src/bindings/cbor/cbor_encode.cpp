@@ -113,7 +113,7 @@ class CborWriter {
     const char* const data = PyUnicode_AsUTF8AndSize(object, &size);
     if (data == nullptr) {
       PyErr_Clear();
-      refuse_result("it contains a text that has no UTF-8");
+      refuse_result("it contains a string that has no UTF-8");
     }
     bytes(kTextHead, {data, static_cast<std::size_t>(size)});
   }

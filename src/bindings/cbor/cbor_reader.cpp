@@ -57,7 +57,7 @@ class Checker {
     switch (item.kind) {
       case Kind::kText:
         text_bytes_ += item.bytes.size();
-        if (text_bytes_ > kMostTextBytes) throw CborError("more than 4 MiB of texts; send data as bytes");
+        if (text_bytes_ > kMostTextBytes) throw CborError("more than 4 MiB of strings; send data as bytes");
         return;
       case Kind::kList:
         return list(item.argument, level + 1);
@@ -91,7 +91,7 @@ class Checker {
       if (i == kMostPairs) throw CborError("more than 4,096 entries in a table");
       if (key.kind == Kind::kList || key.kind == Kind::kMap) throw CborError("a list or a table is the key of a table");
       if (key.kind != Kind::kText && ++other_keys_ > kMostOtherKeys) {
-        throw CborError("more than 1,000 keys of tables that are no texts");
+        throw CborError("more than 1,000 keys of tables that are no strings");
       }
       value(key, level);
       value(reader_.next(), level);
@@ -115,7 +115,7 @@ std::string_view CborReader::take(std::uint64_t size) {
 
 std::uint64_t CborReader::argument(unsigned detail) {
   if (detail < 24) return detail;
-  if (detail == kIndefinite) throw CborError("texts and bytes of unknown length are not supported");
+  if (detail == kIndefinite) throw CborError("strings and bytes of unknown length are not supported");
   if (detail > 27) throw CborError("a length is malformed");
   std::uint64_t value = 0;
   for (const char each : take(std::uint64_t{1} << (detail - 24))) {

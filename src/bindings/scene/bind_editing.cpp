@@ -29,7 +29,7 @@ std::unique_ptr<ModelCopy> copy_model(Simulation& simulation, ObjectId model) {
   const HoldWithGil hold(lock_of(simulation));
   const World& world = simulation.world();
   if (world.tree().at(model).parent != kNoObject) {
-    throw InvalidInput(world.tree().short_path(model) + " is not a model of the top level");
+    throw InvalidInput(world.tree().short_path(model) + " is not a top-level model");
   }
   auto copy = std::make_unique<ModelCopy>(ModelCopy{world.models().description(model)});
   copy->description.pose = world.pose(model);
@@ -68,7 +68,7 @@ void bind_editing(py::module_& module) {
         return std::array<double, 4>{turn.x(), turn.y(), turn.z(), turn.w()};
       });
   module.def("copy_model", &copy_model, py::arg("simulation"), py::arg("model"),
-             "Return the description of a model of the top level, with its present pose.");
+             "Return the description of a top-level model, with its present pose.");
   module.def("add_copy", &add_copy, py::arg("simulation"), py::arg("copy"), py::arg("name"), py::arg("position"),
              py::arg("orientation"), "Add a model by the description of another one; return its handle.");
 

@@ -12,9 +12,9 @@ namespace {
 namespace py = pybind11;
 
 std::vector<std::string> warnings_of(const Scene& scene) {
-  std::vector<std::string> texts;
-  for (const Problem& warning : scene.warnings()) texts.push_back(warning.text());
-  return texts;
+  std::vector<std::string> strings;
+  for (const Problem& warning : scene.warnings()) strings.push_back(warning.text());
+  return strings;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class SceneView {
     const World& world = simulation.world();
     const SceneTree& tree = world.tree();
     const ModelDescription& description = world.models().description(model);
-    if (tree.at(model).parent != kNoObject) throw InvalidInput(tree.path(model) + " is not a model of the top level");
+    if (tree.at(model).parent != kNoObject) throw InvalidInput(tree.path(model) + " is not a top-level model");
     const bool visuals = std::any_of(description.links.begin(), description.links.end(),
                                      [](const LinkDescription& link) { return !link.visuals.empty(); });
     py::list objects;

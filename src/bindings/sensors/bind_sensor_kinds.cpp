@@ -26,7 +26,7 @@ std::string type_name(const Member& member) {
     case MemberType::kText:
       return "text";
     case MemberType::kTexts:
-      return "texts";
+      return "strings";
     case MemberType::kVector:
       return "vector";
     case MemberType::kRotation:

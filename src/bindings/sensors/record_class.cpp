@@ -149,7 +149,7 @@ bool is_reading(const MemberTable& table) {
   return std::any_of(kinds.begin(), kinds.end(), [&](const auto* kind) { return kind->reading == &table; });
 }
 
-/// A class, and the texts that it refers to.
+/// A class, and the strings that it refers to.
 struct RecordClass {
   explicit RecordClass(const MemberTable& table) : name("bubblesim._core." + table.name) {
     docs.reserve(table.members.size());

@@ -21,7 +21,7 @@ struct AsScalar {
   }
 };
 
-/// Numbers, choices and computed texts; None for other members.
+/// Numbers, choices and computed strings; None for other members.
 py::object scalar(const Member& member, const void* record) {
   if (!member.is_stored()) return std::visit(AsScalar{}, member.compute(record));
   switch (member.type) {

@@ -15,7 +15,7 @@ namespace bubblesim::bindings {
 /// By quantity, in the order in which they are drawn.
 using Distributions = pybind11::dict;
 
-/// Throws TypeError unless the keys are texts and the values Distributions.
+/// Throws TypeError unless the keys are strings and the values Distributions.
 std::vector<RandomQuantity> to_random_quantities(const Distributions& distributions);
 
 /// Draws quantities by the simulation's seed, and sets them.

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name of a text without a file.
+// The name of a string without a file.
 constexpr const char* kText = "<data-string>";
 constexpr const char* kGroundPlane = "ground_plane";
 

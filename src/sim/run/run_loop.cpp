@@ -14,7 +14,7 @@ namespace {
 using Clock = Inbox::Clock;
 
 constexpr std::chrono::milliseconds kIdlePeriod{20};   // longest wait for input
-constexpr std::chrono::milliseconds kLongestWait{50};  // between two looks at input and signals while pacing
+constexpr std::chrono::milliseconds kLongestWait{50};  // between two polls of input and signals while pacing
 constexpr std::chrono::seconds kGateTimeout{5};        // for a step of a request
 
 FramePose to_frame(const Pose& pose) {

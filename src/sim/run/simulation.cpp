@@ -99,7 +99,7 @@ void Simulation::step() {
   const AccessLock::Hold alone(stepping_);
   process_input();
   const AccessLock::Hold hold(world_.access());
-  const Noted in_pass(in_step_);
+  const Noted in_step(in_step_);
   step_start_ = state_time();  // process_input() may reset it
   {
     const Noted actuates(actuates_);

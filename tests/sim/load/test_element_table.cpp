@@ -49,7 +49,7 @@ std::string joined(const std::vector<std::string>& path) {
   return text;
 }
 
-/// Equal as numbers, or as texts.
+/// Equal as numbers, or as strings.
 bool same_value(const std::string& one, const std::string& other) {
   std::vector<double> numbers;
   std::vector<double> others;

@@ -22,10 +22,10 @@ void throw_diverged(int number, const char* format, va_list arguments) {
   throw Diverged("ODE error " + std::to_string(number) + ": " + text);
 }
 
-thread_local bool complained = false;
+thread_local bool warned = false;
 
 // ODE reports here that its exact solver found no solution, each time.
-void note_complaint(int, const char*, va_list) { complained = true; }
+void note_warning(int, const char*, va_list) { warned = true; }
 
 thread_local std::uint32_t seed = 0;
 
@@ -52,7 +52,7 @@ void prepare_this_thread() {
     dInitODE2(0);
     dSetErrorHandler(throw_diverged);
     dSetDebugHandler(throw_diverged);
-    dSetMessageHandler(note_complaint);
+    dSetMessageHandler(note_warning);
   });
   thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
   static_cast<void>(allocated);
@@ -78,6 +78,6 @@ void step_iteratively(dWorldID world, double step, unsigned long& random) {
   set_seed(others);
 }
 
-bool solver_warned() { return std::exchange(complained, false); }
+bool solver_warned() { return std::exchange(warned, false); }
 
 }  // namespace bubblesim::ode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an inertial measurement unit feels, substep by substep, in its own axes at the time of each.
+// What an inertial measurement unit measures, substep by substep, in its own axes at the time of each.
 #pragma once
 
 #include <ode/ode.h>

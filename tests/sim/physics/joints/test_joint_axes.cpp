@@ -116,7 +116,7 @@ TEST(Revolute2, SteersByPositionWhileItRolls) {
   EXPECT_NEAR(pair.world.joints().position(pair.joint, 0), 0.4, 1e-3);
   EXPECT_NEAR(pair.world.joints().velocity(pair.joint, 1), 2, 1e-3);
   const Vector3 axle = pair.arm_in_base().orientation * Vector3::UnitY();
-  EXPECT_NEAR(std::atan2(-axle.x(), axle.y()), 0.4, 1e-3) << "the axle points where the steering says";
+  EXPECT_NEAR(std::atan2(-axle.x(), axle.y()), 0.4, 1e-3) << "the axle has the angle of the steering joint";
 }
 
 TEST(Revolute2, EffortTurnsEachAxisPositively) {

@@ -38,9 +38,9 @@ ModelDescription robot(const Pose& pose) {
   return described;
 }
 
-std::vector<std::uint64_t> history(Simulation& simulation, int passes = 30) {
+std::vector<std::uint64_t> history(Simulation& simulation, int steps = 30) {
   std::vector<std::uint64_t> hashes;
-  for (int i = 0; i < passes; ++i) {
+  for (int i = 0; i < steps; ++i) {
     simulation.step();
     hashes.push_back(simulation.state_hash());
   }

@@ -27,7 +27,7 @@ import {
 import { Poll } from "../../poll.js";
 import { poseMatrix } from "../pose_matrix.js";
 
-const PERIOD = 100; // ms between two looks
+const PERIOD = 100; // ms between two polls
 const SHAPES = {
   sphere: () => new SphereGeometry(0.5, 20, 12),
   cube: () => new BoxGeometry(1, 1, 1),

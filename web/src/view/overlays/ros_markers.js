@@ -31,7 +31,7 @@ import {
 import { Poll } from "../../poll.js";
 import { poseMatrix } from "../pose_matrix.js";
 
-const PERIOD = 100; // ms between two looks
+const PERIOD = 100; // ms between two polls
 const [ARROW, CUBE, SPHERE, CYLINDER, LINE_STRIP, LINE_LIST, CUBE_LIST, SPHERE_LIST, POINTS, TEXT, , TRIANGLES] = Array(12).keys();
 const SHAPES = {
   [CUBE]: () => new BoxGeometry(1, 1, 1),

@@ -41,8 +41,8 @@ class ObjectChangeFunctions(ApiContext):
         stays, else its pose relative to the parent.
 
         As in the original, a model moves along when its parent is set to a pose; physics moves it along if it is static
-        (sim.shapeintparam_static), or if the parent is a force-torque sensor, which holds it. The parent does not feel
-        its weight. Parts of a model cannot be attached elsewhere.
+        (sim.shapeintparam_static), or if the parent is a force-torque sensor, which holds it. Its weight does not act
+        on the parent. Parts of a model cannot be attached elsewhere.
         """
         handle = self._resolve(handle)
         parent = parent if parent == self.handle_world else self._resolve(parent)
@@ -149,7 +149,7 @@ class ObjectChangeFunctions(ApiContext):
             return
         if model not in self._edits.shapes:
             path = self._tree.short_path(model)
-            raise ValueError(f"{path} collides as the scene's file says; only created shapes can be changed")
+            raise ValueError(f"{path} collides as the scene's file defines; only created shapes can be changed")
         self._edits.shapes[model].respondable = respondable
         self._rebuild(model)
 
@@ -210,7 +210,7 @@ class ObjectChangeFunctions(ApiContext):
             number += 1
         with self._stand_in():
             model = int(self._simulation.add_model(text, name=free).handle)
-        self._edits.texts[model] = text
+        self._edits.sources[model] = text
         return model
 
     def _remove_model(self, handle: int) -> None:

@@ -29,7 +29,7 @@ constexpr std::size_t kDeepestInclude = 20;
   throw SceneError({{source.file, source.line, "", message}});
 }
 
-/// The file of a document as the <include>s of others name it; the name of a text without a file stays.
+/// The file of a document as the <include>s of others name it; the name of a string without a file stays.
 std::string canonical(const std::string& file) {
   std::error_code not_a_file;
   const fs::path found = fs::canonical(file, not_a_file);

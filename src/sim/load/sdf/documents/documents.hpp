@@ -20,8 +20,8 @@ class Documents {
  public:
   explicit Documents(LoadContext& context) : context_(context) {}
 
-  /// The root of a text, <sdf> or <robot>; a <robot> is as in the file. Throws SceneError when it is neither, or when a
-  /// file includes itself, is not a regular file, is too large, or when there are too many elements.
+  /// The root of a document, <sdf> or <robot>; a <robot> is as in the file. Throws SceneError when it is neither, or
+  /// when a file includes itself, is not a regular file, is too large, or when there are too many elements.
   XmlElement read(const std::string& text, const std::string& file);
 
  private:

@@ -82,7 +82,7 @@ class ValueCheck {
   }
 
  private:
-  /// Only required texts must not be empty. Some files have three slashes after model:.
+  /// Only required strings must not be empty. Some files have three slashes after model:.
   void check_text() {
     const std::string scheme = "model://";
     if (element_.name == "uri" && element_.text.rfind(scheme + "/", 0) == 0) {

@@ -36,7 +36,7 @@ struct Line {
   std::string reason;
 };
 
-/// Splits a text at spaces; words in single quotes may contain some.
+/// Splits a string at spaces; words in single quotes may contain some.
 std::vector<std::string> words_in(std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t at = text.find_first_not_of(' '); at != std::string_view::npos;

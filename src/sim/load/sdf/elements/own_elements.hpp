@@ -25,7 +25,7 @@ std::optional<double> own_number(const SdfElement& parent, std::string_view name
 std::optional<Vector3> own_vector(const SdfElement& parent, std::string_view name, const std::string& path,
                                   LoadContext& context);
 
-/// The numbers in a text, separated by spaces; empty when the text has other content.
+/// The numbers in a string, separated by spaces; empty when the text has other content.
 std::optional<std::vector<double>> to_numbers(const std::string& text);
 
 }  // namespace bubblesim

@@ -62,10 +62,10 @@ class SdfElement {
   const ElementKind* kind_;
 };
 
-/// Whether a text is that of a set flag: true or 1.
+/// Whether a string is that of a set flag: true or 1.
 bool is_true(std::string_view text);
 
-/// Appends the numbers in a text, separated by spaces, with "inf" and "nan", infinite beyond the range of double.
+/// Appends the numbers in a string, separated by spaces, with "inf" and "nan", infinite beyond the range of double.
 /// Returns false when other content follows; the numbers before it are read.
 bool read_numbers(std::string_view text, std::vector<double>& numbers);
 

@@ -46,7 +46,7 @@ std::string SensorElement::text(std::string_view path) const { return at(path).a
 
 Pose SensorElement::pose(std::string_view path) const { return at(path).as_pose(); }
 
-std::vector<std::string> SensorElement::texts(std::string_view path) const {
+std::vector<std::string> SensorElement::strings(std::string_view path) const {
   const auto [parent, name] = split(path);
   std::vector<std::string> all;
   for (const SdfElement& element : at(parent).children(name)) all.push_back(element.as_text());

@@ -10,8 +10,8 @@
 
 namespace bubblesim {
 
-/// Reads the elements of a <world>. Reports unknown attributes and texts that cannot be used; quantities are looked up
-/// when a simulation is made.
+/// Reads the elements of a <world>. Reports unknown attributes and strings that cannot be used; quantities are looked
+/// up when a simulation is made.
 std::vector<RandomQuantity> read_randomized(const SdfElement& world, LoadContext& context);
 
 }  // namespace bubblesim
