@@ -112,9 +112,9 @@ class Hub:
                     return
                 if now_notices != notices:
                     notices = now_notices
-                    news = await self._node.call("window.events", next_event, timeout=_ANSWER)
-                    next_event = news["next"]
-                    for name, data in news["events"]:
+                    changes = await self._node.call("window.events", next_event, timeout=_ANSWER)
+                    next_event = changes["next"]
+                    for name, data in changes["events"]:
                         self.emit(name, data)
                     await self._notify()
                 if revision is not None and now_revision != revision:

@@ -13,7 +13,7 @@ namespace bubblesim {
 namespace {
 
 constexpr double kTime = 0.5;            // s at rest before an island sleeps
-constexpr double kWay = 3e-3 * kTime;    // m, which a body at rest stays within in this time
+constexpr double kDrift = 3e-3 * kTime;  // m, which a body at rest stays within in this time
 constexpr double kAngle = 3e-3 * kTime;  // rad, likewise
 
 bool is_awake(const Link& link) { return dBodyIsEnabled(link.body.get()) != 0; }
@@ -33,7 +33,7 @@ void wake_group(const MovingModels& moving, ObjectId group) {
 bool has_stayed(const Link& link) {
   const Pose now = body_pose(link.body.get());
   const double cosine = now.orientation.dot(link.rest_pose.orientation);  // of half the angle between them
-  return (now.position - link.rest_pose.position).norm() < kWay && std::abs(cosine) > std::cos(kAngle / 2);
+  return (now.position - link.rest_pose.position).norm() < kDrift && std::abs(cosine) > std::cos(kAngle / 2);
 }
 
 void measure(PlacedModel& model, double step) {

@@ -150,9 +150,9 @@ export const rosMarkers = {
       app.rosMarkers = markers; // for tests
     };
     const poll = new Poll(app, PERIOD, async () => {
-      const news = await app.link.call("server.markers", [revision], "markers");
-      ({ revision, frames } = news);
-      if (news.markers) show(news.markers);
+      const changes = await app.link.call("server.markers", [revision], "markers");
+      ({ revision, frames } = changes);
+      if (changes.markers) show(changes.markers);
       app.view.invalidate();
     });
     app.link.on("connection", () => (revision = -1));

@@ -34,7 +34,7 @@ class GraphFunctions(ApiContext):
         colour: Numbers = _RED,
         cyclic_range: float = math.pi,
     ) -> int:
-        """Add a stream of numbers, or change the one of this name; return its id.
+        """Add a stream of numbers, or change the stream of this name; return its id.
 
         ``options``, added up: 1 invisible, 2 without label, 4 points that are not linked. ``cyclic_range``: values run
         from minus this to this and wrap around, as angles do; 0 for other numbers.

@@ -16,7 +16,7 @@ _MOST_CHARACTERS = 255  # of a name
 
 class ObjectChangeFunctions(ApiContext):
     """Changes of a stopped scene stay until it is closed. Names, parents and static flags that are changed during a run
-    are those of before when it ends. ROS topics and messages keep the names of the scene's file."""
+    are restored when it ends. ROS topics and messages keep the names of the scene's file."""
 
     def setObjectAlias(self, handle: Handle, alias: str) -> None:
         """Name an object."""
