@@ -15,12 +15,12 @@ std::uint64_t bits_of(double value) {
   return bits;
 }
 
-std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel, std::uint64_t moment) {
+std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel, std::uint64_t time_bits) {
   Fnv1a hash;
   hash.add(seed);
   hash.add(static_cast<std::uint64_t>(sensor));
   hash.add(channel);
-  hash.add(context);
+  hash.add(time_bits);
   return hash.value();
 }
 
