@@ -11,6 +11,7 @@
 #include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kStill = 1e-3;  // rad/s; a rotor below this speed does not kee
 void check_rotor(const World& world, const RotorDescription& d) {
   const std::string path = world.tree().short_path(d.joint);
   const std::string& type = world.joints().description(d.joint).type;
-  if (type != "revolute" && type != "continuous") {
+  if (!find_joint_kind(type)->is_hinge) {
     throw WrongObject(path + " is a " + type + " joint: a rotor needs a revolute or continuous one");
   }
   check_pushable(world, world.joints().links(d.joint).second);

@@ -9,6 +9,7 @@
 #include "bubblesim/error.hpp"
 #include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -42,7 +43,7 @@ void push_joint(World& world, ObjectId joint, double effort, double part) {
   const Pose frame = world.joints().axes(joint) == 1 ? world.joints().child_pose(joint) : world.pose(joint);
   const Vector3 axis = frame.orientation * description.axes.front().direction;
   const Vector3 push = axis * (std::clamp(effort, -limit, limit) * part);
-  const Wrench wrench = description.type == "prismatic" ? Wrench{push, {}} : Wrench{{}, push};
+  const Wrench wrench = find_joint_kind(description.type)->slides ? Wrench{push, {}} : Wrench{{}, push};
   const auto [parent, child] = world.joints().links(joint);
   world.wrenches().apply(child, wrench, frame.position);
   if (parent != kNoObject) world.wrenches().apply(parent, {-wrench.force, -wrench.torque}, frame.position);

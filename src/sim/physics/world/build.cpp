@@ -11,6 +11,7 @@
 #include "physics/motion/impact.hpp"
 #include "physics/motion/joint_correction.hpp"
 #include "physics/world/state.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -186,7 +187,7 @@ class ModelBuilder {
       site.pose = pose;
       site.parent = body_named(description.parent);
       site.child = child.body.get();
-      if (description.type == "gearbox") {
+      if (find_joint_kind(description.type)->couples_hinges) {
         site.reference = body_named(description.gearbox_reference);
         site.parent_shaft = shaft_point(description.gearbox_reference, description.parent);
         site.child_shaft = shaft_point(description.gearbox_reference, description.child);
@@ -226,7 +227,7 @@ class ModelBuilder {
       axis.carrier = i == axes - 1 ? axis.child : body_named(description.parent);
       axis.direction = pose.orientation * joint.joint->axis(i).direction;
       axis.origin = pose.position;
-      axis.slides = description.type == "prismatic";
+      axis.slides = find_joint_kind(description.type)->slides;
       meter = std::make_unique<MotorMeter>(axis);
     }
   }

@@ -10,6 +10,7 @@
 #include "check/checks.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -159,8 +160,8 @@ const JointDescription& WorldJoints::description(ObjectId joint) const {
 void WorldJoints::set_position(ObjectId joint, double position) {
   const PlacedJoint& placed = placed_joint(state(), joint);
   const JointDescription& description = this->description(joint);
-  const bool slides = description.type == "prismatic";
-  if (!slides && description.type != "revolute" && description.type != "continuous") {
+  const JointKind& kind = *find_joint_kind(description.type);
+  if (!kind.slides && !kind.is_hinge) {
     throw WrongObject(state().shown(joint) + " is a " + description.type +
                       " joint: the position can be set only for revolute, continuous and prismatic joints");
   }
@@ -169,7 +170,7 @@ void WorldJoints::set_position(ObjectId joint, double position) {
   const Pose frame = pose_of(state(), joint);
   const Vector3 axis = frame.orientation * description.axes.front().direction;
   Pose motion;
-  if (slides) {
+  if (kind.slides) {
     motion.position = way * axis;
   } else {
     motion.orientation = Quaternion(Eigen::AngleAxisd(way, axis.normalized()));

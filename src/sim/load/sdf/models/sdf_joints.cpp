@@ -14,6 +14,7 @@
 #include "load/sdf/models/sdf_names_and_axes.hpp"
 #include "load/sdf/models/sdf_sensors.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -22,9 +23,6 @@ namespace {
 constexpr double kNoLimit = 1e15;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kWorld = "world";
-
-const std::vector<std::string> kTypes = {"ball",     "continuous", "fixed", "gearbox",  "prismatic",
-                                         "revolute", "revolute2",  "screw", "universal"};
 
 /// The frames whose names have the longest common suffix with `wanted`.
 std::vector<std::string> ending_as(const std::vector<std::string>& frames, const std::string& wanted) {
@@ -69,8 +67,11 @@ class JointReader {
     const auto child = read_end("child");
     std::string type = joint_.attribute("type");
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) {
-      context_.report(joint_.source(), path_, "unknown joint type '" + type + "'" + did_you_mean(type, kTypes));
+    const JointKind* kind = find_joint_kind(type);
+    if (kind == nullptr) {
+      std::vector<std::string> names;
+      for (const JointKind* known : joint_kinds()) names.emplace_back(known->name);
+      context_.report(joint_.source(), path_, "unknown joint type '" + type + "'" + did_you_mean(type, names));
       return std::nullopt;
     }
     if (!parent || !child) return std::nullopt;
@@ -89,10 +90,9 @@ class JointReader {
     const bool has_base = !base_of(joint_).empty();
     joint.pose = has_base ? frames_.pose_of(joint_, "__model__", path_, context_)
                           : frames_.pose(child->frame) * joint_.child("pose").as_pose();
-    read_axes(joint);
+    if (kind->axes > 0) read_axes(*kind, joint);
     read_sensors(joint);
-    if (type == "screw") joint.screw_lead = read_screw_lead();
-    if (type == "gearbox") read_gearbox(joint);
+    kind->read(joint_, path_, context_, joint);
     return joint;
   }
 
@@ -134,22 +134,19 @@ class JointReader {
     return End{std::move(frame), std::move(link)};
   }
 
-  void read_axes(JointDescription& joint) const {
-    if (joint.type == "fixed" || joint.type == "ball") return;
+  void read_axes(const JointKind& kind, JointDescription& joint) const {
     for (const char* name : {"axis", "axis2"}) {
-      if (const SdfElement axis = joint_.child(name)) joint.axes.push_back(read_axis(axis, joint));
+      if (const SdfElement axis = joint_.child(name)) joint.axes.push_back(read_axis(kind, axis, joint));
     }
-    if (joint.type == "universal") complete_universal(joint);
-    if (joint.type == "gearbox" && joint.axes.size() == 1) joint.axes.push_back(joint.axes.front());
   }
 
-  AxisDescription read_axis(const SdfElement& axis, const JointDescription& joint) const {
+  AxisDescription read_axis(const JointKind& kind, const SdfElement& axis, const JointDescription& joint) const {
     const auto limit = [](double value, double none) { return std::abs(value) < kNoLimit ? value : none; };
     const SdfElement limits = axis.child("limit");
     const SdfElement dynamics = axis.child("dynamics");
     AxisDescription description;
     description.direction = direction(axis, joint.pose);
-    if (joint.type != "continuous") {
+    if (kind.has_limits) {
       description.lower = reachable(limits, "lower", -kInfinity);
       description.upper = reachable(limits, "upper", kInfinity);
     }
@@ -211,15 +208,6 @@ class JointReader {
     return none;
   }
 
-  /// Old models omit one or both axes of a universal joint: these are at right angles to the others.
-  static void complete_universal(JointDescription& joint) {
-    if (joint.axes.empty()) joint.axes.emplace_back().direction = Vector3::UnitX();
-    if (joint.axes.size() > 1) return;
-    const Vector3 first = joint.axes.front().direction;
-    const Vector3 beside = std::abs(first.y()) < 0.9 ? Vector3::UnitY() : Vector3::UnitZ();
-    joint.axes.emplace_back().direction = (beside - first * first.dot(beside)).normalized();
-  }
-
   void read_sensors(JointDescription& joint) const {
     for (const SdfElement& sensor : joint_.children("sensor")) {
       const std::string path = path_ + "/" + sensor.name();
@@ -230,22 +218,6 @@ class JointReader {
       auto read = read_sensor(sensor, sensor.name(), path_, sensor.child("pose").as_pose(), context_);
       if (read) joint.sensors.push_back(std::move(*read));
     }
-  }
-
-  /// Metres per turn, from an element in one of two conventions.
-  double read_screw_lead() const {
-    // SDFormat 1.10: metres per turn, right-handed.
-    if (joint_.has("screw_thread_pitch")) return joint_.number("screw_thread_pitch");
-    // Before: radians per metre, left-handed.
-    const double pitch = joint_.number("thread_pitch");
-    if (pitch != 0) return -2 * M_PI / pitch;
-    context_.report(joint_.source("thread_pitch"), path_, "<thread_pitch> is 0, it must not be 0");
-    return 1;
-  }
-
-  void read_gearbox(JointDescription& joint) const {
-    joint.gearbox_ratio = joint_.number("gearbox_ratio");
-    joint.gearbox_reference = joint_.text("gearbox_reference_body");
   }
 
   const SdfElement& joint_;
