@@ -53,7 +53,7 @@ struct Mesh {
 };
 using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
 
-/// Contact parameters of a shape. src/sim/physics/surface_pair.hpp combines those of two touching surfaces.
+/// Contact parameters of a shape. src/sim/physics/contacts/surface_pair.hpp combines those of two touching surfaces.
 struct Surface {
   double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is set
   std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit

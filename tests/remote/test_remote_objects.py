@@ -222,7 +222,7 @@ def test_shapes_without_sense_are_refused(sim: Any) -> None:
     assert "three lengths" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cuboid, [1, 1, 0])
     assert "equal sizes along x and y" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cylinder, [1, 2, 1])
     box = sim.getObject("/box")
-    assert "collides as the scene's file says" in refusal(
+    assert "collides as the scene's file defines" in refusal(
         sim.setObjectInt32Param, box, sim.shapeintparam_respondable, 0
     )
 

@@ -37,8 +37,8 @@ class SceneEdits:
     """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
     shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
     """Created shapes, by the handle of their model."""
-    texts: dict[int, str] = field(default_factory=dict)
-    """SDFormat texts of models that callers have added."""
+    sources: dict[int, str] = field(default_factory=dict)
+    """SDFormat strings of models that callers have added."""
     originals: dict[int, str] = field(default_factory=dict)
     """Names of the file's models of which others are copies."""
     colours: SetColours = field(default_factory=SetColours)
@@ -90,7 +90,14 @@ class SceneEdits:
     def remove(self, gone: set[int]) -> None:
         """Forget objects that are about to be removed; models that are attached to them belong to the world then."""
         for handle in gone:
-            tables: list[dict[int, Any]] = [self.names, self.parents, self.holds, self.placed, self.shapes, self.texts]
+            tables: list[dict[int, Any]] = [
+                self.names,
+                self.parents,
+                self.holds,
+                self.placed,
+                self.shapes,
+                self.sources,
+            ]
             tables += [self.originals, self.colours.links, self.numbers.links]
             tables += [self._first_names, self._first_parents]
             for table in tables:

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "check/scene_check.hpp"
-#include "physics/world_state.hpp"
+#include "physics/parts/prepared_model.hpp"
 #include "rays/prepared_rays.hpp"
 #include "scene/described_tree.hpp"
 #include "scene/prepared.hpp"

@@ -17,7 +17,7 @@ namespace bubblesim {
 
 void Simulation::make_sensors(ObjectId model) {
   for (const ObjectId id : world_.tree().parts(model, ObjectKind::kSensor)) {
-    const SensorDescription& sensor = world_.sensor_description(id);
+    const SensorDescription& sensor = world_.models().sensor_description(id);
     SensorSlot& slot = sensors_.emplace_back();
     slot.id = id;
     slot.sensor = make_sensor(sensor, scene().environment, id, world_);
@@ -119,7 +119,7 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
                       ", not a camera");
   }
   const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
-  const bool has_color = world_.sensor_description(camera).kind.get<CameraDescription>().color;
+  const bool has_color = world_.models().sensor_description(camera).kind.get<CameraDescription>().color;
   const std::size_t bytes = has_color ? 3 * pixels : 0;
   if (rgb.size() != bytes) {
     throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +

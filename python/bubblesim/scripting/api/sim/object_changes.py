@@ -16,7 +16,7 @@ _MOST_CHARACTERS = 255  # of a name
 
 class ObjectChangeFunctions(ApiContext):
     """Changes of a stopped scene stay until it is closed. Names, parents and static flags that are changed during a run
-    are those of before when it ends. ROS topics and messages keep the names of the scene's file."""
+    are restored when it ends. ROS topics and messages keep the names of the scene's file."""
 
     def setObjectAlias(self, handle: Handle, alias: str) -> None:
         """Name an object."""
@@ -39,7 +39,8 @@ class ObjectChangeFunctions(ApiContext):
 
         A dummy moves with its parent. As in the original, a model moves along when its parent is set to a pose; physics
         moves it along if it is static (sim.shapeintparam_static), or if the parent is a force-torque sensor, which
-        holds it. The parent does not feel its weight. Parts of a model that physics holds elsewhere cannot be attached.
+        holds it. Its weight does not act on the parent. Parts of a model that physics holds elsewhere cannot be
+        attached.
         """
         handle = self._resolve(handle)
         parent = parent if parent == self.handle_world else self._resolve(parent)
@@ -146,7 +147,7 @@ class ObjectChangeFunctions(ApiContext):
             return
         if model not in self._edits.shapes:
             path = self._tree.short_path(model)
-            raise ValueError(f"{path} collides as the scene's file says; only created shapes can be changed")
+            raise ValueError(f"{path} collides as the scene's file defines; only created shapes can be changed")
         self._edits.shapes[model].respondable = respondable
         self._rebuild(model)
 

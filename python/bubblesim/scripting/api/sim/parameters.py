@@ -182,7 +182,7 @@ class ParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFuncti
         """Accept the value that the object has; others raise ValueError: parts of a model cannot be switched off."""
         if value != self.getModelProperty(handle):
             raise ValueError(
-                f"the model property {value} is not supported: models are visible and dynamic as their file says"
+                f"the model property {value} is not supported: models are visible and dynamic as their file defines"
             )
 
     def _set_entity_to_detect(self, sensor: int, entity: int) -> None:
