@@ -129,7 +129,7 @@ SceneTree& changing_tree(WorldState& state);
 /// The link that carries an object; kNoObject for objects that are fixed to the world.
 ObjectId carrier(const WorldState& state, const Object& object);
 
-/// Puts the frames of a model, or those of the scene that are of no model, where their description says.
+/// Puts the frames of a model, or those of the scene that are of no model, at the poses of their description.
 void place_frames(WorldState& state, const PlacedModel& model);
 void place_frames(WorldState& state, const std::vector<FrameDescription>& frames);
 /// Leaves the frames that a model carries in the world, and forgets its own; before it is removed.

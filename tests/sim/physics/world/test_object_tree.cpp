@@ -153,6 +153,21 @@ TEST_F(ObjectTree, CarriesAFrameWithItsNewParent) {
   expect_near(world.pose(find("/mark")), Pose(-2, 4, 0, 0, 0, M_PI), 1e-12);
 }
 
+TEST_F(ObjectTree, MovesAChainOfJointsOnce) {
+  SceneDescription described = tree_scene();
+  ModelDescription& robot = described.models[0];
+  robot.links.push_back(link("hand", {1, 0, 0}));
+  robot.links[2].place = place(31, 30);
+  robot.joints.push_back(joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kNone)}, {1, 0, 0}, "wheel", "hand"));
+  robot.joints[1].place = place(30, 12);
+  described.models[1].links[0].place->parent = 31;  // the hand holds the cargo
+  World arm(described, 0);
+  const auto pose = [&arm](const std::string& path) { return arm.pose(arm.tree().find(path)); };
+  arm.joints().set_position(arm.tree().find("/motor"), M_PI / 2);  // about (1, 2.5)
+  expect_near(pose("/base/motor/wheel/joint/hand"), Pose(0.5, 2.5, 0, 0, 0, M_PI), 1e-12);
+  expect_near(pose("/hand/cargo"), Pose(1.5, 2.5, 3, 0, 0, M_PI / 2), 1e-12);
+}
+
 TEST_F(ObjectTree, HasNoCircles) {
   EXPECT_THROW(world.frames().set_parent(base, find("/rim")), InvalidInput);
   EXPECT_THROW(world.frames().set_parent(base, base), InvalidInput);
