@@ -119,8 +119,8 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         with self._stand_in():
             made = add_copy(self._simulation, taken, self._free_name(taken.name), taken.position, taken.orientation)
         edits = self._edits
-        if model in edits.texts:
-            edits.texts[made] = edits.texts[model]
+        if model in edits.sources:
+            edits.sources[made] = edits.sources[model]
         else:
             edits.originals[made] = edits.originals.get(model, str(self._world.name(model)))
         if model in edits.shapes:

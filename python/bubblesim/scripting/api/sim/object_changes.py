@@ -203,7 +203,7 @@ class ObjectChangeFunctions(ApiContext):
         """Add a model from the text of its file; a name that is taken gets a number."""
         with self._stand_in():
             model = int(self._simulation.add_model(text, name=self._free_name(name)).handle)
-        self._edits.texts[model] = text
+        self._edits.sources[model] = text
         return model
 
     def _free_name(self, name: str) -> str:
