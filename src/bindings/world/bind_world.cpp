@@ -106,11 +106,19 @@ void bind_world(py::module_& module) {
       .def(
           "frame_kind", [](const World& w, ObjectId id) { return std::string(frame_kind_name(w.frames().kind(id))); },
           py::arg("frame"), "Return 'dummy', 'shape', 'camera', 'light', 'graph' or 'script'.")
-      .def("add_dummy", [](World& w, const std::string& name) { return w.frames().add_dummy(name); }, py::arg("name"), "Add a dummy at the origin; return its handle.")
-      .def("remove_dummy", [](World& w, ObjectId id) { w.frames().remove_dummy(id); }, py::arg("dummy"), "Remove a dummy that was added.")
-      .def("set_parent", [](World& w, ObjectId id, ObjectId parent) { w.frames().set_parent(id, parent); }, py::arg("object"), py::arg("parent"),
-           "Make an object the last child of another one, or of the scene (-1); nothing moves.")
-      .def("set_alias", [](World& w, ObjectId id, const std::string& alias) { w.frames().set_alias(id, alias); }, py::arg("object"), py::arg("alias"))
+      .def(
+          "add_dummy", [](World& w, const std::string& name) { return w.frames().add_dummy(name); }, py::arg("name"),
+          "Add a dummy at the origin; return its handle.")
+      .def(
+          "remove_dummy", [](World& w, ObjectId id) { w.frames().remove_dummy(id); }, py::arg("dummy"),
+          "Remove a dummy that was added.")
+      .def(
+          "set_parent", [](World& w, ObjectId id, ObjectId parent) { w.frames().set_parent(id, parent); },
+          py::arg("object"), py::arg("parent"),
+          "Make an object the last child of another one, or of the scene (-1); nothing moves.")
+      .def(
+          "set_alias", [](World& w, ObjectId id, const std::string& alias) { w.frames().set_alias(id, alias); },
+          py::arg("object"), py::arg("alias"))
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
       .def(

@@ -58,7 +58,7 @@ struct PlacedModel {
   std::deque<Collider> colliders;   // likewise
   std::vector<PlacedJoint> joints;
   std::vector<Lever> levers;
-  std::vector<Pose> sensors;                         // in the frame of their link or joint
+  std::vector<Pose> sensors;  // in the frame of their link or joint
   std::vector<const SensorDescription*> described_sensors;
   std::map<std::size_t, MotionMeter> motion_meters;  // of its inertial measurement units, by their index in `sensors`
   PlanarMotor planar_motor;

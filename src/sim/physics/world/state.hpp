@@ -73,7 +73,7 @@ struct WorldState {
   std::shared_ptr<SceneTree> own_tree;  // the same, if the world has changed it
   std::map<ObjectId, PlacedFrame> frames;
   std::shared_ptr<const std::vector<FrameDescription>> scene_frames;  // of no model, of the scene
-  std::uint64_t revision = 0;  // counts additions and removals of models
+  std::uint64_t revision = 0;                                         // counts additions and removals of models
   bool has_scene_models = true;
 
   OdeWorld ode;

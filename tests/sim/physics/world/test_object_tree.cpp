@@ -146,7 +146,7 @@ TEST_F(ObjectTree, CarriesAFrameWithItsNewParent) {
   world.frames().set_parent(path, find("/motor"));
   EXPECT_EQ(world.tree().path(find("/mark")), "/base/motor/path/mark");
   expect_near(world.pose(find("/mark")), Pose(4, 1, 0, 0, 0, 0), 1e-12);  // nothing moves
-  world.joints().set_position(find("/motor"), M_PI);                         // half a turn about (1, 2.5)
+  world.joints().set_position(find("/motor"), M_PI);                      // half a turn about (1, 2.5)
   expect_near(world.pose(find("/mark")), Pose(-2, 4, 0, 0, 0, M_PI), 1e-12);
   world.frames().set_parent(path, kNoObject);
   world.joints().set_position(find("/motor"), 0);
