@@ -96,13 +96,21 @@ void bind_world(py::module_& module) {
           "parts",
           [](const World& w, ObjectId model, const std::string& kind) {
             for (const ObjectKind each :
-                 {ObjectKind::kLink, ObjectKind::kJoint, ObjectKind::kSensor, ObjectKind::kFrame}) {
+                 {ObjectKind::kModel, ObjectKind::kLink, ObjectKind::kJoint, ObjectKind::kSensor, ObjectKind::kFrame}) {
               if (kind == kind_name(each)) return w.tree().parts(model, each);
             }
-            throw InvalidInput("the parts of a model are of the kinds link, joint, sensor and frame, not '" + kind +
-                               "'");
+            throw InvalidInput("the parts of a model are of the kinds model, link, joint, sensor and frame, not '" +
+                               kind + "'");
           },
-          py::arg("model"), py::arg("kind"), "Return the parts of a model, wherever they are in the tree.")
+          py::arg("model"), py::arg("kind"),
+          "Return the parts of a model, wherever they are in the tree; of the kind 'model' with itself.")
+      .def("contains", [](const World& w, ObjectId id) { return w.tree().contains(id); })
+      .def(
+          "part_of", [](const World& w, ObjectId id) { return w.tree().at(id).model; },
+          "Return the innermost model of which an object is a part, -1 for an outermost model and a frame of none.")
+      .def(
+          "frame_link", [](const World& w, ObjectId id) { return w.frames().link(id); }, py::arg("frame"),
+          "Return the link that carries a frame, -1 for the world.")
       .def(
           "frame_kind", [](const World& w, ObjectId id) { return std::string(frame_kind_name(w.frames().kind(id))); },
           py::arg("frame"), "Return 'dummy', 'shape', 'camera', 'light', 'graph' or 'script'.")
