@@ -36,7 +36,7 @@ py::list pose_list(const Pose& pose) {
 
 std::array<float, 3> color_list(const Color& color) { return {color.r, color.g, color.b}; }
 
-/// A number without meaning to the reader, for what is infinite.
+/// None for an infinite number.
 py::object finite(double value) {
   return std::isfinite(value) ? py::object(py::float_(value)) : py::object(py::none());
 }
