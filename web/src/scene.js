@@ -128,6 +128,10 @@ export class Scene extends Emitter {
     }
     for (const object of removed) this.objects.delete(object.handle);
     for (const object of [...changes.objects, ...changes.frames]) this.objects.set(object.handle, object);
+    for (const [handle, parent, path, name] of changes.places) {
+      const object = this.objects.get(handle);
+      if (object) Object.assign(object, { parent, path, name });
+    }
     for (const object of this.objects.values()) object.children = [];
     for (const object of this.objects.values()) if (!object.hidden) this.objects.get(object.parent)?.children.push(object);
     for (const object of changes.objects) this.#attach(object);

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -30,6 +31,8 @@ class Dummies:
         """Create it without dummies."""
         self.by_handle: dict[int, Dummy] = {}
         self._of_file: dict[int, Dummy] = {}
+        self.changed: Callable[[], None] = lambda: None
+        """Called after a dummy was created or removed."""
 
     def create(self, world: Any, name: str, size: float, *, temporary: bool) -> Dummy:
         """Add a dummy at the origin of the world."""
@@ -37,6 +40,7 @@ class Dummies:
             raise ValueError(f"a scene has at most {_MOST} dummies: remove some")
         handle = int(world.add_dummy(name))
         dummy = self.by_handle[handle] = Dummy(handle, size, temporary)
+        self.changed()
         return dummy
 
     def of(self, handle: int) -> Dummy:
@@ -50,6 +54,7 @@ class Dummies:
                 self.remove(world, child)
         world.remove_dummy(handle)
         del self.by_handle[handle]
+        self.changed()
 
     def remove_below(self, world: Any, parents: set[int]) -> None:
         """Remove the created dummies that are attached to objects that are about to be removed."""

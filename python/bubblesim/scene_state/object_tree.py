@@ -102,6 +102,7 @@ class ObjectTree:
         self._world.set_parent(handle, parent)  # raises ValueError for an object below it
         if not self.is_created_dummy(handle):
             self._edits.note_parent(handle, before, parent)
+        self._edits.tree_changed()
         if not in_place:
             self.set_pose(handle, in_parent, parent)
         elif not self.has_body(handle):
@@ -112,6 +113,7 @@ class ObjectTree:
         if not self.is_created_dummy(handle):
             self._edits.note_name(handle, self.name(handle), name)
         self._world.set_alias(handle, name)
+        self._edits.tree_changed()
 
     def model(self, handle: int) -> int:
         """Return the handle under which physics knows what moves together with an object; -1 if there is nothing."""

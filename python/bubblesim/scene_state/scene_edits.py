@@ -47,6 +47,10 @@ class SceneEdits:
     """Present handles of created shapes that were built anew, by the handle that callers know."""
     stopped: Callable[[], bool] = lambda: False
     """Whether the simulation is stopped: changes stay then."""
+    moved: set[int] = field(default_factory=set)
+    """All objects of the scene that ever got another name or parent."""
+    tree_changed: Callable[[], None] = lambda: None
+    """Called after a change of a name or a parent."""
     _first_names: dict[int, str] = field(default_factory=dict)
     """Of the file."""
     _first_parents: dict[int, int] = field(default_factory=dict)
@@ -60,6 +64,7 @@ class SceneEdits:
     def note_name(self, handle: int, before: str, name: str) -> None:
         """Keep the new name of an object of the scene."""
         first = self._first_names.setdefault(handle, before)
+        self.moved.add(handle)
         self.names[handle] = name
         if name == first:
             del self.names[handle], self._first_names[handle]
@@ -67,6 +72,7 @@ class SceneEdits:
     def note_parent(self, handle: int, before: int, parent: int) -> None:
         """Keep the new parent of an object of the scene."""
         first = self._first_parents.setdefault(handle, before)
+        self.moved.add(handle)
         self.parents[handle] = parent
         if parent == first:
             del self.parents[handle], self._first_parents[handle]
@@ -86,6 +92,7 @@ class SceneEdits:
         self._first_names = {handle: name for handle, name in self._first_names.items() if handle in names}
         self._first_parents = {handle: each for handle, each in self._first_parents.items() if handle in parents}
         self._before = None
+        self.tree_changed()
 
     def remove(self, gone: set[int]) -> None:
         """Forget objects that are about to be removed; models that are attached to them belong to the world then."""
@@ -103,6 +110,7 @@ class SceneEdits:
             for table in tables:
                 table.pop(handle, None)
             self.static.discard(handle)
+            self.moved.discard(handle)
         for attached in [handle for handle, parent in self.parents.items() if parent in gone]:
             del self.parents[attached], self._first_parents[attached]
         for table in self._before[:2] if self._before else ():
