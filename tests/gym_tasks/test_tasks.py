@@ -11,7 +11,7 @@ gymnasium = pytest.importorskip("gymnasium")
 
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
-from bubblesim.gym_tasks.bubblerob_maze import WAY, way_left  # noqa: E402
+from bubblesim.gym_tasks.bubblerob_maze import PATH, path_left  # noqa: E402
 from bubblesim.gym_tasks.cartpole import place_state  # noqa: E402
 from bubblesim.gym_tasks.environment import TaskEnv  # noqa: E402
 from bubblesim.gym_tasks.pioneer_goal import PioneerGoal  # noqa: E402
@@ -149,10 +149,10 @@ def test_the_pioneer_gets_its_reward_at_the_goal_and_for_touching() -> None:
 
 
 def test_the_way_through_the_maze_gets_shorter() -> None:
-    lengths = way_left(np.linspace(WAY[:-1], WAY[1:], 20).transpose(1, 0, 2).reshape(-1, 2))
+    lengths = path_left(np.linspace(PATH[:-1], PATH[1:], 20).transpose(1, 0, 2).reshape(-1, 2))
     assert (np.diff(lengths) <= 1e-9).all()
     assert lengths[-1] == pytest.approx(0.0)
-    assert way_left(np.array([[-1.0, 1.0]])) == pytest.approx([lengths[0] + 1.0])
+    assert path_left(np.array([[-1.0, 1.0]])) == pytest.approx([lengths[0] + 1.0])
 
 
 def test_bubblerob_can_leave_the_maze() -> None:
@@ -161,9 +161,9 @@ def test_bubblerob_can_leave_the_maze() -> None:
     target = 0
     for _ in range(800):
         x, y, cosine, sine = seen[1:]
-        if math.dist((x, y), WAY[target]) < 0.15 and target < len(WAY) - 1:
+        if math.dist((x, y), PATH[target]) < 0.15 and target < len(PATH) - 1:
             target += 1
-        wanted = math.atan2(WAY[target][1] - y, WAY[target][0] - x) - math.atan2(sine, cosine)
+        wanted = math.atan2(PATH[target][1] - y, PATH[target][0] - x) - math.atan2(sine, cosine)
         wanted = math.remainder(wanted, math.tau)
         speed = 1.0 if abs(wanted) < 0.5 else 0.0
         turn = np.clip(wanted, -0.6, 0.6)

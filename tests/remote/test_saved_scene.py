@@ -65,6 +65,41 @@ def test_the_empty_scene_and_a_model_file_become_worlds(tmp_path: Path) -> None:
     assert again.time_step == simulation.time_step
 
 
+PLACES = """\
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
+  <world name="places">
+    <model name="robot body">
+      <bubblesim:is_object>false</bubblesim:is_object>
+      <pose>1 2 0 0 0 0</pose>
+      <link name="base"><bubblesim:place><id>1</id></bubblesim:place></link>
+      <link name="arm"><bubblesim:place><id>3</id><parent>2</parent></bubblesim:place></link>
+      <joint name="motor" type="revolute">
+        <parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis>
+        <bubblesim:place><id>2</id><parent>1</parent></bubblesim:place>
+      </joint>
+      <bubblesim:object name="post">
+        <link>base</link><pose>0 0 1 0 0 0</pose>
+        <bubblesim:place><id>4</id><parent>1</parent></bubblesim:place>
+      </bubblesim:object>
+    </model>
+    <bubblesim:object name="goal"/>
+  </world>
+</sdf>
+"""
+
+
+def test_a_tree_that_is_not_the_nesting_of_models_is_saved(tmp_path: Path) -> None:
+    simulation = Simulation(str(write(tmp_path / "places.sdf", PLACES)))
+    base, post, goal = (simulation.object(path) for path in ("/base", "/post", "/goal"))
+    base.position = [3, 0, 0]
+    post.position = [3, 0, 2]
+    goal.position = [7, 8, 9]
+    again = saved(simulation, tmp_path / "saved.sdf")
+    assert again.state_hash() == simulation.state_hash()
+    for path, position in (("/base/motor/arm", [3, 0, 0]), ("/base/post", [3, 0, 2]), ("/goal", [7, 8, 9])):
+        np.testing.assert_allclose(again.object(path).position, position, atol=1e-12)
+
+
 def test_masses_and_friction_that_were_set_are_in_the_file(tmp_path: Path) -> None:
     simulation = Simulation(str(write(tmp_path / "arm.sdf", ARM.format(version="1.9"))))
     world = simulation.world
@@ -123,7 +158,7 @@ def test_added_models_are_in_the_file_and_removed_ones_are_not(tmp_path: Path) -
     simulation = Simulation(str(write(tmp_path / "arm.sdf", ARM.format(version="1.9"))))
     edits = SceneEdits()
     box = simulation.add_model(BOX, name="parcel").handle
-    edits.texts[box] = BOX
+    edits.sources[box] = BOX
     simulation.world.set_pose(box, [0, 0, 0.1, 0, 0, 0, 1])
     simulation.remove_model(simulation.world.find("/gone", -1))
     again = saved(simulation, tmp_path / "saved.sdf", edits)
@@ -147,7 +182,7 @@ def test_copies_of_the_files_models_and_models_that_stand_still_are_in_the_file(
     copy = add_copy(simulation, copy_model(simulation, tricycle), "Tricycle_1", [3, 0, 0.2], [0, 0, 1, 0])
     edits.originals[copy] = "Tricycle"
     shelf = simulation.add_model(FURNITURE, name="shelf_2", position=[1, 2, 0.5]).handle
-    edits.texts[shelf] = FURNITURE
+    edits.sources[shelf] = FURNITURE
     simulation.remove_model(tricycle)
     edits.remove({tricycle})
     again = saved(simulation, tmp_path / "saved.sdf", edits)

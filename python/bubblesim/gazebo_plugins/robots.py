@@ -55,7 +55,7 @@ class GazeboPlugins:
             self._unknown.report(description)
             if self._add(description, owner, model, namespace):
                 with_plugin.add(owner)
-        for sensor in self._sensors_below(model) if self._bridge is not None else ():
+        for sensor in world.parts(model, "sensor") if self._bridge is not None else ():
             if world.sensor_topic(sensor)[0]:
                 self._make(SensorTopic, NoPlugin(world.path(sensor)), sensor, model, namespace)
             elif sensor not in with_plugin and publishes_as_gz(world, sensor, systems):
@@ -99,12 +99,6 @@ class GazeboPlugins:
         self._step_time.begin_step()
         self._each("publish")
         self._transforms.publish()
-
-    def _sensors_below(self, handle: int) -> Iterator[int]:
-        if self._simulation.world.kind(handle) == "sensor":
-            yield handle
-        for child in self._simulation.world.children(handle):
-            yield from self._sensors_below(child)
 
     def _add(self, description: Any, owner: int, model: int, namespace: str | None) -> bool:
         """Create a plugin; return whether its owner is published by it."""

@@ -34,11 +34,13 @@ class UnknownPlugins:
 
 
 def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
-    """Yield the plugins of an object and of all objects below it, each with its owner."""
+    """Yield the plugins of an outermost model and of its parts, each with its owner."""
     for plugin in world.plugins(handle):
         yield handle, plugin
-    for child in world.children(handle):
-        yield from plugins_below(world, child)
+    inner = [model for model in world.parts(handle, "model") if model != handle]
+    for part in [*inner, *world.parts(handle, "sensor")]:
+        for plugin in world.plugins(part):
+            yield part, plugin
 
 
 def report_unknown_plugins(simulation: Any) -> None:

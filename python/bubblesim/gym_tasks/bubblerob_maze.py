@@ -13,7 +13,7 @@ from bubblesim.gym_tasks.task import SCENES, Array, Task, headings, upright
 
 SPEED = 6.0  # rad/s of a wheel of radius 0.04 m: actions 1
 NOSE = 0.2  # m, range of the nose's sensor
-WAY = np.array([[-1.0, 0.0], [-0.5, -1.05], [0.0, 0.0], [0.5, 1.05], [1.5, 1.05], [2.2, 1.05]])  # m, through the maze
+PATH = np.array([[-1.0, 0.0], [-0.5, -1.05], [0.0, 0.0], [0.5, 1.05], [1.5, 1.05], [2.2, 1.05]])  # m, through the maze
 OUT = 1.75  # m along x: outside
 
 
@@ -51,7 +51,7 @@ class BubbleRobMaze(Task):
 
     def begin(self, marks: Array, rows: Array) -> None:
         """Remember the first lengths of the way."""
-        self._left = np.where(marks, way_left(rows[:, 2:4]), self._left)
+        self._left = np.where(marks, path_left(rows[:, 2:4]), self._left)
 
     def commands(self, actions: Array) -> Array:
         """Return the wheel speeds, rad/s."""
@@ -65,16 +65,16 @@ class BubbleRobMaze(Task):
 
     def judge(self, rows: Array) -> tuple[Array, Array, dict[str, Array]]:
         """Return the progress on the way."""
-        left = way_left(rows[:, 2:4])
+        left = path_left(rows[:, 2:4])
         success = rows[:, 2] > OUT
         rewards = self._left - left + 5.0 * success
         self._left = left
         return rewards, success, {"success": success}
 
 
-def way_left(points: Array) -> Array:
-    """Return the length of the way from its place nearest to each point, and the distance to there, m."""
-    starts, ends = WAY[:-1], WAY[1:]
+def path_left(points: Array) -> Array:
+    """Return the path length to the exit from the closest point of the path, and the distance to that point, m."""
+    starts, ends = PATH[:-1], PATH[1:]
     spans = ends - starts
     lengths = np.hypot(*spans.T)
     share = (((points[:, None] - starts) * spans).sum(axis=2) / lengths**2).clip(0.0, 1.0)

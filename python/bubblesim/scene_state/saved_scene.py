@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.dom import expatbuilder
@@ -40,7 +40,7 @@ def scene_text(simulation: Any, edits: SceneEdits, folder: Path) -> str:
     <include> keep the colours of their file. Relative paths in the text become absolute if the scene's file is in
     another folder.
 
-    :raises ValueError: for changes that SDFormat cannot say, and for scenes that are not SDFormat.
+    :raises ValueError: for changes that SDFormat cannot express, and for scenes that are not SDFormat.
     """
     _check(simulation, edits)
     document = _text_of(simulation, folder)
@@ -59,6 +59,7 @@ def scene_text(simulation: Any, edits: SceneEdits, folder: Path) -> str:
         world.appendChild(element)
     _write_colours(document, world, here, edits)
     _write_numbers(document, world, here, edits)
+    _write_objects(document, world, here, beginning)
     _write_state(document, world, here, [model for model in _outermost(here) if not here.is_static(model)], start, own)
     return document.toxml()
 
@@ -118,7 +119,7 @@ def _make_absolute(element: Element, folder: Path) -> None:
 
 
 def _outermost(world: Any) -> list[int]:
-    return [int(model) for model in world.models if int(world.parent(model)) < 0]
+    return [int(model) for model in world.models]
 
 
 def _leave_out(element: Any, name: str) -> None:
@@ -152,7 +153,7 @@ def _added(
     """Return the element of an added model; ``elements`` are those of the file's models by their names."""
     name = str(simulation.world.name(model))
     colour = [float(part) for part in simulation.color(model)]
-    text = edits.texts.get(model)
+    text = edits.sources.get(model)
     root: Any = document.documentElement
     if text is not None:
         found = next(iter(_children(_parsed(text).documentElement, "model")), None)
@@ -240,8 +241,8 @@ def _elements_of_link(world: Element, here: Any, link: int) -> list[Element]:
 
 def _names(world: Any, handle: int) -> list[str]:
     """Return the names from the outermost model to an object."""
-    parent = int(world.parent(handle))
-    return [*(_names(world, parent) if parent >= 0 else []), str(world.name(handle))]
+    above = int(world.part_of(handle))
+    return [*(_names(world, above) if above >= 0 else []), str(world.name(handle))]
 
 
 def _append(document: Document, parent: Element, name: str, text: str) -> Element:
@@ -258,7 +259,7 @@ def _write_state(
     def moved(handle: int) -> bool:
         return list(here.pose(handle)) != list(start.pose(handle))
 
-    changed = [model for model in models if model not in own or any(map(moved, _links(here, model)))]
+    changed = [model for model in models if model not in own or any(map(moved, here.parts(model, "link")))]
     if not changed:
         return
     states = _children(world, "state")
@@ -277,29 +278,45 @@ def _has_quaternions(root: Any) -> bool:
     return tuple(map(int, root.getAttribute("version").split(".")[:2])) >= (1, 9)
 
 
-def _links(world: Any, handle: int) -> Iterator[int]:
-    for child in world.children(handle):
-        kind = world.kind(child)
-        if kind == "link":
-            yield int(child)
-        elif kind == "model":
-            yield from _links(world, int(child))
-
-
 def _state_of(document: Document, world: Any, handle: int, *, quaternions: bool) -> Element:
     element: Element = document.createElement(str(world.kind(handle)))
     element.setAttribute("name", str(world.name(handle)))
     element.appendChild(_pose_of(document, world, handle, quaternions=quaternions))
     if world.kind(handle) == "model":
-        for child in world.children(handle):
-            if world.kind(child) in ("link", "model"):
-                element.appendChild(_state_of(document, world, int(child), quaternions=quaternions))
+        for part in [*world.parts(handle, "model"), *world.parts(handle, "link")]:
+            if world.part_of(part) == handle:
+                element.appendChild(_state_of(document, world, int(part), quaternions=quaternions))
     return element
 
 
+def _write_objects(document: Document, world: Element, here: Any, beginning: Any) -> None:
+    """Write the poses of the file's <bubblesim:object>s that were moved."""
+    root: Any = document.documentElement
+    for handle in [int(each.handle) for each in beginning.objects if each.kind == "frame"]:
+        if not here.contains(handle) or _in_carrier(here, handle) == _in_carrier(beginning.world, handle):
+            continue
+        *model, name = _names(beginning.world, handle)
+        owners = [each for each in _children(world, "model") if model == [each.getAttribute("name")]]
+        objects = [each for owner in owners or [world] for each in _children(owner, "bubblesim:object")]
+        for element in [each for each in objects if each.getAttribute("name") == name]:
+            for old in _children(element, "pose"):
+                element.removeChild(old)
+            element.appendChild(_pose_element(document, _in_carrier(here, handle), quaternions=_has_quaternions(root)))
+
+
+def _in_carrier(world: Any, frame: int) -> list[float]:
+    """Return the pose of a frame in the frame of the link that carries it, or in the world."""
+    link = int(world.frame_link(frame))
+    return list(world.pose(frame) if link < 0 else world.pose_in(frame, link))
+
+
 def _pose_of(document: Document, world: Any, handle: int, *, quaternions: bool) -> Element:
+    return _pose_element(document, world.pose(handle), quaternions=quaternions)
+
+
+def _pose_element(document: Document, values: Sequence[float], *, quaternions: bool) -> Element:
     pose: Element = document.createElement("pose")
-    numbers = [float(number) for number in world.pose(handle)]
+    numbers = [float(number) for number in values]
     if quaternions:
         pose.setAttribute("rotation_format", "quat_xyzw")
     else:

@@ -56,9 +56,9 @@ class GzSensor(SensorTopic):
 
     def place_of_topic(self) -> tuple[str, str]:
         """Return the sensor's topic and frame."""
-        chain = [self.context.owner]
-        while (parent := self.world.parent(chain[0])) >= 0:
-            chain.insert(0, parent)
+        chain = [self.world.carrier(self.context.owner), self.context.owner]
+        while (model := self.world.part_of(chain[0])) >= 0:
+            chain.insert(0, model)
         names = [self.world.name(part) for part in chain]
         steps = [f"{self.world.kind(part)}/{name}" for part, name in zip(chain, names, strict=True)]
         _, end = _SERVED.get(self._kind, ("", ""))

@@ -32,12 +32,13 @@ def events(window: Window, since: int = 0) -> dict[str, Any]:
 def models(window: Window, known: list[int] | None = None) -> dict[str, Any]:
     """Return the objects of all models, except of those whose handles are known, and the handles of all models.
 
-    ``links`` are the handles of the links whose poses are in the frames, in their order; ``axes`` are pairs of joint
-    and axis of the joint positions in the frames. ``colours`` are pairs of a link and the colour that was set
-    for it.
+    ``frames`` are all dummies and other objects of no model, ``places`` are handle, parent, path and name of the
+    objects whose place in the tree a script has changed. ``links`` are the handles of the links whose poses are in
+    the frames of the run, in their order; ``axes`` are pairs of joint and axis of the joint positions there.
+    ``colours`` are pairs of a link and the colour that was set for it.
     """
     simulation = window.simulation
-    handles = [each.handle for each in simulation.objects if each.kind == "model" and each.parent is None]
+    handles = [int(model) for model in simulation.world.models]
     skipped = set(known or [])
     frame = window.runner.frame
     return {
@@ -45,12 +46,20 @@ def models(window: Window, known: list[int] | None = None) -> dict[str, Any]:
         "objects": [
             each for handle in handles if handle not in skipped for each in window.view.model(simulation, handle)
         ],
+        "frames": window.view.frames(simulation),
+        "places": _places(window),
         "links": frame.links,
         "axes": [list(axis) for axis in frame.axes],
         "revision": frame.revision & 0xFFFFFFFF,
         "colours": [[link, colour] for link, colour in window.edits.colours.links.items()],
         "environment": window.view.environment(simulation),
     }
+
+
+def _places(window: Window) -> list[list[Any]]:
+    world = window.simulation.world
+    handles = {int(each) for moved in window.edits.moved for each in world.subtree(moved)}
+    return [[each, world.parent(each), world.path(each), world.alias(each)] for each in sorted(handles)]
 
 
 def mesh(window: Window, number: int) -> dict[str, Any]:

@@ -63,6 +63,8 @@ class Window:
         """With which clients pull at links, by client."""
         self.edits = host.shared.edits
         self.edits.colours.changed = self._recolour
+        self.edits.tree_changed = self._tree_changed
+        host.shared.dummies.changed = self._tree_changed
         self.removed: dict[int, Kept] = {}
         """The last models that pages have removed, by number."""
         self._removals = 0
@@ -70,6 +72,7 @@ class Window:
         self.next_event = 0
         """Number of the next event."""
         self._recoloured: set[int] = set()
+        self._has_other_tree = False
 
     def keep_removed(self, kept: Kept) -> int:
         """Keep a model that is removed, and return its number; the oldest are forgotten."""
@@ -94,8 +97,15 @@ class Window:
             changed = [[link, colours[link]] for link in self._recoloured if link in colours]
             self._recoloured.clear()
             self.emit("colours", changed)
+        if self._has_other_tree:  # likewise
+            self._has_other_tree = False
+            self.emit("models", None)
         kept = [[name, data] for number, name, data in self._events if number >= since]
         return {"next": self.next_event, "events": kept}
+
+    def _tree_changed(self) -> None:
+        self._has_other_tree = True
+        self.memory.notice()
 
     def _recolour(self, links: list[int]) -> None:
         self._recoloured.update(links)

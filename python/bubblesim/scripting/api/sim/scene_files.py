@@ -39,10 +39,9 @@ class SceneFileFunctions(CreatedObjectFunctions):
     def saveScene(self, file: str, overwrite: bool = False) -> int:
         """Write the scene of a stopped simulation to an .sdf file, which takes the place of a .ttt file; return 1.
 
-        The file of the scene is written with the models that were added, without those that were removed, and with the
-        present poses. An existing file is an error unless ``overwrite`` is true, and so are names, parents and static
-        flags that were changed; dummies, and colours of models of an <include>, are not written. For clients of a node
-        with --remote-trusted only.
+        The file has the current models and their poses. An existing file is an error unless ``overwrite`` is true, and
+        so are names, parents and static flags that were changed; dummies, and colours of models of an <include>, are
+        not written. For clients of a node with --remote-trusted only.
         """
         if not self._caller.may_use_files:
             raise PermissionError("sim.saveScene writes files: start the node with --remote-trusted")
