@@ -69,4 +69,14 @@ std::vector<double> Bytes::numbers(std::size_t count, bool are_doubles) {
   return result;
 }
 
+std::vector<double> Bytes::unset_numbers(std::size_t count, bool are_doubles) {
+  std::vector<double> result;
+  if (count > left()) fail_at(offset_, "needs " + std::to_string(count) + " numbers, which do not fit");
+  for (std::size_t i = 0; i < count; ++i) {
+    const double number = are_doubles ? value<double>() : value<float>();
+    result.push_back(std::isfinite(number) ? number : 0);
+  }
+  return result;
+}
+
 }  // namespace bubblesim::ttt

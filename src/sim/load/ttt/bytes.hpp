@@ -44,6 +44,8 @@ class Bytes {
   std::size_t count(std::size_t size);
   /// `count` numbers of four or eight bytes.
   std::vector<double> numbers(std::size_t count, bool are_doubles);
+  /// Like numbers(), with 0 for those that are not finite: some items leave what they do not use unset.
+  std::vector<double> unset_numbers(std::size_t count, bool are_doubles);
 
  private:
   template <class Value>

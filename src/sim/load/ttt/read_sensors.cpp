@@ -31,7 +31,9 @@ ProximitySensor read_proximity_sensor(const TagList& list) {
   sensor.volume = volume_of_type(list.integer("Snt", 34));
   sensor.entity = list.integer("Sox", -1);
   const TagList volume = list.list("Vod");
-  if (const auto n = volume.numbers("Ss3", "_s3", 9); !n.empty()) {
+  const bool are_doubles = volume.has("_s3");
+  if (auto bytes = volume.item(are_doubles ? "_s3" : "Ss3")) {
+    const auto n = bytes->unset_numbers(9, are_doubles);  // a ray has no radius, a cone no size
     sensor.offset = n[0];
     sensor.range = n[1];
     sensor.far_size = {n[4], n[5], 0};
