@@ -311,6 +311,7 @@ const char* const kElementTable = R"TABLE(
     stiffness number 1e8 ~ stops are rigid
     dissipation number 1 ~ stops are rigid
   bubblesim:motor text
+  bubblesim:target number
 
 =joint
   @name text

@@ -37,23 +37,23 @@ class Bits {
   std::size_t at_ = 0;
 };
 
-struct Node {
+struct CodeNode {
   bool is_leaf = false;
   char value = 0;
   std::uint16_t children[2] = {0, 0};  // 0: not read yet, as the root is nobody's child
 };
 
-std::vector<Node> read_tree(Bits& bits) {
-  std::vector<Node> nodes;
+std::vector<CodeNode> read_tree(Bits& bits) {
+  std::vector<CodeNode> nodes;
   std::vector<std::uint16_t> open;  // inner nodes that lack a child, the deepest last
   do {
     if (nodes.size() == kMostNodes) fail_at(bits.offset(), "the code has more than 511 nodes: the file is damaged");
     const auto index = static_cast<std::uint16_t>(nodes.size());
-    Node& node = nodes.emplace_back();
+    CodeNode& node = nodes.emplace_back();
     node.is_leaf = bits.next() == 1;
     if (node.is_leaf) node.value = bits.next_byte();
     if (!open.empty()) {
-      Node& parent = nodes[open.back()];
+      CodeNode& parent = nodes[open.back()];
       const bool is_second = parent.children[0] != 0;
       parent.children[is_second ? 1 : 0] = index;
       if (is_second) open.pop_back();
@@ -68,12 +68,12 @@ std::vector<Node> read_tree(Bits& bits) {
 std::string unpack(std::string_view packed, std::size_t size, std::size_t offset) {
   if (size == 0) return {};
   Bits bits(packed, offset);
-  const std::vector<Node> nodes = read_tree(bits);
+  const std::vector<CodeNode> nodes = read_tree(bits);
   if (nodes.front().is_leaf) return std::string(size, nodes.front().value);
   std::string content;
   content.reserve(size);
   while (content.size() < size) {
-    const Node* node = &nodes.front();
+    const CodeNode* node = &nodes.front();
     while (!node->is_leaf) node = &nodes[node->children[bits.next()]];
     content.push_back(node->value);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostObjects = 200000;
 constexpr std::size_t kMostTriangles = 20'000'000;
-constexpr int kMostPixels = 8192;
+constexpr int kMostTexturePixels = 8192;
 
 const std::map<std::string_view, const char*>& other_items() {
   static const std::map<std::string_view, const char*> names = {
@@ -33,7 +33,7 @@ Image read_image(const TagList& list) {
   image.id = size->i32();
   image.width = size->i32();
   image.height = size->i32();
-  const auto is_side = [](int side) { return side > 0 && side <= kMostPixels; };
+  const auto is_side = [](int side) { return side > 0 && side <= kMostTexturePixels; };
   if (!is_side(image.width) || !is_side(image.height)) fail_at(start, "a texture must have 1 to 8192 pixels a side");
   const std::size_t channels = (list.u8("Bst").value_or(0) & 1U) != 0 ? 4 : 3;
   const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
