@@ -28,6 +28,24 @@ ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
   return scripts;
 }
 
+/// Whether a scene is a file of CoppeliaSim, which has its scripts in itself.
+bool is_foreign(const std::filesystem::path& scene) { return scene.extension() == ".ttt" || scene.extension() == ".ttm"; }
+
+/// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is allowed.
+ScriptFiles trusted_of(const ScriptFiles& scripts, bool with_python) {
+  ScriptFiles trusted;
+  for (const auto& script : scripts) {
+    const auto& [object, file] = script;
+    const bool is_python = file.extension() == ".py";
+    const char* note = !is_python     ? "Lua, in the sandbox"
+                       : with_python ? "Python, which may do whatever you may"
+                                     : "Python, not run: read it, then allow it with --allow-python-scripts";
+    std::fprintf(stderr, "info: script of %s: %s (%s)\n", object.c_str(), file.c_str(), note);
+    if (!is_python || with_python) trusted.push_back(script);
+  }
+  return trusted;
+}
+
 /// Returns the scene's scripts, with the replacements applied.
 ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& options) {
   const SceneTree& tree = simulation.world().tree();
@@ -35,6 +53,7 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   for (const ModelDescription& model : simulation.scene().models) {
     for (auto& script : scripts_of(model, "/" + model.name)) scripts.push_back(std::move(script));
   }
+  if (is_foreign(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {

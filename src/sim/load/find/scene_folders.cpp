@@ -33,7 +33,7 @@ std::string no_scene(const fs::path& path) {
   }
   for (const char* scene : {".simscene.xml", ".simmodel.xml"}) {
     if (!ends_with(name, scene)) continue;
-    return "is an XML file of CoppeliaSim, which cannot be read: save it as .ttt or .ttm there";
+    return "is a CoppeliaSim file in XML, which cannot be read: save it as .ttt or .ttm there";
   }
   return {};
 }

@@ -261,6 +261,7 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
   pugi::xml_document document;
   pugi::xml_node sdf = document.append_child("sdf");
   sdf.append_attribute("version").set_value("1.9");
+  sdf.append_attribute("xmlns:bubblesim").set_value("https://bubblesim");
   pugi::xml_node world = named(sdf, "world", plain_name(name));
   write_settings(world, file.settings);
   for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
