@@ -254,7 +254,7 @@ struct AxisDescription {
   double spring_stiffness = 0;                                    ///< N/m or N m/rad
   double spring_reference = 0;                                    ///< m or rad, rest position of the spring
   MotorMode motor = MotorMode::kNone;
-  double target = 0;  ///< of the motor at the start: rad or m, rad/s or m/s, N m or N
+  double target = 0;                      ///< of the motor at the start: rad or m, rad/s or m/s, N m or N
   std::optional<MimicDescription> mimic;  ///< replaces the motor's targets
 };
 

@@ -29,15 +29,18 @@ ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
 }
 
 /// Whether a scene is a file of CoppeliaSim, which has its scripts in itself.
-bool is_foreign(const std::filesystem::path& scene) { return scene.extension() == ".ttt" || scene.extension() == ".ttm"; }
+bool is_foreign(const std::filesystem::path& scene) {
+  return scene.extension() == ".ttt" || scene.extension() == ".ttm";
+}
 
-/// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is allowed.
+/// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is
+/// allowed.
 ScriptFiles trusted_of(const ScriptFiles& scripts, bool with_python) {
   ScriptFiles trusted;
   for (const auto& script : scripts) {
     const auto& [object, file] = script;
     const bool is_python = file.extension() == ".py";
-    const char* note = !is_python     ? "Lua, in the sandbox"
+    const char* note = !is_python    ? "Lua, in the sandbox"
                        : with_python ? "Python, which may do whatever you may"
                                      : "Python, not run: read it, then allow it with --allow-python-scripts";
     std::fprintf(stderr, "info: script of %s: %s (%s)\n", object.c_str(), file.c_str(), note);

@@ -10,7 +10,20 @@ from collections.abc import Sequence
 
 from bubblesim.running.processes import RunError
 
-_COMMANDS = ("run", "shell", "scenes", "new-scene", "check", "describe", "convert", "api", "test", "sweep", "view", "doctor")
+_COMMANDS = (
+    "run",
+    "shell",
+    "scenes",
+    "new-scene",
+    "check",
+    "describe",
+    "convert",
+    "api",
+    "test",
+    "sweep",
+    "view",
+    "doctor",
+)
 _FAILED, _BAD_INPUT = 1, 2
 
 _DESCRIPTION = """\

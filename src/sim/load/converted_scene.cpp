@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdint>
-#include <cstdio>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>

@@ -144,7 +144,8 @@ TEST(TttGroups, MovesConnectedBodiesToTheZeroOfTheirJoints) {
 }
 
 TEST(TttGroups, LeavesLoopsAsTheyAre) {
-  const Built scene = built({moving(1, -1), joint_at(2, 1), moving(3, 2), dummy(4, 3, 6), joint_at(5, 1), dummy(6, 5, 4)});
+  const Built scene =
+      built({moving(1, -1), joint_at(2, 1), moving(3, 2), dummy(4, 3, 6), joint_at(5, 1), dummy(6, 5, 4)});
   const auto groups = groups_of(scene.file, scene.structure);
   ASSERT_EQ(scene.structure.connections.size(), 2U);
   ASSERT_EQ(groups.size(), 1U);

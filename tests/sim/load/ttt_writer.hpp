@@ -49,8 +49,8 @@ struct ObjectText {
   std::string own{};     ///< items of the second half
 
   std::string bytes() const {
-    return item(tag, item("Ids", ints({handle, parent})) + item("_fq", raw(pose)) + item("Ali", text(alias)) +
-                         common + "NXT" + own + "EOO");
+    return item(tag, item("Ids", ints({handle, parent})) + item("_fq", raw(pose)) + item("Ali", text(alias)) + common +
+                         "NXT" + own + "EOO");
   }
 };
 

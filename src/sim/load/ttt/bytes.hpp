@@ -19,8 +19,8 @@ struct FormatError : std::runtime_error {
 /// Throws a FormatError: `offset` counts bytes of the unpacked content, or of the file for its header.
 [[noreturn]] void fail_at(std::size_t offset, const std::string& message);
 
-/// Reads a range of bytes from front to back; the bytes must outlive it. Each function throws FormatError when the range
-/// ends before the value does.
+/// Reads a range of bytes from front to back; the bytes must outlive it. Each function throws FormatError when the
+/// range ends before the value does.
 class Bytes {
  public:
   Bytes() = default;

@@ -13,7 +13,8 @@ namespace {
 
 /// A name in one line, without what a terminal might obey.
 std::string shown(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](unsigned char sign) { return sign < ' ' || sign == 0x7f; }, '?');
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char sign) { return sign < ' ' || sign == 0x7f; }, '?');
   return name;
 }
 
@@ -59,10 +60,16 @@ std::string about(const Object& object) {
   if (object.as<ForceSensor>() != nullptr) return "force sensor";
   if (object.as<Dummy>() != nullptr) return "dummy";
   if (object.as<Lamp>() != nullptr) return "light";
-  static const std::map<std::string, std::string> others = {
-      {"CMA", "camera of the editor"}, {"SCT", "script"}, {"GRH", "graph"},       {"PAT", "path"},
-      {"MIL", "mill"},                 {"MIR", "mirror"}, {"OCT", "octree"},      {"PTC", "point cloud"},
-      {"MKR", "marker"},               {"CSO", "custom object"}};
+  static const std::map<std::string, std::string> others = {{"CMA", "camera of the editor"},
+                                                            {"SCT", "script"},
+                                                            {"GRH", "graph"},
+                                                            {"PAT", "path"},
+                                                            {"MIL", "mill"},
+                                                            {"MIR", "mirror"},
+                                                            {"OCT", "octree"},
+                                                            {"PTC", "point cloud"},
+                                                            {"MKR", "marker"},
+                                                            {"CSO", "custom object"}};
   const auto found = others.find(object.tag);
   return found == others.end() ? "object" : found->second;
 }
@@ -112,8 +119,8 @@ void describe(const SceneFile& file, const Structure& structure, std::ostream& o
     const auto owner = aliases.find(script.object);
     const auto lines = std::count(script.text.begin(), script.text.end(), '\n') + 1;
     out << "  " << kind_of(script) << (owner == aliases.end() ? "" : " of " + shown(owner->second)) << ", "
-        << (script.is_python ? "Python" : "Lua") << ", " << lines << " lines" << (script.is_disabled ? ", disabled" : "")
-        << "\n";
+        << (script.is_python ? "Python" : "Lua") << ", " << lines << " lines"
+        << (script.is_disabled ? ", disabled" : "") << "\n";
   }
   const LeftOut left_out = left_out_of(file, structure);
   out << "\nLeft out or changed:\n";

@@ -80,7 +80,9 @@ class Grouping {
   /// From body to body, as long as each is reached in one way.
   void put_at_zero(Group& group) {
     std::map<int, Pose>& poses = group.at_zero;
-    const auto connection = [&](int i) -> const Connection& { return structure_.connections[static_cast<std::size_t>(i)]; };
+    const auto connection = [&](int i) -> const Connection& {
+      return structure_.connections[static_cast<std::size_t>(i)];
+    };
     const auto pose_of = [&](int body) { return body == kWorld ? Pose() : poses.at(body); };
     std::vector<int> left = group.connections;
     std::set<int> children;
@@ -98,8 +100,9 @@ class Grouping {
         }
         const Pose parent_in_file = next.parent == kWorld ? Pose() : in_file(next.parent);
         const Node& joint = node(next.object);
-        const bool turns = file_.objects[static_cast<std::size_t>(next.object)].as<Joint>() != nullptr &&
-                           file_.objects[static_cast<std::size_t>(next.object)].as<Joint>()->type != JointType::kSpherical;
+        const bool turns =
+            file_.objects[static_cast<std::size_t>(next.object)].as<Joint>() != nullptr &&
+            file_.objects[static_cast<std::size_t>(next.object)].as<Joint>()->type != JointType::kSpherical;
         const Pose at = pose_of(next.parent) * (parent_in_file.inverse() * joint.world);
         const Pose child = turns ? at * (joint.moving.inverse() * in_file(next.child))
                                  : at * (joint.world.inverse() * in_file(next.child));

@@ -11,11 +11,12 @@ namespace bubblesim::ttt {
 
 /// A model. If it has bodies and a fixed part, joints of it lead to the fixed part.
 struct Group {
-  std::vector<int> bodies;  ///< the one that comes first in the tree first
-  int fixed = kNone;        ///< the object at the top of a tree whose objects without a body belong to it
+  std::vector<int> bodies;       ///< the one that comes first in the tree first
+  int fixed = kNone;             ///< the object at the top of a tree whose objects without a body belong to it
   std::vector<int> members;      ///< those objects; empty if there is no fixed part
   std::vector<int> connections;  ///< of its bodies
-  /// Of each body, where all joints are at their zero; empty: loops cannot be at zero, so the poses are those of the file.
+  /// Of each body, where all joints are at their zero; empty: loops cannot be at zero, so the poses are those of the
+  /// file.
   std::map<int, Pose> at_zero;
 
   int leader(const Structure& structure) const {

@@ -16,7 +16,8 @@ class Bits {
   Bits(std::string_view bytes, std::size_t offset) : bytes_(bytes), offset_(offset) {}
 
   unsigned next() {
-    if (at_ / 8 >= bytes_.size()) fail_at(offset_ + bytes_.size(), "the packed content ends early: the file is cut off");
+    if (at_ / 8 >= bytes_.size())
+      fail_at(offset_ + bytes_.size(), "the packed content ends early: the file is cut off");
     const auto byte = static_cast<std::uint8_t>(bytes_[at_ / 8]);
     const unsigned bit = byte >> (7 - at_ % 8) & 1U;
     ++at_;

@@ -77,7 +77,8 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
       left_out.add("main script: the default phases run", "");
     }
     if (script.kind == ScriptKind::kCustomization) left_out.add("customization script: not run", alias);
-    if (script.kind == ScriptKind::kChild && script.is_disabled) left_out.add("script that is disabled: not run", alias);
+    if (script.kind == ScriptKind::kChild && script.is_disabled)
+      left_out.add("script that is disabled: not run", alias);
   }
   for (const auto& [what, count] : file.left_out) {
     for (int i = 0; i < count; ++i) left_out.add(what + ": left out", "");

@@ -20,7 +20,8 @@ void write_file(const fs::path& file, const std::string& bytes) {
   if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": is the disk full?");
 }
 
-/// A BMP with 24 bits a pixel: its rows run from the bottom to the top, as those of the image, and are padded to 4 bytes.
+/// A BMP with 24 bits a pixel: its rows run from the bottom to the top, as those of the image, and are padded to 4
+/// bytes.
 std::string bitmap(const Image& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);

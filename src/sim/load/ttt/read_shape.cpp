@@ -172,7 +172,8 @@ class ShapeReader {
   void read_old_material(const TagList& body) {
     const auto id = body.integer("Dmi");
     if (!id || !shape_.ode.empty()) return;
-    if (const auto found = sources_.materials.find(*id); found != sources_.materials.end()) read_material(found->second);
+    if (const auto found = sources_.materials.find(*id); found != sources_.materials.end())
+      read_material(found->second);
   }
 
   Shape& shape_;

@@ -17,8 +17,8 @@ constexpr int kMostTexturePixels = 8192;
 
 const std::map<std::string_view, const char*>& other_items() {
   static const std::map<std::string_view, const char*> names = {
-      {"IKO", "old IK group"},          {"COL", "old collision object"},     {"DST", "old distance object"},
-      {"PPL", "old path planning task"}, {"BBK", "old user interface"},       {"GRP", "collection"},
+      {"IKO", "old IK group"},           {"COL", "old collision object"}, {"DST", "old distance object"},
+      {"PPL", "old path planning task"}, {"BBK", "old user interface"},   {"GRP", "collection"},
       {"COB", "custom object"},
   };
   return names;

@@ -44,10 +44,10 @@ struct Shape {
   bool is_respondable = false;
   unsigned respondable_mask = 0xffff;  ///< low byte: with shapes of the same tree, high byte: with others
   double mass = 0.001;
-  Vector3 centre_of_mass;                    ///< in the shape's frame
-  Matrix3 inertia = Matrix3::Identity();     ///< divided by the mass, about the centre of mass, in the shape's axes; m^2
-  std::vector<double> ode;                   ///< friction, soft ERP, soft CFM, linear, angular damping; empty: not given
-  std::vector<double> bullet;                ///< restitution, old friction, friction ...; empty: not given
+  Vector3 centre_of_mass;                 ///< in the shape's frame
+  Matrix3 inertia = Matrix3::Identity();  ///< divided by the mass, about the centre of mass, in the shape's axes; m^2
+  std::vector<double> ode;                ///< friction, soft ERP, soft CFM, linear, angular damping; empty: not given
+  std::vector<double> bullet;             ///< restitution, old friction, friction ...; empty: not given
   std::vector<Part> parts;
 };
 
@@ -60,8 +60,8 @@ struct Joint {
   bool is_cyclic = false;
   double lower = 0;
   double upper = 0;
-  double lead = 0;       ///< m per rad; not 0: a screw
-  Quaternion rotation;   ///< of a spherical joint
+  double lead = 0;      ///< m per rad; not 0: a screw
+  Quaternion rotation;  ///< of a spherical joint
   bool is_dynamic = false;
   bool is_dependent = false;
   int leader = -1;  ///< handle
@@ -124,8 +124,7 @@ struct Lamp {
 /// An object of a kind that is kept only as a node of the tree.
 struct Other {};
 
-using Details =
-    std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp>;
+using Details = std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp>;
 
 struct Object {
   std::string tag;  ///< SHP, JNT ...

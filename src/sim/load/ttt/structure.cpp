@@ -57,7 +57,8 @@ class Builder {
   std::vector<int>& siblings(int parent) { return parent == kNone ? built_.roots : node(parent).children; }
 
   void sort(std::vector<int>& siblings) const {
-    std::stable_sort(siblings.begin(), siblings.end(), [this](int a, int b) { return object(a).order < object(b).order; });
+    std::stable_sort(siblings.begin(), siblings.end(),
+                     [this](int a, int b) { return object(a).order < object(b).order; });
   }
 
   /// From the top down: poses, flags and bodies. A tree may be as deep as the file has objects.
@@ -82,8 +83,7 @@ class Builder {
     self.moving = joint == nullptr ? self.world : self.world * motion_of(*joint);
     self.model_flags = parent == nullptr ? 0 : parent->model_flags;
     if ((described.model_flags & kNoModel) != kNoModel && described.is_model) self.model_flags |= described.model_flags;
-    self.is_visible =
-        (described.layers & file_.settings.active_layers) != 0 && (self.model_flags & kNotVisible) == 0;
+    self.is_visible = (described.layers & file_.settings.active_layers) != 0 && (self.model_flags & kNotVisible) == 0;
     const Shape* shape = described.as<Shape>();
     const bool is_body = shape != nullptr && !shape->is_static && (self.model_flags & kNotDynamic) == 0 &&
                          file_.settings.is_dynamics_enabled;

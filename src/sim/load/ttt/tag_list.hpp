@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list of tagged items: a tag of three characters, an int32 length, and as many bytes. EOO and EOF end a list, NXT the
-// first half of an object; they have no length.
+// A list of tagged items: a tag of three characters, an int32 length, and as many bytes. EOO and EOF end a list, NXT
+// the first half of an object; they have no length.
 #pragma once
 
 #include <cstdint>

@@ -71,9 +71,9 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
   const Joint* joint = object.as<Joint>();
   const std::string alias = plain_name(object.alias);
   const auto known = site.names.find(object.handle);
-  const std::string name =
-      connection.kind != ConnectionKind::kWeld && known != site.names.end() ? known->second
-                                                                            : conversion.names.take(alias + "_weld");
+  const std::string name = connection.kind != ConnectionKind::kWeld && known != site.names.end()
+                               ? known->second
+                               : conversion.names.take(alias + "_weld");
   pugi::xml_node element = named(model, "joint", name);
   element.append_attribute("type").set_value(joint != nullptr ? type_of(*joint) : "fixed");
   put(element, "parent", site.link(connection.parent));

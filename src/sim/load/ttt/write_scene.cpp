@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 /// Writes one group as a model.
 class ModelWriter {
  public:
-  ModelWriter(pugi::xml_node world, pugi::xml_node state, const Group& group,
-              const std::map<int, std::string>& scripts, Conversion& conversion)
+  ModelWriter(pugi::xml_node world, pugi::xml_node state, const Group& group, const std::map<int, std::string>& scripts,
+              Conversion& conversion)
       : world_(world), state_(state), group_(group), scripts_(scripts), c_(conversion) {}
 
   void write() {
@@ -214,8 +214,8 @@ class ModelWriter {
   Pose model_pose_;
   bool is_static_ = false;
   int own_script_ = kNone;
-  std::map<int, std::string> waiting_;                 // scripts that no model has yet
-  std::map<int, std::string> links_;                   // names by body
+  std::map<int, std::string> waiting_;                // scripts that no model has yet
+  std::map<int, std::string> links_;                  // names by body
   std::map<int, std::pair<std::string, int>> inner_;  // models inside this one, with the object of their script
 };
 

@@ -120,16 +120,16 @@ class ShapeWriter {
       write_plain(element.append_child("geometry"), part, rolls ? kWithinSphere : 1);
       if (!rolls) return;
       // A cylinder scrubs along its width when a robot turns; a sphere of its radius rolls about one point.
-      pugi::xml_node sphere = collision(in_link_ * part.frame, kGroundBit).append_child("geometry").append_child("sphere");
+      pugi::xml_node sphere =
+          collision(in_link_ * part.frame, kGroundBit).append_child("geometry").append_child("sphere");
       put(sphere, "radius", part.size.x() / 2);
     } else if (has_mesh(part)) {
       pugi::xml_node element = collision(in_link_, kind_.is_static ? mask | kGroundBit : mask);
       pugi::xml_node mesh = element.append_child("geometry").append_child("mesh");
       put(mesh, "uri", conversion_.meshes.write(name_ + "_collision", {&part}));
-      const bool is_convex =
-          part.is_convex || (!part.has_hole && (part.primitive == PrimitiveKind::kCylinder ||
-                                                part.primitive == PrimitiveKind::kCone ||
-                                                part.primitive == PrimitiveKind::kDisc));
+      const bool is_convex = part.is_convex || (!part.has_hole && (part.primitive == PrimitiveKind::kCylinder ||
+                                                                   part.primitive == PrimitiveKind::kCone ||
+                                                                   part.primitive == PrimitiveKind::kDisc));
       if (is_convex) put(element, "bubblesim:convex", "hull");
     }
   }

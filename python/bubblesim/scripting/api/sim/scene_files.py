@@ -24,9 +24,9 @@ class SceneFileFunctions(CreatedObjectFunctions):
     def loadScene(self, file: str) -> Any:
         """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
 
-        It is searched as NAME.sdf, then NAME.ttt, in the folder of the first scene, the folder in which the node was started, and the
-        folders of scenes. All handles become invalid. If the file has errors, the present scene stays. For remote
-        clients only.
+        It is searched as NAME.sdf, then as NAME.ttt, in the folder of the first scene, the folder in which the node was
+        started, and the folders of scenes. All handles become invalid. If the file has errors, the present scene stays.
+        For remote clients only.
         """
         raise RuntimeError("sim.loadScene needs a running node")
 
