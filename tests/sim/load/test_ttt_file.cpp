@@ -224,8 +224,10 @@ TEST(TttFile, KnowsPythonByItsFirstLines) {
 /// Public files, if there are any beside the project.
 std::vector<fs::path> public_files() {
   std::vector<fs::path> files;
-  const fs::path folder = fs::canonical(BUBBLESIM_ROOT).parent_path() / "shared" / "ttt";
-  const fs::path above = fs::canonical(BUBBLESIM_ROOT).parent_path().parent_path() / "shared" / "ttt";
+  // The folder of the sources may consist of links.
+  const fs::path root = fs::canonical(fs::path(BUBBLESIM_ROOT) / "CMakeLists.txt").parent_path();
+  const fs::path folder = root.parent_path() / "shared" / "ttt";
+  const fs::path above = root.parent_path().parent_path() / "shared" / "ttt";
   for (const fs::path& place : {folder, above}) {
     if (!fs::is_directory(place)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(place)) {
