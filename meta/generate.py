@@ -100,7 +100,7 @@ def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
     """Write all files and remove the files of packages that are no longer needed."""
     output.mkdir(parents=True, exist_ok=True)
     packages = sorted({split_name(name)[0] for name in [*specs.messages, *specs.services]})
-    texts: dict[Path, str] = {}
+    contents: dict[Path, str] = {}
     for package in packages:
         mine = [name for name in sorted(specs.messages) if split_name(name)[0] == package]
         messages = [type_table(specs, specs.messages[name], "msg") for name in mine]
@@ -108,14 +108,14 @@ def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
         services = [service_table(specs, name, specs.services[name]) for name in served]
         types = messages + [half for service in services for half in (service.request, service.response)]
         context = {"package": package, "types": types, "messages": messages, "services": services}
-        texts[output / f"package_{package}.cpp"] = expand("package.cpp.em", context)
-    texts[output / "all_packages.cpp"] = expand("all_packages.cpp.em", {"packages": packages})
-    for path, text in texts.items():
+        contents[output / f"package_{package}.cpp"] = expand("package.cpp.em", context)
+    contents[output / "all_packages.cpp"] = expand("all_packages.cpp.em", {"packages": packages})
+    for path, text in contents.items():
         write_if_changed(path, text)
     for path in output.glob("package_*.cpp"):
-        if path not in texts:
+        if path not in contents:
             path.unlink()
-    manifest = expand("tables.cmake.em", {"sources": sorted(texts), "inputs": sorted(inputs)})
+    manifest = expand("tables.cmake.em", {"sources": sorted(contents), "inputs": sorted(inputs)})
     write_if_changed(output / "tables.cmake", manifest)
 
 

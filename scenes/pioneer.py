@@ -11,7 +11,7 @@ from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.geometry.frames import into
 
 DRIVE = DifferentialDrive(wheel_radius=0.0975, track=0.33, max_speed=12.5)
-PATIENCE = 0.6  # s without a command after which the robot stops
+TIMEOUT = 0.6  # s without a command after which the robot stops
 LIDAR = 'Pioneer_p3dx_lidar'  # also its frame
 
 
@@ -63,7 +63,7 @@ def encoders():
 
 
 def sysCall_actuation():
-    if self.last_command is not None and sim.getSimulationTime() - self.last_command > PATIENCE:
+    if self.last_command is not None and sim.getSimulationTime() - self.last_command > TIMEOUT:
         self.last_command = None
         drive(Wheels(0.0, 0.0))
 

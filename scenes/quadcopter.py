@@ -9,7 +9,7 @@ from bubblesim.controllers.multicopter import Airframe, Goal, MulticopterControl
 from bubblesim.geometry.frames import into
 from bubblesim.geometry.rotations import heading_of
 
-PATIENCE = 0.6  # s without a Twist after which it hovers
+TIMEOUT = 0.6  # s without a Twist after which it hovers
 SLOWDOWN = 10.0  # of the rotors' joints: see the model
 GROUND = 0.06  # m, height of base_link on the ground
 
@@ -55,7 +55,7 @@ def on_goal(message):
 
 
 def sysCall_actuation():
-    if self.last_command is not None and sim.getSimulationTime() - self.last_command > PATIENCE:
+    if self.last_command is not None and sim.getSimulationTime() - self.last_command > TIMEOUT:
         self.last_command = None
         self.goal = self.goal.at_rest()
     dt = sim.getSimulationTimeStep()

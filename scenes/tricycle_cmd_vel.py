@@ -7,7 +7,7 @@ include tricycle
 from bubblesim.controllers.planar_motion import Velocity
 from bubblesim.controllers.tricycle_drive import Tricycle, front_wheel
 
-PATIENCE = 0.6  # s without a command after which the tricycle stops
+TIMEOUT = 0.6  # s without a command after which the tricycle stops
 
 
 def sysCall_init():
@@ -31,6 +31,6 @@ def on_velocity(twist):
 
 
 def sysCall_actuation():
-    if self.last_command is not None and sim.getSimulationTime() - self.last_command > PATIENCE:
+    if self.last_command is not None and sim.getSimulationTime() - self.last_command > TIMEOUT:
         self.last_command = None
         sim.setJointTargetVelocity(self.motor, 0.0)

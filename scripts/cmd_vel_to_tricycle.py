@@ -35,7 +35,7 @@ class CmdVelToTricycle:
     def __init__(self, tricycle: Tricycle) -> None:
         """Create publishers and subscribers; the node must be initialised."""
         self._tricycle = tricycle
-        self._patience = float(rospy.get_param("~patience", 0.6))
+        self._timeout = float(rospy.get_param("~patience", 0.6))
         self._odom_frame = str(rospy.get_param("~odom_frame", "odom"))
         self._base_frame = str(rospy.get_param("~base_frame", "base_link"))
         self._lock = threading.Lock()  # callbacks and the timer run in separate threads
@@ -64,7 +64,7 @@ class CmdVelToTricycle:
     def _on_time(self) -> None:
         with self._lock:
             self._move()
-            if self._heard_at is not None and not 0.0 <= rospy.get_time() - self._heard_at <= self._patience:
+            if self._heard_at is not None and not 0.0 <= rospy.get_time() - self._heard_at <= self._timeout:
                 self._heard_at = None
                 self._command(FrontWheel(self._wheel.steering, 0.0))
             self._tell()

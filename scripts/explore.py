@@ -30,7 +30,7 @@ from bubblesim.navigation.planar import Point, pose_of
 from bubblesim.nodes.run_node import run_node, run_ros_program
 
 SPARE = 0.1  # m: margin so that go_to.py can plan a path to each viewpoint
-PATIENCE = 5  # consecutive maps without a goal after which the exploration is complete
+TIMEOUT = 5  # consecutive maps without a goal after which the exploration is complete
 
 
 class Explore:
@@ -65,7 +65,7 @@ class Explore:
                 self._explorer = Explorer(self._explorer.footprint, self._explorer.shortest)
                 self._without_goal = 0
             self._mapped_at = message.header.stamp
-            if self._without_goal >= PATIENCE:
+            if self._without_goal >= TIMEOUT:
                 return
             changed = message.data and self._explorer.update(GridMap.from_message(message), (place.x, place.y))
             goal = self._explorer.goal
@@ -75,7 +75,7 @@ class Explore:
                     self._send(goal)
                 return
             self._without_goal += 1
-            if self._without_goal == PATIENCE:
+            if self._without_goal == TIMEOUT:
                 rospy.loginfo("exploration complete: no reachable unknown area left")
                 self._done.publish(True)
 

@@ -15,7 +15,7 @@ import time
 from bubblesim.controllers.tricycle_avoid import TricycleAvoid
 from bubblesim.program.run import run_program
 
-PATIENCE = 5.0  # s, timeout of the connection and of answers
+TIMEOUT = 5.0  # s, timeout of the connection and of answers
 
 
 def drive(connection: socket.socket) -> None:
@@ -49,10 +49,10 @@ def halt(connection: socket.socket) -> None:
 
 def connect(host: str, port: int) -> socket.socket:
     """Connect to the simulation, which may still be starting."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT
     while True:
         try:
-            return socket.create_connection((host, port), timeout=PATIENCE)
+            return socket.create_connection((host, port), timeout=TIMEOUT)
         except ConnectionRefusedError:
             if time.monotonic() > deadline:
                 raise
@@ -66,7 +66,7 @@ def main() -> int:
     parser.add_argument("--port", type=int, default=5000, help="port of the simulation (default %(default)s)")
     options = parser.parse_args()
     address = f"{options.host}:{options.port}"
-    print(f"waiting for the simulation at {address}, at most {PATIENCE:g} s; press Ctrl-C to end", flush=True)
+    print(f"waiting for the simulation at {address}, at most {TIMEOUT:g} s; press Ctrl-C to end", flush=True)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # stop the tricycle on Ctrl-C
     try:
         with connect(options.host, options.port) as connection:
@@ -80,11 +80,11 @@ def main() -> int:
             return 0
     except ConnectionRefusedError:
         print(
-            f"error: connection refused at {address} for {PATIENCE:g} s; start `rosrun bubblesim sim tricycle_socket`",
+            f"error: connection refused at {address} for {TIMEOUT:g} s; start `rosrun bubblesim sim tricycle_socket`",
             file=sys.stderr,
         )
     except TimeoutError:
-        print(f"error: no answer from {address} for {PATIENCE:g} s; is the simulation paused?", file=sys.stderr)
+        print(f"error: no answer from {address} for {TIMEOUT:g} s; is the simulation paused?", file=sys.stderr)
     except (OSError, ValueError) as error:
         print(f"error: {address}: {error}", file=sys.stderr)
     return 1

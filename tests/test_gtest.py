@@ -89,6 +89,6 @@ def test_cpp(program: Path, case: str, outcomes: dict[tuple[Path, str], dict[str
             pytest.fail(f"exit code {alone.returncode}\n{alone.stdout}{alone.stderr}", pytrace=False)
         return
     if outcome["result"] == "SKIPPED":
-        pytest.skip(f"{program} --gtest_filter={case} says why")
+        pytest.skip(f"{program} --gtest_filter={case} prints why")
     if failures := outcome.get("failures"):
         pytest.fail("\n".join(each["failure"] for each in failures), pytrace=False)

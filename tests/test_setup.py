@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/setup says on which systems it works."""
+"""scripts/setup prints on which systems it works."""
 
 import subprocess
 from pathlib import Path

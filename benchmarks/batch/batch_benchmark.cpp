@@ -85,8 +85,8 @@ void threads(const std::shared_ptr<const Scene>& scene) {
   for (std::size_t i = 0; i < kWorlds; ++i) {
     plain.push_back(std::make_unique<Simulation>(scene, i));
     const SceneTree& tree = plain.back()->world().tree();
-    plain.back()->world().set_target_velocity(tree.find("/FrontMotor"), 2);
-    plain.back()->world().set_target_position(tree.find("/Steering"), 0.2);
+    plain.back()->world().joints().set_target_velocity(tree.find("/FrontMotor"), 2);
+    plain.back()->world().joints().set_target_position(tree.find("/Steering"), 0.2);
   }
   std::vector<float> actions;
   for (std::size_t i = 0; i < kWorlds; ++i) actions.insert(actions.end(), {2.0F, 0.2F});

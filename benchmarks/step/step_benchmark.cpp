@@ -56,8 +56,8 @@ int main(int argc, char** argv) {
   raw.drive(kSteering, kSpeed);
 
   Simulation plain(tricycle_without_script());
-  plain.world().set_target_position(plain.world().tree().find("/Steering"), kSteering);
-  plain.world().set_target_velocity(plain.world().tree().find("/FrontMotor"), kSpeed);
+  plain.world().joints().set_target_position(plain.world().tree().find("/Steering"), kSteering);
+  plain.world().joints().set_target_velocity(plain.world().tree().find("/FrontMotor"), kSpeed);
 
   Simulation scripted(tricycle_without_script());
   ScriptOptions options;

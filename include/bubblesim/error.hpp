@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exceptions of the core. Every text says what is wrong, where, why and what to do.
+// Exceptions of the core. Every message states what is wrong, where, why and what to do.
 #pragma once
 
 #include <stdexcept>
@@ -46,7 +46,7 @@ struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A command to a Runner was not carried out; the text says why and what to do.
+/// A command to a Runner was not carried out; the message states why and what to do.
 struct NotCarriedOut : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -29,6 +29,11 @@ class Scene {
   /// The objects at the start of each simulation, with their handles.
   const std::shared_ptr<const SceneTree>& tree() const { return tree_; }
 
+  /// The frames of no model, for a world that outlives the scene.
+  std::shared_ptr<const std::vector<FrameDescription>> shared_frames() const {
+    return {description_, &description_->frames};
+  }
+
   /// Of all that determines how the scene behaves, equal in every process; computed at the first call. Thread-safe.
   std::uint64_t hash() const;
 

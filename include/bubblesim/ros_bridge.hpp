@@ -32,7 +32,7 @@ struct RosBridgeOptions {
   /// is an error.
   bool replace = false;
   /// Called on a thread of roscpp when the node is asked to shut down: by `rosnode kill`, or by the master when another
-  /// node takes the name. The text says by whom and why. If empty, roscpp shuts down and the process goes on.
+  /// node takes the name. The string states by whom and why. If empty, roscpp shuts down and the process goes on.
   std::function<void(const std::string& why)> on_shutdown;
   /// Polled while a service call waits; when it returns true (the process is ending), the call is aborted.
   std::function<bool()> is_ending;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct Mesh {
 };
 using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
 
-/// Contact parameters of a shape. src/sim/physics/surface_pair.hpp combines those of two touching surfaces.
+/// Contact parameters of a shape. src/sim/physics/contacts/surface_pair.hpp combines those of two touching surfaces.
 struct Surface {
   double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is set
   std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit
@@ -186,6 +187,17 @@ struct GzTopic {
   std::string frame;       ///< its <gz_frame_id>, or a camera's <optical_frame_id>; empty: MODEL/LINK/SENSOR
 };
 
+/// The place of an object in the tree that scripts see, for formats whose tree is not SDFormat's nesting:
+/// CoppeliaSim's, in which a joint is the parent of the shape that it moves. An object without a place is where
+/// SDFormat nests it: a link, joint or frame below its model, a sensor below its link or joint. A place changes nothing
+/// in the physics.
+struct TreePlace {
+  int id = 0;             ///< any number, unique among the places of a file: in a .ttt, the object's handle
+  int parent = -1;        ///< `id` of the parent, of any kind, in any model of the file; -1: the top of the scene
+  int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
+  bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
+};
+
 struct SensorDescription {
   std::string name;
   std::string alias;       ///< its name in paths; empty: the name
@@ -198,6 +210,7 @@ struct SensorDescription {
   std::string frame;  ///< frame_id of the messages; default: its link
   GzTopic gz;
   Source source;
+  std::optional<TreePlace> place{};
 };
 
 struct LinkDescription {
@@ -219,6 +232,7 @@ struct LinkDescription {
   std::vector<SensorDescription> sensors;
   std::vector<Light> lights;  ///< positions and directions in the link's frame
   Source source;
+  std::optional<TreePlace> place{};
 
   Matrix3 inertia() const {
     const Vector3& d = inertia_diagonal;
@@ -271,6 +285,31 @@ struct JointDescription {
   double gearbox_ratio = 1;                ///< child angle = -ratio * parent angle, both relative to the reference link
   std::string gearbox_reference;           ///< link that both are attached to by hinges, or "world"
   Source source;
+  std::optional<TreePlace> place{};
+};
+
+/// What scripts see a frame as.
+enum class FrameKind {
+  kDummy,
+  kShape,  ///< a part of a link that is an object of its own: its visuals and collisions are the link's
+  kCamera,
+  kLight,
+  kGraph,
+  kScript,
+};
+
+/// 'dummy', 'shape' ...
+std::string_view frame_kind_name(FrameKind kind);
+
+/// An object without physics: it moves with a link, or stays in the world until a script moves it.
+struct FrameDescription {
+  std::string name;   ///< unique in its model: links, joints, nested models and frames; in the scene: models and frames
+  std::string alias;  ///< its name in paths; empty: the name
+  FrameKind kind = FrameKind::kDummy;
+  std::string link;  ///< of the same model, which carries it; empty: the world
+  Pose pose;         ///< in the frame of that link, or in the world
+  Source source;
+  std::optional<TreePlace> place{};
 };
 
 struct TransmissionJoint {
@@ -325,6 +364,10 @@ struct ModelDescription {
   std::vector<PluginDescription> plugins;
   std::vector<TransmissionDescription> transmissions;
   Source source;
+  std::vector<FrameDescription> frames;
+  /// Whether scripts see the model itself. If not, it is only what moves together: in the tree are those of its parts
+  /// that have a place, and the others have handles but no parent, no child and no path.
+  bool is_object = true;
 };
 
 /// Reaction to a divergence of the physics.
@@ -344,6 +387,7 @@ struct SceneDescription {
   OnDivergence on_divergence = OnDivergence::kPause;
   Environment environment;
   std::vector<ModelDescription> models;
+  std::vector<FrameDescription> frames;  ///< of no model: they stay in the world
   std::vector<PluginDescription> plugins;
   std::vector<RandomQuantity> randomized;  ///< in each simulation, by its seed
   bool is_model_file = false;  ///< the file contains a model and no world; the model stands on a ground plane

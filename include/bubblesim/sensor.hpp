@@ -39,7 +39,7 @@ class Sensor {
  public:
   virtual ~Sensor() = default;
 
-  void update(const MeasurementContext& moment);
+  void update(const MeasurementContext& context);
   /// Rays of a measurement: those with rays may measure in several threads at once, after RayScene::refresh().
   virtual std::size_t ray_count() const { return 0; }
   /// Forgets the last measurement.
@@ -57,7 +57,7 @@ class Sensor {
 
  private:
   /// Measures into `measurement`, which holds an earlier measurement of the same kind.
-  virtual void measure(const MeasurementContext& moment, Measurement& measurement) = 0;
+  virtual void measure(const MeasurementContext& context, Measurement& measurement) = 0;
 
   Measurement empty_;
   std::shared_ptr<Reading> reading_;

@@ -122,7 +122,7 @@ class SensorDefinitionOf : public SensorDefinition {
       if constexpr (std::is_invocable_v<Put, const Measured&, Row&>) {
         put(measured.get<Measured>(), row);
       } else {
-        put(measured.get<Measured>(), world.sensor_description(sensor).kind.template get<Description>(), row);
+        put(measured.get<Measured>(), world.models().sensor_description(sensor).kind.template get<Description>(), row);
       }
     };
     quantities.push_back(std::move(made));

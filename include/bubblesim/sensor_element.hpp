@@ -35,7 +35,7 @@ class SensorElement {
   /// Limited to +-1e9.
   int integer(std::string_view path) const;
   std::string text(std::string_view path) const;
-  std::vector<std::string> texts(std::string_view path) const;
+  std::vector<std::string> strings(std::string_view path) const;
   /// As written, without regard to `relative_to`.
   Pose pose(std::string_view path) const;
   /// Of a <noise> element.

@@ -29,7 +29,7 @@ class NormalSource {
 class Noise {
  public:
   /// `channel` distinguishes the noises of one sensor.
-  Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+  Noise(const NoiseDescription& description, const MeasurementContext& context, ObjectId sensor,
         std::uint64_t channel = 0);
 
   /// False when values are not changed.
@@ -44,10 +44,10 @@ class Noise {
 };
 
 /// Adds noise to the single value of a measurement.
-void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+void distort(double& value, const NoiseDescription& description, const MeasurementContext& context, ObjectId sensor,
              std::uint64_t channel);
 /// Likewise to the components of a vector, whose channels follow each other.
-void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& moment,
+void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& context,
              ObjectId sensor, std::uint64_t first_channel);
 
 }  // namespace bubblesim

@@ -187,7 +187,7 @@ ParsedOptions parse_options(int argc, char** argv) {
     options.ros = !no_ros;
     if (*remote && !options.web_edit && options.remote_token.empty()) {
       throw CLI::ValidationError("--web-edit=false",
-                                 "with --remote it needs --remote-token: without one, whoever may "
+                                 "with --remote it needs --remote-token: without one, each user who may "
                                  "only look could connect there and change the simulation");
     }
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");

@@ -79,8 +79,8 @@ RosBridgeOptions ros_options(Node& node);
 /// Runs one scene in a node, which must outlive it. The first session makes the node's missing parts.
 class Session {
  public:
-  /// `is_first`: the scene of the command line, which starts as the options say; later ones are stopped. `failure`: see
-  /// RemoteApiServer::attach().
+  /// `is_first`: the scene of the command line, which starts as the options require; later ones are stopped. `failure`:
+  /// see RemoteApiServer::attach().
   Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_first, const std::string& failure = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

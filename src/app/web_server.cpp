@@ -43,12 +43,13 @@ WebServer::WebServer(Options& options) {
   options.window_socket = folder_.emplace().path() / "api";
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "bubblesim";
   std::vector<std::string> arguments = {program.string(), "view",
-                                        "--door",         options.window_socket.string(),
+                                        "--remote",       options.window_socket.string(),
                                         "--until-closed", std::to_string(kLifelineOfServer),
                                         "--address",      options.web_address};
   if (options.web_port) arguments.insert(arguments.end(), {"--port", std::to_string(*options.web_port)});
-  if (!options.remote_token.empty()) arguments.insert(arguments.end(), {"--door-token", options.remote_token.string()});
-  if (!options.web_edit) arguments.emplace_back("--look");
+  if (!options.remote_token.empty())
+    arguments.insert(arguments.end(), {"--remote-token", options.remote_token.string()});
+  if (!options.web_edit) arguments.emplace_back("--read-only");
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());

@@ -103,10 +103,10 @@ class FieldEncoder {
     out_.put(stamp.sec);
     out_.put(stamp.nanosec);
   }
-  void put(const MessageType& type, const Field& field, std::size_t, const std::vector<std::string>* texts) {
+  void put(const MessageType& type, const Field& field, std::size_t, const std::vector<std::string>* strings) {
     if (field.kind != FieldKind::kString || field.array == ArrayKind::kNone) throw_unfit(type, field, "strings");
-    begin_array(type, field, texts->size());
-    for (const std::string& text : *texts) string(text);
+    begin_array(type, field, strings->size());
+    for (const std::string& text : *strings) string(text);
   }
   void put(const MessageType& type, const Field& field, std::size_t, const Fields::Array& array) {
     std::uint8_t* place = begin_numbers(type, field, array.kind, array.count);

@@ -118,8 +118,8 @@ struct Span {
 }  // namespace
 
 void check(const ScanMapperOptions& options) {
-  const auto require = [](bool holds, const char* complaint) {
-    if (!holds) throw std::invalid_argument(complaint);
+  const auto require = [](bool holds, const char* problem) {
+    if (!holds) throw std::invalid_argument(problem);
   };
   require(options.cell_size >= 0.005 && options.cell_size <= 10.0, "the cell size must be from 0.005 to 10 m");
   require(options.max_usable_range > 0.0, "the maximum usable range must be above 0 m");

@@ -13,8 +13,8 @@ namespace {
 constexpr double kTurn = 2.0 * 3.141592653589793;
 constexpr double kMostRays = 1e6;
 
-void require(bool holds, const std::string& complaint) {
-  if (!holds) throw std::invalid_argument(complaint);
+void require(bool holds, const std::string& problem) {
+  if (!holds) throw std::invalid_argument(problem);
 }
 
 double rays(const ScanShape& shape) { return std::ceil((shape.angle_max - shape.angle_min) / shape.angle_increment); }

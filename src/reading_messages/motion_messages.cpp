@@ -23,9 +23,9 @@ JointReadings read_joints(const World& world, const std::vector<ObjectId>& joint
   JointReadings readings;
   for (const ObjectId joint : joints) {
     readings.names.push_back(world.tree().at(joint).name);
-    readings.positions.push_back(world.joint_position(joint));
-    readings.velocities.push_back(world.joint_velocity(joint));
-    readings.efforts.push_back(world.motor_effort(joint));
+    readings.positions.push_back(world.joints().position(joint));
+    readings.velocities.push_back(world.joints().velocity(joint));
+    readings.efforts.push_back(world.joints().motor_effort(joint));
   }
   return readings;
 }

@@ -99,7 +99,7 @@ void ChildScripts::after_call() {
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {
-  for (const auto& [path, file] : scripts_of(world.description(model), world.tree().path(model))) {
+  for (const auto& [path, file] : scripts_of(world.models().description(model), world.tree().path(model))) {
     with_python([&, &path = path, &file = file] { methods_->self.attr("add_script")(path, file); });
   }
 }

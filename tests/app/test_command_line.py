@@ -94,9 +94,9 @@ def test_a_bad_scene_reports_all_its_problems(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize(("until", "passes"), [(0, 0), (0.01, 1), (0.05, 1), (0.1, 2), (0.12, 3), (1, 20), (3.3, 66)])
-def test_until_runs_the_passes_that_begin_before_it(tmp_path: Path, until: float, passes: int) -> None:
-    expected = f"{passes}\n" if passes else ""
+@pytest.mark.parametrize(("until", "steps"), [(0, 0), (0.01, 1), (0.05, 1), (0.1, 2), (0.12, 3), (1, 20), (3.3, 66)])
+def test_until_runs_the_steps_that_begin_before_it(tmp_path: Path, until: float, steps: int) -> None:
+    expected = f"{steps}\n" if steps else ""
     assert run_script(tmp_path, COUNT, until=until).stdout == expected
 
 

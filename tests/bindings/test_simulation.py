@@ -27,7 +27,7 @@ def run_python(code: str, **environment: str) -> str:
     return subprocess.run(["/usr/bin/python3", "-c", code], env=env, capture_output=True, text=True, check=True).stdout
 
 
-def test_time_advances_by_passes(tricycle: bubblesim.Simulation) -> None:
+def test_time_advances_by_steps(tricycle: bubblesim.Simulation) -> None:
     assert (tricycle.time, tricycle.time_step, tricycle.seed) == (0.0, 0.05, 1)
     tricycle.step()
     tricycle.step(19)

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "cbor_reader.hpp"
+#include "cbor/cbor_reader.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -55,12 +55,12 @@ std::string repeated(const std::string& part, int count) {
   return all;
 }
 
-/// A map whose keys are the numbers from 0 on, as integers or as texts of four bytes.
-std::string map_of(std::uint32_t count, bool texts) {
+/// A map whose keys are the numbers from 0 on, as integers or as strings of four bytes.
+std::string map_of(std::uint32_t count, bool strings) {
   std::string made = head(kMajorMap, count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::string integer = head(0, i);
-    made += (texts ? "\x64" + integer.substr(1) : integer) + '\x01';
+    made += (strings ? "\x64" + integer.substr(1) : integer) + '\x01';
   }
   return made;
 }
@@ -119,7 +119,7 @@ TEST(CborCheck, AcceptsARequestAndRefusesEachPartOfIt) {
 
 TEST(CborCheck, RefusesWhatTheProtocolDoesNotHave) {
   EXPECT_EQ(refusal(hex("c0 63 616263")), "tagged values are not supported");
-  EXPECT_EQ(refusal(hex("7f 61 61 ff")), "texts and bytes of unknown length are not supported");
+  EXPECT_EQ(refusal(hex("7f 61 61 ff")), "strings and bytes of unknown length are not supported");
   EXPECT_EQ(refusal(hex("1c")), "a length is malformed");
   EXPECT_EQ(refusal(hex("f0")), "a simple value is none of false, true and null");
   EXPECT_EQ(refusal(hex("a1 80 01")), "a list or a table is the key of a table");
@@ -153,18 +153,18 @@ TEST(CborCheck, LimitsTheEntriesOfAMap) {
   EXPECT_EQ(refusal(map_of(4097, true)), "more than 4,096 entries in a table");
 }
 
-// Integers can be chosen so that all collide in a table of Python: 150,000 of them took half a minute.
+// Integers can be chosen so that all collide in a dict of Python: 150,000 of them took half a minute.
 TEST(CborCheck, LimitsTheKeysThatAreNoTexts) {
   EXPECT_EQ(refusal(map_of(1000, false)), "");
-  EXPECT_EQ(refusal(map_of(1001, false)), "more than 1,000 keys of tables that are no texts");
+  EXPECT_EQ(refusal(map_of(1001, false)), "more than 1,000 keys of tables that are no strings");
   EXPECT_EQ(refusal(head(kList, 2) + repeated(map_of(501, false), 2)),
-            "more than 1,000 keys of tables that are no texts");
+            "more than 1,000 keys of tables that are no strings");
 }
 
 TEST(CborCheck, LimitsTheTextsButNotTheBytes) {
   constexpr std::uint32_t kMost = 4 * 1024 * 1024;
   EXPECT_EQ(refusal(head(kMajorText, kMost) + std::string(kMost, 'a')), "");
-  EXPECT_NE(refusal(head(kMajorText, kMost + 1) + std::string(kMost + 1, 'a')).find("more than 4 MiB of texts"),
+  EXPECT_NE(refusal(head(kMajorText, kMost + 1) + std::string(kMost + 1, 'a')).find("more than 4 MiB of strings"),
             std::string::npos);
   EXPECT_EQ(refusal(head(2, 2 * kMost) + std::string(2 * kMost, 'a')), "");
 }

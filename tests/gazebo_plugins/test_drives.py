@@ -283,13 +283,13 @@ def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
         peer.wait_for("/gz_arm/joints", "sensor_msgs/JointState", there, f"the joints to follow {position}, {speed}")
 
     arm(0.2, 0.0)
-    peer.say("/model/gz_arm/joint/gz_arm_joint/0/cmd_pos", "std_msgs/Float64", {"data": -0.5})
-    peer.say("/gz_disc", "std_msgs/Float64", {"data": 1.5})
+    peer.publish("/model/gz_arm/joint/gz_arm_joint/0/cmd_pos", "std_msgs/Float64", {"data": -0.5})
+    peer.publish("/gz_disc", "std_msgs/Float64", {"data": 1.5})
     arm(-0.5, 1.5)
 
 
 def test_gz_sims_force_accelerates_a_joint_to_where_its_damping_holds(peer: Peer) -> None:
-    peer.say("/model/gz_arm/joint/gz_flywheel_joint/cmd_force", "std_msgs/Float64", {"data": 0.3})
+    peer.publish("/model/gz_arm/joint/gz_flywheel_joint/cmd_force", "std_msgs/Float64", {"data": 0.3})
 
     def holds(state: Message) -> bool:
         index = state["name"].index("gz_flywheel_joint")
@@ -348,7 +348,7 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
     command = {"joint_names": ["arm_joint"], "points": points}
     peer.next("/joint_states", "sensor_msgs/JointState")  # it stands at the first angle for half a second only
     states = Messages(peer, "/joint_states", "sensor_msgs/JointState")
-    peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
+    peer.publish("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
 
     def at(angle: float) -> Message:
         return states.next(
@@ -358,13 +358,13 @@ def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
 
     first = at(0.5)
     assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]
-    peer.say("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
+    peer.publish("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
     running.node.wait_for_output("cannot process a message on /set_joint_trajectory")
     assert peer.next("/joint_states")["position"] == pytest.approx([-0.3], abs=0.01), "the rest goes on"
 
 
 def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
-    peer.say("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
+    peer.publish("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
     twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]
     # At the end of a step it has turned by half a step's angle more than the velocity command assumed.
     assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.3, 0.2), abs=0.01)

@@ -109,7 +109,7 @@ def test_it_drives_until_its_commands_are_too_old_and_resets_its_odometry(peer: 
     assert stopped["pose"]["pose"]["position"]["x"] == pytest.approx(0.12, abs=0.03)
     states = peer.next("/joint_states", "sensor_msgs/JointState")
     assert states["name"] == ["wheel_left_joint", "wheel_right_joint"]
-    peer.say("/mobile_base/commands/reset_odometry", "std_msgs/Empty", {})
+    peer.publish("/mobile_base/commands/reset_odometry", "std_msgs/Empty", {})
     odometry.next(lambda odom: abs(odom["pose"]["pose"]["position"]["x"]) < 1e-3, "the odometry to start over")
 
 
@@ -132,10 +132,10 @@ def test_motors_without_power_stand_still(peer: Peer) -> None:
 
     peer.drive("/motors/mobile_base/commands/velocity", 0.0, 1.0)
     at(1.0)
-    peer.say("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 0})
+    peer.publish("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 0})
     at(0.0)
     assert peer.next("/motors/odom", count=10)["twist"]["twist"]["angular"]["z"] == pytest.approx(0, abs=1e-3)
-    peer.say("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 1})
+    peer.publish("/motors/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", {"state": 1})
     at(1.0)
 
 

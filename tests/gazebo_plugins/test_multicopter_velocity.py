@@ -34,12 +34,12 @@ def test_it_flies_at_the_velocity_of_a_twist_until_it_is_disabled(run: Callable[
     peer = run(scene(tmp_path, parameters)).peer  # type: ignore[attr-defined]
     altimeter = "/altimeter", "geometry_msgs/PointStamped"
     peer.next(*altimeter)
-    peer.say("/X3/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 9.0}, "angular": {}})
+    peer.publish("/X3/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 9.0}, "angular": {}})
     low = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > 1.0, "the climb")
     high = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > low["point"]["z"] + 1.0, "the climb")
     speed = (high["point"]["z"] - low["point"]["z"]) / (high["header"]["stamp"] - low["header"]["stamp"])
     assert speed == pytest.approx(0.5, abs=0.1), "limited, with the noise of the altimeter"
-    peer.say("/X3/enable", "std_msgs/Bool", {"data": False})
+    peer.publish("/X3/enable", "std_msgs/Bool", {"data": False})
     peer.wait_for(*altimeter, lambda it: it["point"]["z"] < 0.3, "the fall")
 
 

@@ -82,7 +82,7 @@ class Drive:
         before = {topic: len(peer.received(topic)) for topic in TOPICS}
         for _ in range(STEPS):
             poked = len(self._frames(peer.received("/tf"), "callback ahead"))
-            peer.say("/poke", "std_msgs/Empty", {})
+            peer.publish("/poke", "std_msgs/Empty", {})
             wait_until(lambda n=poked: len(self._frames(peer.received("/tf"), "callback ahead")) > n, "the callback")
             assert peer.call(f"{NAME}/step", steps=1)["success"]
         end = self.at + STEPS * STEP - STEP / 2

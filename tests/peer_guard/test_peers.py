@@ -305,7 +305,7 @@ def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
 def test_any_caller_can_shut_a_node_down(core: RosCore, tmp_path: Path) -> None:
     """As `rosnode kill` does: roscpp does not check who calls."""
     with Node("sim", core.env, tmp_path) as running:
-        assert running.api.shutdown("/stranger", "for no reason")[0] == 1
+        assert running.api.shutdown("/other", "for no reason")[0] == 1
         assert running.process.wait(DEADLINE) == 0
 
 

@@ -91,7 +91,7 @@ def test_costly_messages_are_refused_at_once(node: RemoteNode) -> None:
         + struct.pack(">I", 150_000)
         + b"".join(b"\x64%04x\x00" % (i % 65536) for i in range(150_000)),
         "more than 200,000 values": b"\x9a" + struct.pack(">I", 3_900_000) + b"\x00" * 3_900_000,
-        "more than 4 MiB of texts": b"\x7a" + struct.pack(">I", 16_000_000) + "ä".encode() * 8_000_000,
+        "more than 4 MiB of strings": b"\x7a" + struct.pack(">I", 16_000_000) + "ä".encode() * 8_000_000,
     }
     for reason, argument in costly.items():
         peer = node.raw()

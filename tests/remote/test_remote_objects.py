@@ -51,6 +51,7 @@ WORLD = """\
         </sensor>
       </link>
     </model>
+    <bubblesim:object name="goal"><pose>5 0 0 0 0 0</pose></bubblesim:object>
   </world>
 </sdf>
 """
@@ -109,6 +110,19 @@ def test_wrong_parents_are_refused(sim: Any) -> None:
     assert "cannot be attached to itself or to what is attached to it" in refusal(sim.setObjectParent, cart, box, True)
     assert "is a part of /cart" in refusal(sim.setObjectParent, sim.getObject("/cart/hand"), -1, True)
     assert "no object has the handle 4711" in refusal(sim.setObjectParent, box, 4711, True)
+
+
+def test_a_stop_puts_a_dummy_of_the_file_back(sim: Any) -> None:
+    goal, box = sim.getObject("/goal"), sim.getObject("/box")
+    sim.setObjectPosition(goal, [4, 0, 0])  # while it is stopped: that stays
+    sim.startSimulation()
+    sim.setObjectParent(goal, box, True)
+    sim.setObjectAlias(goal, "mark")
+    sim.setObjectPosition(goal, [9, 0, 0])
+    assert sim.getObject("/box/mark") == goal
+    sim.stopSimulation()
+    assert (sim.getObjectParent(goal), sim.getObject("/goal")) == (-1, goal)
+    np.testing.assert_allclose(sim.getObjectPosition(goal), [4, 0, 0], atol=1e-9)
 
 
 def test_a_force_sensor_holds_what_is_attached_to_it(sim: Any) -> None:
@@ -208,7 +222,7 @@ def test_shapes_without_sense_are_refused(sim: Any) -> None:
     assert "three lengths" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cuboid, [1, 1, 0])
     assert "equal sizes along x and y" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cylinder, [1, 2, 1])
     box = sim.getObject("/box")
-    assert "collides as the scene's file says" in refusal(
+    assert "collides as the scene's file defines" in refusal(
         sim.setObjectInt32Param, box, sim.shapeintparam_respondable, 0
     )
 

@@ -123,7 +123,7 @@ def test_added_models_are_in_the_file_and_removed_ones_are_not(tmp_path: Path) -
     simulation = Simulation(str(write(tmp_path / "arm.sdf", ARM.format(version="1.9"))))
     edits = SceneEdits()
     box = simulation.add_model(BOX, name="parcel").handle
-    edits.texts[box] = BOX
+    edits.sources[box] = BOX
     simulation.world.set_pose(box, [0, 0, 0.1, 0, 0, 0, 1])
     simulation.remove_model(simulation.world.find("/gone", -1))
     again = saved(simulation, tmp_path / "saved.sdf", edits)
@@ -147,7 +147,7 @@ def test_copies_of_the_files_models_and_models_that_stand_still_are_in_the_file(
     copy = add_copy(simulation, copy_model(simulation, tricycle), "Tricycle_1", [3, 0, 0.2], [0, 0, 1, 0])
     edits.originals[copy] = "Tricycle"
     shelf = simulation.add_model(FURNITURE, name="shelf_2", position=[1, 2, 0.5]).handle
-    edits.texts[shelf] = FURNITURE
+    edits.sources[shelf] = FURNITURE
     simulation.remove_model(tricycle)
     edits.remove({tricycle})
     again = saved(simulation, tmp_path / "saved.sdf", edits)

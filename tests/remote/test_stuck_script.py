@@ -113,7 +113,7 @@ def test_a_stop_without_the_token_interrupts_nothing(tmp_path: Path) -> None:
     with StuckNode(tmp_path, f"--remote-token={secret}") as node:
         owner = bubblesim.connect(node.port, token=secret, timeout=20)
         stuck_again(node, owner.sim.startSimulation)
-        stranger = _request(node, "sim.stopSimulation")
+        other = _request(node, "sim.stopSimulation")
         threading.Event().wait(1.5)
         assert "was interrupted" not in node.output
         late = node.client()
@@ -121,7 +121,7 @@ def test_a_stop_without_the_token_interrupts_nothing(tmp_path: Path) -> None:
         sim = late.require("sim")
         sim.stopSimulation()
         assert "was interrupted" in node.output
-        assert "this node wants a token" in cbor2.loads(stranger.recv())["err"]
+        assert "this node wants a token" in cbor2.loads(other.recv())["err"]
         assert "this node wants a token" in refusal(node.client().require, "sim")
         owner.close()
 

@@ -56,11 +56,11 @@ def check_delivery(core: RosCore, probe: Probe, publisher: str, subscriber: str,
     with Probe(core.env, f"__name:={name}") as peer:
         received, latched = peer.ask("subscribe", "/out", "float"), peer.ask("subscribe", "/map", "float")
         logged = peer.ask("subscribe", "/rosout", "log")
-        said = peer.ask("advertise", "/in", "float")
-        peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
+        publisher = peer.ask("advertise", "/in", "float")
+        peer.wait_for(lambda: peer.ask("wants", publisher) == "yes", "the bridge to connect")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the bridge to be connected")
         before = len(probe.messages(subscriber))
-        peer.ask("publish", said, 2.0)
+        peer.ask("publish", publisher, 2.0)
         probe.ask("publish", publisher, 3.0)
         peer.wait_for(lambda: peer.messages(received) == ["3.000000"], "the bridge's message")
         peer.wait_for(lambda: peer.messages(latched) == ["4.000000"], "the latched message")
@@ -94,8 +94,8 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
         Probe(restartable.core.env, "__name:=peer") as peer,
     ):
         publisher, subscriber = make_endpoints(probe)
-        received, said = peer.ask("subscribe", "/out", "float"), peer.ask("advertise", "/in", "float")
-        peer.wait_for(lambda: peer.ask("wants", said) == "yes", "the bridge to connect")
+        received, publisher = peer.ask("subscribe", "/out", "float"), peer.ask("advertise", "/in", "float")
+        peer.wait_for(lambda: peer.ask("wants", publisher) == "yes", "the bridge to connect")
         probe.wait_for(lambda: probe.ask("wants", publisher) == "yes", "the peer to connect")
         both = probe.ask("subscribe", "/out", "float")
         wait_until(lambda: len(restartable.core.state()["subscribers"].get("/out", [])) == 2, "the subscribers")
@@ -105,7 +105,7 @@ def test_connections_outlive_the_master(tmp_path: Path) -> None:
         wait_until(lambda: is_back(restartable.core), "the registrations", RETURN)
         time.sleep(0.5)  # long enough for anything that would cut the connection
         os.kill(peer.process.pid, signal.SIGCONT)
-        peer.ask("publish", said, 1.0)
+        peer.ask("publish", publisher, 1.0)
         probe.wait_for(lambda: probe.messages(subscriber) == ["1.000000"], "the peer's message")
         probe.ask("publish", publisher, 2.0)
         probe.wait_for(lambda: probe.messages(both) == ["2.000000"], "its own message")
@@ -200,7 +200,7 @@ def test_messages_flow_while_the_master_hangs(roscore: RosCore) -> None:
 
 
 def _times_of(probe: Probe, text: str, count: int) -> list[float]:
-    """Return when lines with a text were logged, by time.monotonic."""
+    """Return when lines with a string were logged, by time.monotonic."""
     times: list[float] = []
 
     def is_logged_again() -> bool:

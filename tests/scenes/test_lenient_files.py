@@ -16,7 +16,7 @@ Load = Callable[..., tuple[bubblesim.Simulation, list[str]]]
 
 @pytest.fixture
 def load(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Load:
-    """Load a text as a file; return the simulation and the lines of stderr, without the file's name."""
+    """Load a string as a file; return the simulation and the lines of stderr, without the file's name."""
 
     def load_text(text: str, name: str = "scene.sdf") -> tuple[bubblesim.Simulation, list[str]]:
         file = tmp_path / name

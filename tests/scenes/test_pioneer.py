@@ -31,10 +31,10 @@ class Pioneer:
         wheels = wheel_speeds(DRIVE, Velocity(linear, angular))
         self.left.target_velocity, self.right.target_velocity = wheels.left, wheels.right
 
-    def places(self, passes: int) -> Any:
+    def places(self, steps: int) -> Any:
         """Return x, y after each step."""
         found = []
-        for _ in range(passes):
+        for _ in range(steps):
             self.simulation.step()
             found.append(self.body.position[:2].copy())
         return np.array(found)

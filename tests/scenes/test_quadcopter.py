@@ -51,13 +51,13 @@ def test_it_follows_goals_and_velocities_and_stays_in_the_wind(roscore: RosCore,
         node.wait_until_listed(roscore)
         peer.wait_for("/odom", odometry, is_at(0.0, 0.0, 1.0), "the take-off")
         goal: dict[str, Any] = {"pose": {"position": {"x": 1.0, "y": -0.5, "z": 1.5}, "orientation": {"w": 1.0}}}
-        peer.say("/goal", "geometry_msgs/PoseStamped", goal)
+        peer.publish("/goal", "geometry_msgs/PoseStamped", goal)
         peer.wait_for("/odom", odometry, is_at(1.0, -0.5, 1.5), "the goal")
-        peer.say("/world/quadcopter/wind", "geometry_msgs/Vector3", {"x": 0.0, "y": 4.0, "z": 0.0})
+        peer.publish("/world/quadcopter/wind", "geometry_msgs/Vector3", {"x": 0.0, "y": 4.0, "z": 0.0})
         leans = "the lean into the wind"
         peer.wait_for("/odom", odometry, lambda it: it["pose"]["pose"]["orientation"]["x"] > 0.02, leans)
         peer.wait_for("/odom", odometry, is_at(1.0, -0.5, 1.5), "the goal in the wind")
-        peer.say("/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 0.5}, "angular": {}})
+        peer.publish("/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 0.5}, "angular": {}})
         peer.wait_for("/odom", odometry, lambda it: place(it)[2] > 1.6, "the climb")
         fix = peer.next("/gps/fix", "sensor_msgs/NavSatFix")
         assert fix["altitude"] > 409.0
@@ -77,12 +77,12 @@ def test_actuator_messages_command_the_propellers(roscore: RosCore, tmp_path: Pa
     ):
         node.wait_until_listed(roscore)
         topic = "/Twin/command/motor_speed"
-        peer.say(topic, "mav_msgs/Actuators", {"angular_velocities": [100.0, 400.0]})
+        peer.publish(topic, "mav_msgs/Actuators", {"angular_velocities": [100.0, 400.0]})
         reached = peer.wait_for(
             "/Twin/motor_speed/1", "std_msgs/Float32", lambda it: it["data"] > 39.9, "the speed of the joint"
         )
         assert reached["data"] == pytest.approx(40.0, abs=0.1)
-        peer.say(topic, "mav_msgs/Actuators", {"angular_velocities": [100.0]})
+        peer.publish(topic, "mav_msgs/Actuators", {"angular_velocities": [100.0]})
         node.wait_for_output("1 angular_velocities ignored: motorNumber is 1")
 
 

@@ -36,7 +36,7 @@ class Client:
         self.connection = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE)
         self._reader = self.connection.makefile("rb")
 
-    def say(self, data: bytes) -> None:
+    def send(self, data: bytes) -> None:
         self.connection.sendall(data)
 
     def line(self) -> str:
@@ -44,7 +44,7 @@ class Client:
         return self._reader.readline().decode().rstrip("\n")
 
     def ask(self, line: bytes) -> str:
-        self.say(line + b"\n")
+        self.send(line + b"\n")
         return self.line()
 
     def reset(self) -> None:
@@ -99,16 +99,16 @@ def test_each_command_is_answered_with_time_and_distance(client: Client) -> None
 
 def test_a_command_may_come_in_pieces_and_several_at_once(client: Client) -> None:
     assert ANSWER.fullmatch(client.ask(b"0;0"))  # answers end with a newline
-    client.say(b"0.1;")
-    client.say(b"0.")
-    client.say(b"5\n0;1\r\n 0 ; 2 \n")
+    client.send(b"0.1;")
+    client.send(b"0.")
+    client.send(b"5\n0;1\r\n 0 ; 2 \n")
     assert all(ANSWER.fullmatch(client.line()) for _ in range(3))
 
 
 def test_a_client_that_ends_no_lines_is_answered_too(client: Client) -> None:
-    client.say(b"0.1;0.5")
+    client.send(b"0.1;0.5")
     assert ANSWER.fullmatch(client.line())
-    client.say(b"0.1;0.5")
+    client.send(b"0.1;0.5")
     assert ANSWER.fullmatch(client.line())
 
 
@@ -127,7 +127,7 @@ def test_junk_is_answered_with_what_was_expected(client: Client, junk: bytes) ->
 def test_every_line_has_one_answer(server: Server, lines: list[bytes]) -> None:
     client = Client(server.port)
     try:
-        client.say(b"".join(line + b"\n" for line in lines) + b"0;0\n")
+        client.send(b"".join(line + b"\n" for line in lines) + b"0;0\n")
         answers = [client.line() for _ in range(len(lines) + 1)]
         assert ANSWER.fullmatch(answers[-1])
         assert all(ANSWER.fullmatch(answer) or answer.startswith("error: ") for answer in answers)
@@ -137,7 +137,7 @@ def test_every_line_has_one_answer(server: Server, lines: list[bytes]) -> None:
 
 def test_a_line_without_end_costs_the_connection(server: Server, client: Client) -> None:
     with contextlib.suppress(ConnectionError):  # the connection is closed before everything is sent
-        client.say(b"1" * 1_000_000)
+        client.send(b"1" * 1_000_000)
     client.connection.settimeout(DEADLINE)
     with contextlib.suppress(ConnectionError):  # and the answer may be lost with it
         assert client.line() in ("error: a line of more than 200 bytes", "")
@@ -149,10 +149,10 @@ def test_clients_that_vanish_or_never_read_disturb_nobody(server: Server, client
     silent = Client(server.port)
     silent.connection.setblocking(False)
     half = Client(server.port)
-    half.say(b"0.1;0.")
+    half.send(b"0.1;0.")
     half.reset()
     vanishing = Client(server.port)
-    vanishing.say(b"0;0\n" * 10)
+    vanishing.send(b"0;0\n" * 10)
     vanishing.reset()
     for _ in range(20):
         with contextlib.suppress(BlockingIOError):
@@ -165,7 +165,7 @@ def test_too_many_clients_are_refused(server: Server) -> None:
     clients = [Client(server.port) for _ in range(200)]
     try:
         for client in clients:
-            client.say(b"0;0\n")
+            client.send(b"0;0\n")
         answers = [client.line() for client in clients]
         served = [answer for answer in answers if ANSWER.fullmatch(answer)]
         refused = [answer for answer in answers if "32 clients are connected already" in answer]

@@ -42,7 +42,7 @@ class Sample:
         return value + 1.0
 
     def text(self, value: str, count: int = 1) -> str:
-        """A text, several times."""
+        """A string, several times."""
         return value * count
 
     def vector(self, value: kinds.Vector3) -> list[float]:

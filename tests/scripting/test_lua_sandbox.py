@@ -110,12 +110,12 @@ ENDLESS = {
     "a variable that is closed": (
         "while true do local x <close> = setmetatable({}, {__close = function() while true do end end}) end"
     ),
-    "a text that is loaded": "while true do load(function() while true do end end) end",
+    "a string that is loaded": "while true do load(function() while true do end end) end",
     "the globals' metatable": (
         "debug = nil setmetatable(_G, {__index = function() while true do end end}) return missing"
     ),
     "debug.traceback": "debug.traceback = function() while true do end end while true do end",
-    "an error that loops as a text": (
+    "an error that loops as a string": (
         "pcall(error, 1) local e = setmetatable({}, {__tostring = function() while true do end end}) "
         "while true do pcall(error, e) end"
     ),

@@ -53,14 +53,14 @@ def test_a_pass_waits_for_a_thread_that_steps_however_long_it_computes(tmp_path:
 
 def test_without_stepping_a_thread_that_never_waits_stops_nobody(tmp_path: Path) -> None:
     code = """
-        def sysCall_init(): self.passes = 0
+        def sysCall_init(): self.steps = 0
         def sysCall_thread():
             times = set()
             while not sim.getThreadExitRequest():
                 times.add(sim.getSimulationTime())
             print('ends', len(times) > 3)
-        def sysCall_sensing(): self.passes += 1
-        def sysCall_cleanup(): print(self.passes)
+        def sysCall_sensing(): self.steps += 1
+        def sysCall_cleanup(): print(self.steps)
     """
     assert lines(tmp_path, code, until=1.0) == ["ends True", "20"]
 

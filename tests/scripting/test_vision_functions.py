@@ -114,7 +114,7 @@ np.testing.assert_allclose(acceleration, [0, 0, 9.8], atol=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("call", "complaint"),
+    ("call", "error"),
     [
         ("sim.getVisionSensorImg(lidar)", "/Lidar is a lidar, not a camera"),
         ("sim.readLidar(camera)", "/Camera is a camera, not a lidar"),
@@ -127,5 +127,5 @@ np.testing.assert_allclose(acceleration, [0, 0, 9.8], atol=1e-9)
         ("sim.transformImage(b'123', [2, 2], 0)", "2 x 2 pixels need 12 bytes, found 3"),
     ],
 )
-def test_bad_calls_are_explained(tmp_path: Path, call: str, complaint: str) -> None:
-    assert complaint in run(tmp_path, call).splitlines()[-1]
+def test_bad_calls_are_explained(tmp_path: Path, call: str, error: str) -> None:
+    assert error in run(tmp_path, call).splitlines()[-1]

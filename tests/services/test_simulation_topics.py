@@ -13,7 +13,7 @@ COUNTING = """
 """
 
 
-def passes(node: Node) -> int:
+def steps(node: Node) -> int:
     return node.output.count("pass ")
 
 
@@ -22,17 +22,17 @@ def enter_synchronous_mode(core: RosCore, node: Node, remote: Remote) -> int:
     received."""
     wait_until_sent(core.env, TIME, DONE)
     remote.press("start")
-    wait_until(lambda: passes(node) > 3, "steps without triggers")
+    wait_until(lambda: steps(node) > 3, "steps without triggers")
     remote.send("/enableSyncMode", value=True)
 
     def nothing_goes_on() -> bool:
-        before = passes(node)
+        before = steps(node)
         core.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")
-        return passes(node) == before
+        return steps(node) == before
 
     wait_until(nothing_goes_on, "the steps to wait for triggers")
-    wait_until(lambda: received_steps(remote) == (passes(node), passes(node)), "all steps to be received")
-    return passes(node)
+    wait_until(lambda: received_steps(remote) == (steps(node), steps(node)), "all steps to be received")
+    return steps(node)
 
 
 def received_steps(remote: Remote) -> tuple[int, int]:
@@ -48,14 +48,14 @@ def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run
         done = len(remote.received(DONE))
         remote.send("/triggerNextStep", value=True)
         wait_until(lambda goal=done + 1: len(remote.received(DONE)) == goal, "the step to be done")
-    assert passes(node) == free + 103
+    assert steps(node) == free + 103
     assert set(remote.received(DONE)) == {"True"}
     wait_until(lambda: len(remote.received(TIME)) >= free + 103, "the times, which may arrive after what is done")
     reported = [f"{float(time):.2f}" for time in remote.received(TIME)[-103:]]
     assert reported == [f"{0.05 * number:.2f}" for number in range(free, free + 103)]
 
     remote.send("/enableSyncMode", value=False)
-    wait_until(lambda: passes(node) > free + 200, "the steps to wait no more")
+    wait_until(lambda: steps(node) > free + 200, "the steps to wait no more")
 
 
 def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
@@ -65,7 +65,7 @@ def test_triggers_of_a_pause_are_kept(run: Run, roscore: RosCore) -> None:
     wait_until(lambda: remote.received(STATE)[-1:] == ["2"], "the pause")
     remote.send("/triggerNextStep", value=True, count=5)
     remote.press("start")
-    wait_until(lambda: passes(node) == free + 5, "the steps")
+    wait_until(lambda: steps(node) == free + 5, "the steps")
 
 
 def test_the_state_is_reported_in_all_states(run: Run, roscore: RosCore) -> None:

@@ -136,8 +136,8 @@ def test_a_pause_lets_scripts_and_time_stand_still(run: Run) -> None:
     assert stands_still(node)
     remote.press("start")
     wait_until(lambda: count(node, "pass") > 20, "the simulation to continue")
-    passes = re.findall(r"^pass (.*)", node.output, re.MULTILINE)
-    assert passes == [f"{0.05 * i:.2f}" for i in range(len(passes))]
+    steps = re.findall(r"^pass (.*)", node.output, re.MULTILINE)
+    assert steps == [f"{0.05 * i:.2f}" for i in range(len(steps))]
     assert count(node, "init") == 1
 
 

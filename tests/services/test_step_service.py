@@ -35,8 +35,8 @@ def paused(roscore: RosCore, tmp_path: Path) -> Iterator[Paused]:
             assert node.end() == 0
 
 
-def step(core: RosCore, passes: int) -> Any:
-    return yaml.safe_load(core.run("rosservice", "call", f"{NAME}/step", f"steps: {passes}"))
+def step(core: RosCore, steps: int) -> Any:
+    return yaml.safe_load(core.run("rosservice", "call", f"{NAME}/step", f"steps: {steps}"))
 
 
 def test_so_many_passes_are_done_when_it_answers(paused: Paused, roscore: RosCore) -> None:

@@ -98,10 +98,10 @@ def test_a_reset_by_service_breaks_it_off_and_is_carried_out(run: Run, roscore: 
     node, _ = run(
         """
         def sysCall_init():
-            self.passes = 0
+            self.steps = 0
         def sysCall_actuation():
-            self.passes += 1
-            while self.passes > 5: pass
+            self.steps += 1
+            while self.steps > 5: pass
         """,
         "--gazebo-compat",
     )

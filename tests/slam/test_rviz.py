@@ -13,7 +13,7 @@ from PIL import Image
 from display_support import Display
 from ros_support import DEADLINE, RosCore, start, stop_launch, wait_until
 
-PATIENCE = 6 * DEADLINE  # software rendering is slow
+TIMEOUT = 6 * DEADLINE  # software rendering is slow
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_rviz_shows_robot_scan_cloud_map_and_image(display: Display, roscore: Ro
         return shows_all(picture)
 
     try:
-        wait_until(lambda: "/rviz" in roscore.nodes(), "RViz", PATIENCE)
-        wait_until(complete, f"RViz to show all, see {tmp_path}/rviz.png", PATIENCE)
+        wait_until(lambda: "/rviz" in roscore.nodes(), "RViz", TIMEOUT)
+        wait_until(complete, f"RViz to show all, see {tmp_path}/rviz.png", TIMEOUT)
     finally:
         stop_launch(launched)

@@ -42,7 +42,7 @@ def draw_room(folder: Path) -> Path:
 def arrivals(roscore: RosCore, tmp_path: Path) -> Iterator[Path]:
     """Run go_to.py with everything that it needs; its messages at the end of a goal go to the returned file."""
     roscore.set_param("/use_sim_time", True)
-    said = tmp_path / "arrived"
+    arrived = tmp_path / "arrived"
     commands = [
         ["rosrun", "bubblesim", "sim", "tricycle_cmd_vel", "--speed", "3"],
         ["rosrun", "bubblesim", "map_server", str(draw_room(tmp_path))],
@@ -50,9 +50,9 @@ def arrivals(roscore: RosCore, tmp_path: Path) -> Iterator[Path]:
         ["rosrun", "bubblesim", "go_to.py", *DRIVER],
     ]
     running = [start(command, roscore.env, stdout=subprocess.DEVNULL) for command in commands]
-    with said.open("w") as output:
+    with arrived.open("w") as output:
         running.append(start(["rostopic", "echo", "/go_to/arrived"], roscore.env, stdout=output))
-    yield said
+    yield arrived
     for process in running:
         stop(process)
 

@@ -20,7 +20,7 @@ class Generator:
         return self.folder / "build" / "tables"
 
     def run(self, messages: str, services: str = "", *options: str) -> subprocess.CompletedProcess[str]:
-        """Generate from the texts of two lists."""
+        """Generate from the strings of two lists."""
         meta = self.folder / "meta"
         meta.mkdir(exist_ok=True)
         (meta / "messages.txt").write_text(messages)

@@ -16,7 +16,7 @@ import aiohttp
 import cbor2
 
 from ros_support import free_port, start, stop, wait_until
-from web_support import PATIENCE, TOKEN
+from web_support import TIMEOUT, TOKEN
 
 
 class Server:
@@ -26,11 +26,11 @@ class Server:
         """Start it, with the token t unless the environment is given."""
         self.remote_port, self.port = free_port(), free_port()
         self._log = folder / "server.txt"
-        command = ["bubblesim", "view", "--door", str(self.remote_port), "--port", str(self.port), *options]
+        command = ["bubblesim", "view", "--remote", str(self.remote_port), "--port", str(self.port), *options]
         with self._log.open("w") as output:
             self.process = start(command, env or os.environ | TOKEN, cwd=folder, stdout=output, stderr=output)
         self.origin = f"http://127.0.0.1:{self.port}"
-        wait_until(lambda: "the window is at" in self.output, "the server", timeout=PATIENCE / 1000)
+        wait_until(lambda: "the window is at" in self.output, "the server", timeout=TIMEOUT / 1000)
 
     def __enter__(self) -> Self:
         return self
@@ -63,7 +63,7 @@ class Server:
 
     def connect(self) -> socket.socket:
         """Open a connection, and send nothing."""
-        return socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE / 1000)
+        return socket.create_connection(("127.0.0.1", self.port), timeout=TIMEOUT / 1000)
 
     def get(self, path: str, **headers: str) -> tuple[int, dict[str, str]]:
         """Return status and headers of the answer to a request."""
@@ -108,7 +108,7 @@ class PageClient:
     async def next_reply(self) -> tuple[int, dict[str, Any]]:
         """Return number and reply of the next call that is answered."""
         while True:
-            data = await asyncio.wait_for(self.socket.receive_bytes(), PATIENCE / 1000)
+            data = await asyncio.wait_for(self.socket.receive_bytes(), TIMEOUT / 1000)
             if data[0] == 0:  # a frame
                 continue
             message = cbor2.loads(data)
@@ -118,7 +118,7 @@ class PageClient:
     async def wait_for_event(self, name: str) -> Any:
         """Return the data of the next event of a name."""
         while True:
-            data = await asyncio.wait_for(self.socket.receive_bytes(), PATIENCE / 1000)
+            data = await asyncio.wait_for(self.socket.receive_bytes(), TIMEOUT / 1000)
             if data[0] != 0 and (message := cbor2.loads(data))[:2] == [None, name]:
                 return message[2]
 

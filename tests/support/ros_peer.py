@@ -31,12 +31,12 @@ class Peer:
                 stdout=output,
             )
 
-    def say(self, topic: str, message_type: str, message: Message) -> None:
+    def publish(self, topic: str, message_type: str, message: Message) -> None:
         """Publish once the topic has a subscriber."""
-        self._send(do="say", topic=topic, type=message_type, message=message)
+        self._send(do="publish", topic=topic, type=message_type, message=message)
 
     def drive(self, topic: str, forward: float, turning: float) -> None:
-        self.say(topic, "geometry_msgs/Twist", {"linear": {"x": forward}, "angular": {"z": turning}})
+        self.publish(topic, "geometry_msgs/Twist", {"linear": {"x": forward}, "angular": {"z": turning}})
 
     def received(self, topic: str, message_type: str = "") -> list[Message]:
         """Return all messages since the first call for the topic, which must give its type."""

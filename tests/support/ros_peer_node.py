@@ -40,7 +40,7 @@ def subscribe(topic: str, kind: type) -> None:
     rospy.Subscriber(topic, kind, lambda message: report(topic, message))
 
 
-def say(topic: str, kind: type, values: dict[str, Any]) -> None:
+def publish(topic: str, kind: type, values: dict[str, Any]) -> None:
     if topic not in PUBLISHERS:
         PUBLISHERS[topic] = rospy.Publisher(topic, kind, queue_size=10)
     while PUBLISHERS[topic].get_num_connections() == 0 and not rospy.is_shutdown():
@@ -69,7 +69,7 @@ def main() -> None:
         if command["do"] == "subscribe":
             subscribe(command["topic"], kind)
         else:
-            say(command["topic"], kind, command["message"])
+            publish(command["topic"], kind, command["message"])
 
 
 if __name__ == "__main__":

@@ -103,14 +103,14 @@ def start(command: list[str], env: dict[str, str], **options: object) -> "subpro
     )
 
 
-def stop(process: "subprocess.Popen[str]", patience: float = 10.0) -> None:
-    """End a process of start() and everything that it started; kill it after `patience` seconds."""
+def stop(process: "subprocess.Popen[str]", timeout: float = 10.0) -> None:
+    """End a process of start() and everything that it started; kill it after `timeout` seconds."""
     if process.poll() is None:
         assert os.getpgid(process.pid) == process.pid, "only start() makes a group to end"
     for number in (signal.SIGINT, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
-            process.wait(timeout=patience)
+            process.wait(timeout=timeout)
         except (ProcessLookupError, subprocess.TimeoutExpired):
             continue
 

@@ -32,7 +32,7 @@ class TemporaryFile {
   fs::path path_;
 };
 
-/// The texts of warnings, one a line.
+/// The strings of warnings, one a line.
 inline std::string lines_of(const std::vector<Problem>& warnings) {
   std::string lines;
   for (const Problem& warning : warnings) lines += warning.text() + "\n";

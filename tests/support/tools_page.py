@@ -13,7 +13,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from node_support import Node
 from ros_support import free_port, ros_environment, start, stop, wait_until
-from web_support import PATIENCE, TOKEN, launch_browser, new_page
+from web_support import TIMEOUT, TOKEN, launch_browser, new_page
 
 
 class ToolsPage:
@@ -31,13 +31,13 @@ class ToolsPage:
         self.node = self._ends.enter_context(
             Node(self.env, folder / "node.txt", scene, *ros, f"--remote={remote_port}", "--start", *options)
         )
-        wait_until(lambda: "remote clients can connect" in self.node.output, "the remote API", timeout=PATIENCE / 1000)
-        command = [sys.executable, "-m", "bubblesim.web", "--door", str(remote_port), "--port", str(self.port)]
+        wait_until(lambda: "remote clients can connect" in self.node.output, "the remote API", timeout=TIMEOUT / 1000)
+        command = [sys.executable, "-m", "bubblesim.web", "--remote", str(remote_port), "--port", str(self.port)]
         log = folder / "server.txt"
         with log.open("w") as output:
             self.server = start(command, self.env | TOKEN, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
         self._ends.callback(stop, self.server)
-        wait_until(lambda: "the window is at" in log.read_text(), "the server", timeout=PATIENCE / 1000)
+        wait_until(lambda: "the window is at" in log.read_text(), "the server", timeout=TIMEOUT / 1000)
 
     def __enter__(self) -> Self:
         playwright = self._ends.enter_context(sync_playwright())
@@ -65,4 +65,4 @@ class ToolsPage:
 
     def wait_for(self, condition: str) -> None:
         """Wait until an expression of JavaScript is true. The page's policy forbids Playwright's own way to wait."""
-        wait_until(lambda: bool(self.page.evaluate(f"Boolean({condition})")), condition, timeout=PATIENCE / 1000)
+        wait_until(lambda: bool(self.page.evaluate(f"Boolean({condition})")), condition, timeout=TIMEOUT / 1000)

@@ -16,18 +16,18 @@ from ros_support import built, start, stop, wait_until
 # Without --disable-gpu-compositing the whole page is drawn by the software GL, at twice the time.
 _FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--no-sandbox"]
 TOKEN = {"BUBBLESIM_WEB_TOKEN": "t"}  # for the environment of a node or server
-PATIENCE = 60_000  # ms, for a busy machine that draws without a GPU
+TIMEOUT = 60_000  # ms, for a busy machine that draws without a GPU
 
 
 def launch_browser(playwright: Playwright) -> Browser:
     """Start Debian's Chromium, which draws in software."""
-    return playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=_FLAGS, timeout=PATIENCE)
+    return playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=_FLAGS, timeout=TIMEOUT)
 
 
 def new_page(browser: Browser, width: int, height: int) -> Page:
     """Open an empty page of its own session, in CSS pixels; a quarter as many are drawn, for the sake of time."""
     page = browser.new_context(viewport={"width": width, "height": height}, device_scale_factor=0.5).new_page()
-    page.set_default_timeout(PATIENCE)
+    page.set_default_timeout(TIMEOUT)
     return page
 
 
@@ -58,7 +58,7 @@ class Node:
             found[:] = re.findall(pattern, self._log.read_text())
             return bool(found)
 
-        wait_until(look, f"{pattern} in the node's output", timeout=PATIENCE / 1000)
+        wait_until(look, f"{pattern} in the node's output", timeout=TIMEOUT / 1000)
         return found[0]
 
     def __enter__(self) -> Self:
@@ -122,8 +122,8 @@ class Window:
 
     def wait(self, condition: str, argument: Any = None) -> None:
         """Wait until an expression is true."""
-        # Not wait_for_function: it evaluates texts in the page, which the page's own policy forbids.
-        end = time.monotonic() + PATIENCE / 1000
+        # Not wait_for_function: it evaluates strings in the page, which the page's own policy forbids.
+        end = time.monotonic() + TIMEOUT / 1000
         while not self.page.evaluate(f"x => Boolean({condition})", argument):
             assert time.monotonic() < end, f"{condition}; errors of the page: {self.errors}"
             self.page.wait_for_timeout(50)

@@ -118,6 +118,6 @@ class Workspace:
         return self.run(sys.executable, program, "--project", self.project, *arguments)
 
     def compiled(self, text: str) -> bool:
-        """Return whether a text is in the built library."""
+        """Return whether a string is in the built library."""
         library = self.folder / "devel" / "lib" / "libbubblesim_messages.so"
         return text.encode() in library.read_bytes()

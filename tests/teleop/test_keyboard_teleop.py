@@ -38,7 +38,7 @@ def test_stops_when_no_key_is_pressed_any_more() -> None:
     assert teleop.velocity(now=10.7) == STANDING
 
 
-def test_goes_on_without_patience_to_lose() -> None:
+def test_goes_on_without_a_timeout() -> None:
     teleop = KeyboardTeleop(timeout=None)
     teleop.press("i", now=0.0)
     assert teleop.velocity(now=1000.0) != STANDING

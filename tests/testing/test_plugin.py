@@ -234,7 +234,7 @@ def test_a_controller_may_start_late(tmp_path: Path, controller: StartController
 
 
 def test_a_missing_controller_is_reported(sim: StartSimulator, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simulator, "_STARTING_PATIENCE", 0.0)
+    monkeypatch.setattr(simulator, "_STARTING_TIMEOUT", 0.0)
     tricycle = sim("tricycle", lockstep=TOPICS)
     with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)

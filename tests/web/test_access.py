@@ -13,7 +13,7 @@ from aiohttp import WSMsgType
 
 from page_client import Server, page_client, websocket
 from ros_support import free_port, start, stop, wait_until
-from web_support import PATIENCE, TOKEN, Node, Window
+from web_support import TIMEOUT, TOKEN, Node, Window
 
 UPGRADE = {
     "Upgrade": "websocket",
@@ -111,7 +111,7 @@ def test_the_token_is_in_a_file_of_the_owner_and_not_in_the_log(tmp_path: Path, 
 
 def test_the_whole_address_is_printed_to_a_terminal(tmp_path: Path) -> None:
     terminal, inside = os.openpty()
-    command = ["bubblesim", "view", "--door", str(free_port()), "--port", str(free_port())]
+    command = ["bubblesim", "view", "--remote", str(free_port()), "--port", str(free_port())]
     server = start(command, os.environ | TOKEN, cwd=tmp_path, stdout=inside, stderr=inside)
     try:
         os.close(inside)
@@ -125,13 +125,13 @@ def test_the_whole_address_is_printed_to_a_terminal(tmp_path: Path) -> None:
 
 
 def test_servers_that_begin_together_have_ports_of_their_own(tmp_path: Path) -> None:
-    command = ["bubblesim", "view", "--door", str(free_port())]
+    command = ["bubblesim", "view", "--remote", str(free_port())]
     logs = [tmp_path / f"{number}.txt" for number in range(6)]
     with ExitStack() as ends:
         for log in logs:
             with log.open("w") as output:
                 ends.callback(stop, start(command, dict(os.environ), stderr=output))
-        wait_until(lambda: all(log.read_text().endswith("\n") for log in logs), "all servers", timeout=PATIENCE / 1000)
+        wait_until(lambda: all(log.read_text().endswith("\n") for log in logs), "all servers", timeout=TIMEOUT / 1000)
     found = [re.findall(r"the window is at http://127.0.0.1:(\d+)/", log.read_text()) for log in logs]
     assert all(len(ports) == 1 for ports in found), found
     assert len({ports[0] for ports in found}) == len(logs)

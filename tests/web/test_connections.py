@@ -59,7 +59,7 @@ def test_a_thousand_connections_leave_room_for_pages(server: Server) -> None:
     assert len(server.output.splitlines()) < 5
 
 
-def test_pages_beyond_the_limit_are_told_so(server: Server) -> None:
+def test_pages_beyond_the_limit_are_refused_with_a_reason(server: Server) -> None:
     async def last() -> object:
         async with asyncio.TaskGroup() as tasks:
             done = asyncio.Event()

@@ -67,6 +67,6 @@ def test_the_remote_api_can_be_a_socket_in_a_folder(tmp_path: Path) -> None:
         pytest.skip("the path is too long for a socket")
     with (
         server_of_unreadable_frames(f"ipc://{path}", "/dev/null") as calls,
-        Server(tmp_path, "--door", str(path)),
+        Server(tmp_path, "--remote", str(path)),
     ):
         wait_until(lambda: "window.share" in calls, "the server")

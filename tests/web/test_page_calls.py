@@ -17,7 +17,7 @@ def test_a_page_has_eight_lines(tmp_path: Path) -> None:
                 await page.send("sim.getSimulationTime", line=f"line {number}")
             return [(await page.next_reply())[1] for _ in range(32)]
 
-    with Server(tmp_path, "--look") as server:
+    with Server(tmp_path, "--read-only") as server:
         before = server.descriptors()
         replies = asyncio.run(refused(server))
         assert all("there are 8 already" in reply["err"] for reply in replies)

@@ -85,7 +85,7 @@ def test_a_window_that_only_looks_publishes_nothing(roscore: RosCore, tmp_path: 
             publishers = [node for nodes in roscore.state()["publishers"].values() for node in nodes]
             assert not any("bubblesim_window" in node for node in publishers)
 
-    with Server(tmp_path, "--look", env=roscore.env | TOKEN) as server:
+    with Server(tmp_path, "--read-only", env=roscore.env | TOKEN) as server:
         asyncio.run(look())
 
 

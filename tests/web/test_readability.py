@@ -11,10 +11,10 @@ pytest.importorskip("playwright")
 from PIL import Image
 from playwright.sync_api import Browser
 
-from web_support import PATIENCE, Node, Window
+from web_support import TIMEOUT, Node, Window
 
 LEAST = 4.5
-"""Contrast of texts, WCAG 2.1, success criterion 1.4.3; buttons that are disabled are exempt."""
+"""Contrast of strings, WCAG 2.1, success criterion 1.4.3; buttons that are disabled are exempt."""
 _FAINT_TEXTS = """(() => {
   const numbers = (color) => color.match(/[0-9.]+/g).map(Number);
   const luminance = (color) => {
@@ -44,7 +44,7 @@ TABS = ["Models", "Scripts", "Plots", "Cameras", "Problems", "Drive", "Record", 
 def test_all_texts_have_enough_contrast(tmp_path: Path, browser: Browser, scheme: str) -> None:
     with Node(tmp_path, "tricycle", "--paused") as node:
         page = browser.new_context(viewport={"width": 1280, "height": 800}, color_scheme=scheme).new_page()  # type: ignore[arg-type]
-        page.set_default_timeout(PATIENCE)
+        page.set_default_timeout(TIMEOUT)
         window = Window(page, node.address)
         node.windows.append(window)
         faint = set()
@@ -66,6 +66,6 @@ def test_lines_of_the_grid_that_lead_behind_the_camera_are_drawn(tmp_path: Path,
     with Node(tmp_path, "ball", "--paused") as node:
         window = Window(browser.new_page(viewport={"width": 1000, "height": 620}), node.address)
         node.windows.append(window)
-        canvas = Image.open(io.BytesIO(window.page.locator(".view canvas").screenshot(timeout=PATIENCE)))
+        canvas = Image.open(io.BytesIO(window.page.locator(".view canvas").screenshot(timeout=TIMEOUT)))
         reds = sum(1 for r, g, b in canvas.convert("RGB").getdata() if r > g + 40 and r > b + 40)
         assert reds > 30

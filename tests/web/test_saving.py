@@ -48,10 +48,10 @@ def window(tmp_path: Path) -> Iterator[ToolsPage]:
 
 # Notices are shown for a few seconds only: a busy machine may look too late.
 LISTEN = """(() => {
-  window.said = [];
+  window.shown = [];
   window.listening?.disconnect();
   window.listening = new MutationObserver((changes) => {
-    for (const { addedNodes } of changes) window.said.push(...[...addedNodes].map((each) => each.innerText));
+    for (const { addedNodes } of changes) window.shown.push(...[...addedNodes].map((each) => each.innerText));
   });
   window.listening.observe(document.querySelector(".notices"), { childList: true });
 })()"""
@@ -65,12 +65,12 @@ def stop(window: ToolsPage) -> None:
 
 
 def save_as(window: ToolsPage, name: str, *, overwrite: bool = False) -> list[str]:
-    """Save under a name, answer the question, and return it and what the page says then."""
-    texts: list[str] = []
+    """Save under a name, answer the question, and return it and what the page shows then."""
+    strings: list[str] = []
     window.page.evaluate(LISTEN)
 
     def answer(dialog: Dialog) -> None:
-        texts.append(dialog.message)
+        strings.append(dialog.message)
         if overwrite:
             dialog.accept()
         else:
@@ -82,10 +82,10 @@ def save_as(window: ToolsPage, name: str, *, overwrite: bool = False) -> list[st
     window.page.click(".saving button[type=submit]")
     window.wait_for("!document.querySelector('.saving[open] button:disabled')")
     window.page.remove_listener("dialog", answer)
-    texts += window.page.evaluate("window.said")
+    strings += window.page.evaluate("window.shown")
     window.page.evaluate("document.querySelector('.saving[open]')?.close()")
     window.wait_for("!document.querySelector('.saving')")
-    return texts
+    return strings
 
 
 def test_what_was_edited_is_saved(window: ToolsPage, tmp_path: Path) -> None:
@@ -95,8 +95,8 @@ def test_what_was_edited_is_saved(window: ToolsPage, tmp_path: Path) -> None:
     window.call("window.set_pose", box, [0, 1, 0.1, 0, 0, 0, 1])
     window.call("window.restore", window.call("window.remove", window.call("sim.getObject", "/ball")))
     window.call("window.remove", window.call("sim.getObject", "/gone"))
-    (said,) = save_as(window, "mine")
-    assert said == f"Saved to {tmp_path / 'mine.sdf'}"
+    (shown,) = save_as(window, "mine")
+    assert shown == f"Saved to {tmp_path / 'mine.sdf'}"
     world = Simulation(str(tmp_path / "mine.sdf")).world
     names = {world.name(model): list(world.pose(model)) for model in world.models}
     assert names == {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the editor is reported about a text before it is saved."""
+"""What the editor is reported about a string before it is saved."""
 
 import sys
 from pathlib import Path

@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Error, Page
 
 from page_client import Server
 from ros_support import stop, wait_until
-from web_support import PATIENCE, new_page
+from web_support import TIMEOUT, new_page
 
 NEEDS_TOKEN = "This address needs a token: open the whole address that the simulator has printed"
 
@@ -35,7 +35,7 @@ def is_connected(page: Page) -> bool:
 
 
 def wait_for_connection(page: Page) -> None:
-    wait_until(lambda: is_connected(page), "the connection", timeout=PATIENCE / 1000)
+    wait_until(lambda: is_connected(page), "the connection", timeout=TIMEOUT / 1000)
 
 
 def test_a_page_without_the_token_says_what_it_needs(server: Server, page: Page) -> None:

@@ -160,11 +160,11 @@ def test_errors_of_scripts_lead_to_their_line(window: ToolsPage) -> None:
 
 
 def test_drawings_are_in_the_picture(window: ToolsPage) -> None:
-    window.wait_for("[...bubblesim.drawings.values()].some(d => d.news.kind === 'linestrip' && d.count > 5)")
-    count = "[...bubblesim.drawings.values()].find(d => d.news.kind === 'linestrip').count"
+    window.wait_for("[...bubblesim.drawings.values()].some(d => d.changes.kind === 'linestrip' && d.count > 5)")
+    count = "[...bubblesim.drawings.values()].find(d => d.changes.kind === 'linestrip').count"
     first = window.page.evaluate(count)
     window.wait_for(f"{count} > {first}")
-    ball = "[...bubblesim.drawings.values()].find(d => d.news.kind === 'sphere')"
+    ball = "[...bubblesim.drawings.values()].find(d => d.changes.kind === 'sphere')"
     window.call("window.pause")  # the car moves
     window.wait_for("bubblesim.link.frame.state === 'paused'")
     window.page.evaluate("bubblesim.view.settled()")

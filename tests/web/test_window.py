@@ -64,7 +64,7 @@ def test_two_pages_a_reload_and_a_page_that_closes(tmp_path: Path, show: Show) -
 def test_the_page_comes_back_when_the_server_does(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle", "--remote=0") as node:
         remote_port, port = node.find(r"tcp://127.0.0.1:(\d+)\s"), free_port()
-        command = ["bubblesim", "view", "--door", remote_port, "--port", str(port)]
+        command = ["bubblesim", "view", "--remote", remote_port, "--port", str(port)]
 
         def start_server() -> "subprocess.Popen[str]":
             with (tmp_path / "view.err").open("w") as log:

@@ -15,6 +15,7 @@ const PATHS = {
   model: '<path d="M8 1.5l5.5 3v7L8 14.5l-5.5-3v-7zM2.5 4.5L8 7.5l5.5-3M8 7.5v7"/>',
   link: '<rect x="3" y="3" width="10" height="10" rx="2"/>',
   joint: '<circle cx="8" cy="8" r="2.2"/><path d="M8 1.5v4M8 10.5v4"/><path d="M12.5 5.5a5.2 5.2 0 0 1 0 5"/>',
+  frame: '<path d="M4 12V3M4 12h9M4 12l4-4"/>',
   sensor: '<circle cx="4" cy="8" r="1.5" fill="currentColor"/><path d="M7.5 5a4.5 4.5 0 0 1 0 6M10 3a7.5 7.5 0 0 1 0 10"/>',
   chevron: '<path d="M6 4l4 4-4 4"/>',
   script: '<path d="M4 1.5h5.5L13 5v9.5H4zM9 1.5V5h4"/>',

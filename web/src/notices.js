@@ -7,7 +7,7 @@ const SECONDS = { info: 4, warning: 8, error: 12 };
 export class Notices {
   element = h("div.notices", { role: "status" });
 
-  /// Shows a text for a while; `level` is info, warning or error.
+  /// Shows a message for a while; `level` is info, warning or error.
   show(text, level = "info") {
     const notice = h(`div.notice.${level}`, { title: "Click to close" }, text);
     const end = () => notice.remove();

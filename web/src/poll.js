@@ -46,7 +46,7 @@ export class Poll {
     }
   }
 
-  /// Without a connection or a simulator, the page says so, and all calls fail.
+  /// Without a connection or a simulator, the page shows this, and all calls fail.
   #report(error) {
     const { link, scene } = this.#app;
     if (!link.connected || !scene.info || !this.#on || this.#failed) return;
@@ -55,7 +55,7 @@ export class Poll {
   }
 }
 
-/// Offers a text or Blob as a file.
+/// Offers a string or Blob as a file.
 export function download(name, content, type = "text/plain") {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type }));

@@ -6,7 +6,7 @@ import { Emitter } from "./emitter.js";
 /// links) when they have other colours, and "cleared" before the objects of another scene come.
 export class Scene extends Emitter {
   objects = new Map(); // by handle
-  models = []; // handles of the top level
+  models = []; // handles of the outermost models
   environment = null;
   info = null; // what window.share returns
   linkIndex = new Map(); // handle of a link: its row in the poses of frames
@@ -27,18 +27,18 @@ export class Scene extends Emitter {
       this.#fetch();
     });
     link.on("models", () => this.#fetch());
-    link.on("colours", (news) => {
-      this.#newer?.push(...news);
-      this.#recolour(news);
+    link.on("colours", (changes) => {
+      this.#newer?.push(...changes);
+      this.#recolour(changes);
     });
     link.on("connection", (connected) => {
       if (!connected) this.#again = false;
     });
   }
 
-  /// The objects below one, or the models of the top level.
+  /// The objects below one in the tree, or those at its top.
   children(handle = -1) {
-    if (handle === -1) return this.models.map((each) => this.objects.get(each)).filter(Boolean);
+    if (handle === -1) return [...this.objects.values()].filter((each) => each.parent === -1 && !each.hidden);
     return this.objects.get(handle)?.children ?? [];
   }
 
@@ -48,11 +48,9 @@ export class Scene extends Emitter {
     return undefined;
   }
 
-  /// The model of the top level of an object.
+  /// The outermost model of an object.
   outermost(object) {
-    let each = object;
-    while (each && each.parent !== -1) each = this.objects.get(each.parent);
-    return each;
+    return this.objects.get(object?.model);
   }
 
   /// The pose of a link in the last frame, or its pose at the start: x, y, z and a quaternion x, y, z, w.
@@ -80,8 +78,8 @@ export class Scene extends Emitter {
     if (object.kind === "joint") {
       object.carrier = object.child_link;
     } else if (object.kind === "sensor") {
-      const parent = this.objects.get(object.parent);
-      object.carrier = parent?.kind === "joint" ? parent.child_link : object.parent;
+      const above = this.objects.get(object.carrier);
+      if (above?.kind === "joint") object.carrier = above.child_link;
     } else if (object.kind === "model") {
       object.carrier = object.canonical_link;
     }
@@ -96,8 +94,8 @@ export class Scene extends Emitter {
     const info = this.info;
     this.#newer = [];
     try {
-      const news = await this.#link.call("window.models", [this.models]);
-      if (this.info === info) this.#take(news);
+      const changes = await this.#link.call("window.models", [this.models]);
+      if (this.info === info) this.#take(changes);
     } catch (error) {
       if (this.#link.connected) console.warn(`the objects of the scene: ${error.message}`);
     } finally {
@@ -110,9 +108,9 @@ export class Scene extends Emitter {
     }
   }
 
-  #recolour(news) {
+  #recolour(changes) {
     const links = [];
-    for (const [handle, colour] of news) {
+    for (const [handle, colour] of changes) {
       if (String(this.colours.get(handle)) === String(colour)) continue;
       this.colours.set(handle, colour);
       if (this.objects.has(handle)) links.push(this.objects.get(handle));
@@ -120,29 +118,27 @@ export class Scene extends Emitter {
     if (links.length) this.emit("colours", links);
   }
 
-  #take(news) {
-    this.#recolour([...news.colours, ...this.#newer]);
-    const there = new Set(news.models);
+  #take(changes) {
+    this.#recolour([...changes.colours, ...this.#newer]);
+    const there = new Set(changes.models);
     const removed = [];
     for (const object of [...this.objects.values()]) {
       if (there.has(this.outermost(object)?.handle)) continue;
       removed.push(object);
     }
     for (const object of removed) this.objects.delete(object.handle);
-    for (const object of news.objects) {
-      object.children = [];
-      this.objects.set(object.handle, object);
-    }
-    for (const object of news.objects) this.objects.get(object.parent)?.children.push(object);
-    for (const object of news.objects) this.#attach(object);
-    this.models = news.models;
-    this.environment = news.environment;
-    this.revision = news.revision;
-    this.linkIndex = new Map(news.links.map((handle, row) => [handle, row]));
+    for (const object of [...changes.objects, ...changes.frames]) this.objects.set(object.handle, object);
+    for (const object of this.objects.values()) object.children = [];
+    for (const object of this.objects.values()) if (!object.hidden) this.objects.get(object.parent)?.children.push(object);
+    for (const object of changes.objects) this.#attach(object);
+    this.models = changes.models;
+    this.environment = changes.environment;
+    this.revision = changes.revision;
+    this.linkIndex = new Map(changes.links.map((handle, row) => [handle, row]));
     this.axisIndex = new Map();
-    news.axes.forEach(([joint, axis], place) => {
+    changes.axes.forEach(([joint, axis], place) => {
       if (axis === 0) this.axisIndex.set(joint, place);
     });
-    this.emit("changed", { added: news.objects, removed });
+    this.emit("changed", { added: changes.objects, removed });
   }
 }

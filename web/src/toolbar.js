@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Play, pause, stop, step, speed, time. The buttons follow the state of the simulator, whoever changed it.
+// Play, pause, stop, step, speed, time. The buttons follow the state of the simulator, also if another client changed it.
 import { showAbout } from "./about.js";
 import { h } from "./dom.js";
 import { icon } from "./icons.js";

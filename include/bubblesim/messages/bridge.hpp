@@ -47,7 +47,8 @@ struct BridgeTime {
 
 /// All calls come from the simulation's thread and, unless stated otherwise, return at once. A bridge communicates with
 /// its master on a thread of its own: an endpoint created without a reachable master becomes active when one appears.
-/// Errors (invalid name, unknown or shut-down id) are std::invalid_argument, with a text for the author of the script.
+/// Errors (invalid name, unknown or shut-down id) are std::invalid_argument, with a string for the author of the
+/// script.
 class Bridge {
  public:
   virtual ~Bridge() = default;

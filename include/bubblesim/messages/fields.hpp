@@ -56,7 +56,7 @@ class Fields {
     flags_.push_back(std::move(flag));
     add(name, Flag{flags_.back().get()});
   }
-  void put(std::string_view name, const std::vector<std::string>& texts) { add(name, &texts); }
+  void put(std::string_view name, const std::vector<std::string>& strings) { add(name, &strings); }
 
   /// An array of numbers; also an array of messages that only hold numbers of that kind, such as Point32.
   template <class Number>

@@ -33,7 +33,7 @@ Ctrl-C ends a call that waits, Ctrl-D ends the prompt.
   bubblesim shell tricycle --no-ros       on a node of its own, which ends with the prompt
   bubblesim shell --port 23000            on a node that was started with --remote"""
 _ANSWER = re.compile(r"remote clients can connect to tcp://[^ ]*:(\d+)")
-_PATIENCE = 60.0  # s for the node to open its port, or to end
+_TIMEOUT = 60.0  # s for the node to open its port, or to end
 _LONGEST_CALL = 1e6  # s; Ctrl-C ends it before
 _MOST_LINES = 10_000  # of the history
 
@@ -86,12 +86,12 @@ def _started_node(
         assert node.stderr is not None
         port = _port_of(node.stderr)
         if port is None:
-            raise RunError(f"the simulator ended with exit code {node.wait(_PATIENCE)}")
+            raise RunError(f"the simulator ended with exit code {node.wait(_TIMEOUT)}")
         threading.Thread(target=_pass_on, args=(node.stderr,), daemon=True).start()
         yield node, port
     finally:
         node.terminate()
-        node.wait(_PATIENCE)
+        node.wait(_TIMEOUT)
 
 
 def _port_of(output: IO[str]) -> int | None:

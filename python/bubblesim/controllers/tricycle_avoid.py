@@ -14,7 +14,7 @@ class Settings:
     near: float = 1.0  # m
     avoiding_steering: float = math.radians(70.0)  # rad, positive to the left
     recovery: float = 0.05  # fraction by which each step straightens and speeds up
-    patience: float = 1.0  # s without a reading before it stops
+    timeout: float = 1.0  # s without a reading before it stops
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class TricycleAvoid:
 
     def _wait(self, dt: float) -> Command | None:
         self._silence += max(dt, 0.0)  # simulated time jumps back when the simulation restarts
-        if self.stopped or self._silence < self.settings.patience:
+        if self.stopped or self._silence < self.settings.timeout:
             return None
         self.stopped = True
         self._command = Command(self._command.steering, 0.0)

@@ -50,7 +50,7 @@ class Parameters:
         return f"{where(self.plugin)}: plugin '{self.plugin.name}' ({self.plugin.filename})"
 
     def text(self, name: str, default: str) -> str:
-        """Return a text without surrounding whitespace."""
+        """Return a string without surrounding whitespace."""
         found = self.given(name)
         return default if found is None else found
 
@@ -108,8 +108,8 @@ class Parameters:
     def names(self, name: str) -> list[str]:
         """Return the words of all elements of that name, separated by commas or spaces."""
         self._read.add(_key(name))
-        texts = [each.text for each in self.plugin.parameters if _key(each.name) == _key(name)]
-        return [word for text in texts for word in re.split(r"[,\s]+", text) if word]
+        strings = [each.text for each in self.plugin.parameters if _key(each.name) == _key(name)]
+        return [word for text in strings for word in re.split(r"[,\s]+", text) if word]
 
     def ignore(self, *names: str) -> None:
         """Accept parameters that have no effect here."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The state of plugins in saved states of a simulation: the values of their attributes, and of objects in these.
 
-All attributes are saved whose values are numbers, texts, arrays, random generators, and containers and objects of
+All attributes are saved whose values are numbers, strings, arrays, random generators, and containers and objects of
 this package of such. Others, such as topics and devices, are not: they have no state, or save it themselves.
 """
 

@@ -59,10 +59,10 @@ def _parse_arguments(arguments: list[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _find_all(texts: Iterable[str], specs: Specs, problems: list[str]) -> dict[str, str]:
+def _find_all(strings: Iterable[str], specs: Specs, problems: list[str]) -> dict[str, str]:
     """Return name and kind ("msg" or "srv") of each type."""
     kinds: dict[str, str] = {}
-    for text in texts:
+    for text in strings:
         name = type_name(text)
         if name is None:
             problems.append(f"'{text}' is not a type name, expected package/Type such as geometry_msgs/Twist")

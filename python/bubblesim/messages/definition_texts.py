@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Definition texts in generated C++ headers and Python classes, read without compiling or running them."""
+"""Definition strings in generated C++ headers and Python classes, read without compiling or running them."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ _LIKELY = 0.75  # minimum similarity, at most 1, for a suggestion
 
 
 def type_name(text: str) -> str | None:
-    """Return `package/Type`, also for `package/msg/Type` and `package/srv/Type`; None for other texts."""
+    """Return `package/Type`, also for `package/msg/Type` and `package/srv/Type`; None for other strings."""
     match = _NAME.fullmatch(text)
     return f"{match[1]}/{match[2]}" if match else None
 

@@ -84,20 +84,20 @@ class PackageIndex:
         halves = [short] if kind == "msg" else [f"{short}Request", f"{short}Response"]
         for include in self.include_folders:
             headers = [include / package / f"{half}.h" for half in halves]
-            texts = [header_definition(header) for header in headers if header.is_file()]
-            if definition := _joined(texts, halves, headers[0]):
+            strings = [header_definition(header) for header in headers if header.is_file()]
+            if definition := _joined(strings, halves, headers[0]):
                 return definition
         for folder in self.python_folders:
             module = folder / package / kind / f"_{short}.py"
-            texts = [class_definition(module, half) for half in halves] if module.is_file() else []
-            if definition := _joined(texts, halves, module):
+            strings = [class_definition(module, half) for half in halves] if module.is_file() else []
+            if definition := _joined(strings, halves, module):
                 return definition
         return None
 
 
-def _joined(texts: list[str | None], halves: list[str], file: Path) -> Definition | None:
-    """Return the definition joined from `texts`, None if one is missing."""
-    found = [text for text in texts if text is not None]
+def _joined(strings: list[str | None], halves: list[str], file: Path) -> Definition | None:
+    """Return the definition joined from `strings`, None if one is missing."""
+    found = [text for text in strings if text is not None]
     return Definition("---\n".join(found), file) if len(found) == len(halves) else None
 
 

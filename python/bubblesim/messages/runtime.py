@@ -86,7 +86,7 @@ def _message_tuple(specs: Specs, spec: Any) -> tuple[Any, ...]:
 
 
 def _bytes_of(value: Any) -> Any:
-    """Return texts as bytes, as in the file; return other values unchanged."""
+    """Return strings as bytes, as in the file; return other values unchanged."""
     return value.encode("utf-8", errors="surrogateescape") if isinstance(value, str) else value
 
 

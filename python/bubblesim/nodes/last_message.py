@@ -8,12 +8,12 @@ import time
 import genpy
 import rospy
 
-_PATIENCE = 2.0  # s for a subscriber that does not read
+_TIMEOUT = 2.0  # s for a subscriber that does not read
 
 
 def send_last(*messages: tuple[rospy.Publisher, genpy.Message]) -> None:
     """Publish each message and wait until it is sent: rospy sends from other threads, which end with the node."""
-    end = time.monotonic() + _PATIENCE
+    end = time.monotonic() + _TIMEOUT
     # A thread takes the next message after it has sent the one before: when the second is taken, the first is sent.
     for _ in range(2):
         for publisher, message in messages:

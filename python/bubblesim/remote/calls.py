@@ -100,7 +100,7 @@ class Calls:
         """Reply to all that wait that the simulator has ended."""
         for connection in list(self._socket.connections.values()):
             if connection.is_open:
-                fits = connection.pending is not None and connection.pending.fits_the_end
+                fits = connection.pending is not None and connection.pending.accepts_the_end
                 self._socket.send(connection, protocol.result(None) if fits else protocol.error(_ENDED))
         self._waiting.close()
 

@@ -20,8 +20,8 @@ from bubblesim.remote import protocol
 from bubblesim.remote.remote_client import ClientConnection
 from bubblesim.remote.router import NO_DESCRIPTOR, Received, Router
 
-_SLICE = 0.005  # s of requests between two looks at other commands
-_TOO_OLD = "the client speaks a version of ZeroMQ's protocol before 3.0: use libzmq 4, JeroMQ 0.4 or a later one"
+_SLICE = 0.005  # s of requests between two polls of other commands
+_TOO_OLD = "the client uses a version of ZeroMQ's protocol before 3.0: use libzmq 4, JeroMQ 0.4 or a later one"
 _MOST_REPORTED = 20  # errors of messages; a client could fill the disk
 
 
@@ -63,7 +63,7 @@ class ClientSocket:
         self._watch = self._watch_of_monitor = None
 
     def serve_again(self) -> None:
-        """Have ``serve`` called, whatever the descriptor says."""
+        """Have ``serve`` called, whether the descriptor is ready or not."""
         if self._watch is not None:
             self._watch.serve_again()
 

@@ -18,8 +18,8 @@ import zmq
 from bubblesim.remote import protocol
 from bubblesim.remote.remote_client import RemoteClient
 
-_PERIOD = 1 / 60  # s of wall time between two looks at the frame
-_IDLE = 250  # ms between two looks for the end, without readers
+_PERIOD = 1 / 60  # s of wall time between two polls of the frame
+_IDLE = 250  # ms between two polls of the end, without readers
 _REPEAT = 1.0  # s after which a frame is sent again, as a sign of life
 _MOST_WAITING = 2  # requests or frames for one reader
 _MOST_READERS = 1000

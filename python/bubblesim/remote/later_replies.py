@@ -18,7 +18,7 @@ class Pending:
     is_done: Callable[[], bool]
     """Asked after each step and after commands."""
     result: Callable[[], Any] = lambda: None
-    fits_the_end: bool = False
+    accepts_the_end: bool = False
     """The end of the simulator is what the client asked for."""
     due: float | None = None
     """Of ``time.monotonic``, s: when it is done at the latest, asked then, too; None: steps and commands suffice."""

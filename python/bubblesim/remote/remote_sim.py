@@ -92,7 +92,7 @@ class RemoteSim(SimApi):
     def stopSimulation(self, wait: bool = True) -> Any:
         """Stop after one more step and reset the scene; this ends the stepping modes of all clients."""
         self._runner.stop(wait=False)
-        return self._after_commands(fits_the_end=True)
+        return self._after_commands(accepts_the_end=True)
 
     def loadScene(self, file: str) -> Any:
         """See SimApi.loadScene."""
@@ -140,10 +140,10 @@ class RemoteSim(SimApi):
         before = server.steps
         return Pending(lambda: server.steps > before or self._stopped())
 
-    def _after_commands(self, *, fits_the_end: bool = False) -> Pending:
+    def _after_commands(self, *, accepts_the_end: bool = False) -> Pending:
         carried_out = threading.Event()
         self._caller.server.after_commands(carried_out.set)
-        return Pending(carried_out.is_set, fits_the_end=fits_the_end)
+        return Pending(carried_out.is_set, accepts_the_end=accepts_the_end)
 
     def _wait_for_wall_time(self, seconds: float) -> Pending:
         if not 0.0 <= seconds <= _LONGEST_WAIT:

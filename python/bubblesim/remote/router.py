@@ -24,7 +24,7 @@ _MOST_AHEAD = 1000  # messages that are received ahead
 _MOST_BYTES_AHEAD = 64 * 1024 * 1024
 
 NO_DESCRIPTOR = -1
-"""Instead of a descriptor: the peer speaks a ZMTP before 3.0, in which libzmq tells nothing about the connection."""
+"""Instead of a descriptor: the peer uses a ZMTP before 3.0, for which libzmq has no descriptor of the connection."""
 
 
 class Received(NamedTuple):

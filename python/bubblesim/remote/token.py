@@ -46,5 +46,5 @@ def read(file: Path) -> str:
 
 
 def is_same(one: str, other: str) -> bool:
-    """Compare two tokens in a time that tells nothing about them."""
+    """Compare two tokens in a time that does not depend on them."""
     return secrets.compare_digest(one.encode(), other.encode())

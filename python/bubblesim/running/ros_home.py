@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def use_writable_ros_home(instead: Path) -> None:
-    """Let ROS write to a folder instead of ~/.ros if it cannot write there; say so.
+    """Let ROS write to a folder instead of ~/.ros if it cannot write there; print this.
 
     roscore ends otherwise, and so does each node.
     """

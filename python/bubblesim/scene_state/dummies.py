@@ -1,70 +1,66 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Dummies: frames without a body that scripts and programs create at run time."""
+"""Dummies: frames without a body, of the scene's file or created at run time by scripts and programs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
-from bubblesim.geometry.poses import IDENTITY
-
-FIRST_HANDLE = 0x7FF00000
-"""Above the handles of the scene's objects, whose places have at most 2047 generations."""
 _MOST = 100_000
-_HANDLES = 0xF0000  # above are those of collections
+_SIZE = 0.01  # m, of CoppeliaSim's own dummies
 
 
 @dataclass
 class Dummy:
-    """A frame in the scene's tree."""
+    """What the world does not know of a frame."""
 
     handle: int
-    name: str
-    size: float
+    size: float = _SIZE
     """m, for drawings."""
-    temporary: bool
+    temporary: bool = False
     """It ends with the run in which it was created."""
-    parent: int = -1
-    """Handle of an object or a dummy; -1 for the world."""
-    pose: list[float] = field(default_factory=lambda: list(IDENTITY))
-    """In the frame of its parent; of a joint in its moving frame."""
     colours: dict[int, list[float]] = field(default_factory=dict)
     """Red, green, blue from 0 to 1, by colour component."""
 
 
 class Dummies:
-    """The dummies of a simulation by handle, in the order of their creation."""
+    """The dummies that were created, by handle in the order of their creation."""
 
     def __init__(self) -> None:
         """Create it without dummies."""
         self.by_handle: dict[int, Dummy] = {}
-        self._created = 0
+        self._of_file: dict[int, Dummy] = {}
 
-    def create(self, name: str, size: float, *, temporary: bool) -> Dummy:
+    def create(self, world: Any, name: str, size: float, *, temporary: bool) -> Dummy:
         """Add a dummy at the origin of the world."""
         if len(self.by_handle) >= _MOST:
             raise ValueError(f"a scene has at most {_MOST} dummies: remove some")
-        while (handle := FIRST_HANDLE + self._created % _HANDLES) in self.by_handle:
-            self._created += 1
-        self._created += 1
-        dummy = self.by_handle[handle] = Dummy(handle, name, size, temporary)
+        handle = int(world.add_dummy(name))
+        dummy = self.by_handle[handle] = Dummy(handle, size, temporary)
         return dummy
 
-    def children(self, parent: int) -> list[Dummy]:
-        """Return the dummies attached to an object or dummy, or to the world (-1)."""
-        return [dummy for dummy in self.by_handle.values() if dummy.parent == parent]
+    def of(self, handle: int) -> Dummy:
+        """Return what is known of a frame; of the file's frames what was set since."""
+        return self.by_handle.get(handle) or self._of_file.setdefault(handle, Dummy(handle))
 
-    def remove(self, handle: int) -> None:
-        """Remove a dummy and all dummies below it."""
-        for child in self.children(handle):
-            self.remove(child.handle)
-        self.by_handle.pop(handle, None)
+    def remove(self, world: Any, handle: int) -> None:
+        """Remove a created dummy and all those below it; other objects below it belong to the world then."""
+        for child in world.children(handle):
+            if child in self.by_handle:
+                self.remove(world, child)
+        world.remove_dummy(handle)
+        del self.by_handle[handle]
 
-    def remove_below(self, parents: set[int]) -> None:
-        """Remove the dummies attached to objects that are about to be removed."""
-        for dummy in [dummy for dummy in self.by_handle.values() if dummy.parent in parents]:
-            self.remove(dummy.handle)
+    def remove_below(self, world: Any, parents: set[int]) -> None:
+        """Remove the created dummies that are attached to objects that are about to be removed."""
+        for handle in list(self.by_handle):
+            if handle in self.by_handle and world.parent(handle) in parents:
+                self.remove(world, handle)
+        for handle in parents:
+            self._of_file.pop(handle, None)
 
-    def end_run(self) -> None:
+    def end_run(self, world: Any) -> None:
         """Remove the dummies that were created during the run that has ended."""
-        for dummy in [dummy for dummy in self.by_handle.values() if dummy.temporary]:
-            self.remove(dummy.handle)
+        for handle, dummy in list(self.by_handle.items()):
+            if dummy.temporary and handle in self.by_handle:
+                self.remove(world, handle)

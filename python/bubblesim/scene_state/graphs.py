@@ -141,7 +141,7 @@ class Graph:
         return self._created - 1
 
     def add_stream(self, name: str, unit: str, options: int, colour: Colour, cyclic_range: float) -> Stream:
-        """Add a stream, or change the one of this name."""
+        """Add a stream, or change the stream of this name."""
         for known in self.streams.values():
             if known.name == name and not known.is_static:
                 known.unit, known.options, known.colour, known.cyclic_range = unit, options, colour, cyclic_range

@@ -53,7 +53,7 @@ class Log:
         self._clock = clock
         self._entries: deque[Entry] = deque(maxlen=_MOST)
         self._written = 0
-        self._once: dict[tuple[int, int], None] = {}  # hashes of texts by level, in the order of their writing
+        self._once: dict[tuple[int, int], None] = {}  # hashes of strings by level, in the order of their writing
         self._lock = threading.Lock()
         self._unfinished: dict[tuple[int, str], str] = {}  # by level and object
 
@@ -65,7 +65,7 @@ class Log:
             self._entries.append(Entry(self._written, self._clock(), level, source, shown))
 
     def is_first(self, level: int, text: str) -> bool:
-        """Return whether a text that is to be written once was not written before; the last 5000 are remembered."""
+        """Return whether a string that is to be written once was not written before; the last 5000 are remembered."""
         key = level, hash(text)
         if key in self._once:
             return False

@@ -40,7 +40,7 @@ def scene_text(simulation: Any, edits: SceneEdits, folder: Path) -> str:
     <include> keep the colours of their file. Relative paths in the text become absolute if the scene's file is in
     another folder.
 
-    :raises ValueError: for changes that SDFormat cannot say, and for scenes that are not SDFormat.
+    :raises ValueError: for changes that SDFormat cannot express, and for scenes that are not SDFormat.
     """
     _check(simulation, edits)
     document = _text_of(simulation, folder)
@@ -152,7 +152,7 @@ def _added(
     """Return the element of an added model; ``elements`` are those of the file's models by their names."""
     name = str(simulation.world.name(model))
     colour = [float(part) for part in simulation.color(model)]
-    text = edits.texts.get(model)
+    text = edits.sources.get(model)
     root: Any = document.documentElement
     if text is not None:
         found = next(iter(_children(_parsed(text).documentElement, "model")), None)

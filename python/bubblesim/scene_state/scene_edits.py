@@ -27,8 +27,9 @@ class SceneEdits:
     """The changes, by handle of the object. Those of a run end with it; those of the stopped scene stay."""
 
     names: dict[int, str] = field(default_factory=dict)
+    """New names of objects, and"""
     parents: dict[int, int] = field(default_factory=dict)
-    """Of outermost models, which the file attaches to the world."""
+    """new parents, which the world has too: kept to take them back, and because files have no place for them."""
     static: set[int] = field(default_factory=set)
     """Models that move only with their parent."""
     holds: dict[int, Hold] = field(default_factory=dict)
@@ -36,8 +37,8 @@ class SceneEdits:
     """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
     shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
     """Created shapes, by the handle of their model."""
-    texts: dict[int, str] = field(default_factory=dict)
-    """SDFormat texts of models that callers have added."""
+    sources: dict[int, str] = field(default_factory=dict)
+    """SDFormat strings of models that callers have added."""
     originals: dict[int, str] = field(default_factory=dict)
     """Names of the file's models of which others are copies."""
     colours: SetColours = field(default_factory=SetColours)
@@ -46,6 +47,9 @@ class SceneEdits:
     """Present handles of created shapes that were built anew, by the handle that callers know."""
     stopped: Callable[[], bool] = lambda: False
     """Whether the simulation is stopped: changes stay then."""
+    _first_names: dict[int, str] = field(default_factory=dict)
+    """Of the file."""
+    _first_parents: dict[int, int] = field(default_factory=dict)
     _before: tuple[dict[int, str], dict[int, int], set[int], dict[int, Hold]] | None = None
 
     def begin_change(self) -> None:
@@ -53,23 +57,57 @@ class SceneEdits:
         if not self.stopped() and self._before is None:
             self._before = (dict(self.names), dict(self.parents), set(self.static), dict(self.holds))
 
-    def end_run(self) -> None:
+    def note_name(self, handle: int, before: str, name: str) -> None:
+        """Keep the new name of an object of the scene."""
+        first = self._first_names.setdefault(handle, before)
+        self.names[handle] = name
+        if name == first:
+            del self.names[handle], self._first_names[handle]
+
+    def note_parent(self, handle: int, before: int, parent: int) -> None:
+        """Keep the new parent of an object of the scene."""
+        first = self._first_parents.setdefault(handle, before)
+        self.parents[handle] = parent
+        if parent == first:
+            del self.parents[handle], self._first_parents[handle]
+
+    def end_run(self, world: Any) -> None:
         """Take back the changes of the run that has ended."""
         if self._before is None:
             return
-        self.names, self.parents, self.static, self.holds = self._before
+        names, parents, self.static, self.holds = self._before
+        for handle in self.names:
+            world.set_alias(handle, names.get(handle, self._first_names[handle]))
+        for handle in self.parents:
+            wanted = parents.get(handle, self._first_parents[handle])
+            if int(world.parent(handle)) != wanted:
+                world.set_parent(handle, wanted)
+        self.names, self.parents = names, parents
+        self._first_names = {handle: name for handle, name in self._first_names.items() if handle in names}
+        self._first_parents = {handle: each for handle, each in self._first_parents.items() if handle in parents}
         self._before = None
 
     def remove(self, gone: set[int]) -> None:
         """Forget objects that are about to be removed; models that are attached to them belong to the world then."""
         for handle in gone:
-            tables: list[dict[int, Any]] = [self.names, self.parents, self.holds, self.placed, self.shapes, self.texts]
+            tables: list[dict[int, Any]] = [
+                self.names,
+                self.parents,
+                self.holds,
+                self.placed,
+                self.shapes,
+                self.sources,
+            ]
             tables += [self.originals, self.colours.links, self.numbers.links]
+            tables += [self._first_names, self._first_parents]
             for table in tables:
                 table.pop(handle, None)
             self.static.discard(handle)
-        for model in [model for model, parent in self.parents.items() if parent in gone]:
-            del self.parents[model]
+        for attached in [handle for handle, parent in self.parents.items() if parent in gone]:
+            del self.parents[attached], self._first_parents[attached]
+        for table in self._before[:2] if self._before else ():
+            for handle in [handle for handle in table if handle in gone or table[handle] in gone]:
+                del table[handle]
         for hold in self.holds.values():
             if hold.frame in gone:
                 hold.frame = -1
@@ -94,6 +132,8 @@ class SceneEdits:
     def restore(self, world: Any) -> None:
         """Set the poses and numbers of the stopped scene again, after the world was reset."""
         self.numbers.restore(world)
+        for handle, parent in self.parents.items():
+            world.set_parent(handle, parent)  # a frame is carried by it again
         for handle, pose in self.placed.items():
             world.set_pose(handle, pose)
         for model, hold in self.holds.items():

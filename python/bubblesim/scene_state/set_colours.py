@@ -44,4 +44,4 @@ def links_of(world: Any, handle: int) -> list[int]:
     kind = world.kind(handle)
     if kind == "link":
         return [handle]
-    return [link for child in world.children(handle) for link in links_of(world, int(child))] if kind == "model" else []
+    return [int(link) for link in world.parts(handle, "link")] if kind == "model" else []

@@ -65,11 +65,11 @@ class SharedData:
     cleared_scans: dict[str, float] = field(default_factory=dict)
     """Time of the last measurement, s, when a lidar's signal was cleared, by the signal's name."""
 
-    def clear(self) -> None:
-        """Delete what ends with a run."""
+    def clear(self, world: Any) -> None:
+        """Delete what ends with a run of a world."""
         self.signals.clear()
-        self.dummies.end_run()
+        self.dummies.end_run(world)
         self.drawings.end_run()
         self.collections.end_run()
-        self.edits.end_run()
+        self.edits.end_run(world)
         self.cleared_scans.clear()

@@ -59,7 +59,7 @@ class Program(Protocol):
 
 @dataclass(frozen=True)
 class FileProgram:
-    """A Python file; it defines `run(run: Run)`, which returns a dict of numbers and texts."""
+    """A Python file; it defines `run(run: Run)`, which returns a dict of numbers and strings."""
 
     file: str  # absolute path
     text: str
@@ -180,7 +180,7 @@ def _measure(simulation: bubblesim.Simulation, name: str) -> dict[str, Result]:
     if getattr(value, "shape", None) in ((3,), (4,)):
         return {f"{name}.{axis}": number for axis, number in zip("xyzw", value.tolist(), strict=False)}
     if not isinstance(value, int | float | str):
-        raise SweepError(f"{name}: a {type(value).__name__} cannot be a result, only numbers, texts and vectors can")
+        raise SweepError(f"{name}: a {type(value).__name__} cannot be a result, only numbers, strings and vectors can")
     return {name: value}
 
 
@@ -193,7 +193,7 @@ def _checked(returned: Any, task: Task) -> dict[str, Result]:
     for name, value in returned.items():
         plain = value.item() if hasattr(value, "item") and getattr(value, "shape", None) == () else value
         if not isinstance(name, str) or name in taken:
-            raise ValueError(f"the result {name!r} needs another name: a text, and not {', '.join(sorted(taken))}")
+            raise ValueError(f"the result {name!r} needs another name: a string, and not {', '.join(sorted(taken))}")
         if plain is not None and not isinstance(plain, int | float | str):
             raise TypeError(f"the result {name!r} must be a number, text, bool or None, found {type(value).__name__}")
         results[name] = plain

@@ -69,7 +69,7 @@ class RayWorkers:
 
 
 def _run(program: Program, task: Task) -> Outcome | str:
-    """Carry out one run on a node; return a text if the program cannot be loaded."""
+    """Carry out one run on a node; return a string if the program cannot be loaded."""
     try:
         function = _loaded(program)  # type: ignore[arg-type]  # programs are frozen dataclasses
     except (ValueError, LookupError) as error:

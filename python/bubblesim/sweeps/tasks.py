@@ -91,12 +91,12 @@ def _is_number(text: str) -> bool:
         return False
 
 
-def _of_one_type(texts: Sequence[str]) -> list[Value]:
+def _of_one_type(strings: Sequence[str]) -> list[Value]:
     """Convert to int, if one is no int to float, and if one is no number to text: columns of a table have one type."""
-    if not all(map(_is_number, texts)):
-        return list(texts)
-    whole = all(re.fullmatch(r"[+-]?\d+", text) for text in texts)
-    return [int(text) if whole else float(text) for text in texts]
+    if not all(map(_is_number, strings)):
+        return list(strings)
+    whole = all(re.fullmatch(r"[+-]?\d+", text) for text in strings)
+    return [int(text) if whole else float(text) for text in strings]
 
 
 def _range(text: str, first: Decimal, last: Decimal, step: Decimal) -> list[Value]:

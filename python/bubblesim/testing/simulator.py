@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _NODE = "/sim_ros_interface"
 _TIMEOUT = 30.0  # s
-_STARTING_PATIENCE = 20.0  # s until a controller is connected; longer than the node waits in a step
+_STARTING_TIMEOUT = 20.0  # s until a controller is connected; longer than the node waits in a step
 _POLL = 0.03  # s; each query keeps the master from other nodes for some milliseconds
 _STEPS_PER_CALL = 200
 _TOLERANCE = 1e-6  # of a second
@@ -74,7 +74,7 @@ class Simulator:
         from bubblesim.observers.lock_step import BEFORE_THE_CONTROLLER  # loads slowly, while the node also starts
 
         before = self.time
-        deadline = time.monotonic() + _STARTING_PATIENCE
+        deadline = time.monotonic() + _STARTING_TIMEOUT
         while problem := self._try_steps(steps):
             self._programs.check()  # a program that has ended is the better explanation
             if not problem.startswith(BEFORE_THE_CONTROLLER) or time.monotonic() > deadline:

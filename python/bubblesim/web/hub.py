@@ -18,7 +18,7 @@ from bubblesim.remote.control_lane import path_of
 from bubblesim.remote.token import read
 from bubblesim.web.node_client import NoAnswerError, NodeClient
 
-_PERIOD = 1 / 60  # s between two looks at the frames
+_PERIOD = 1 / 60  # s between two polls of the frames
 _IDLE = 0.25  # s, without pages
 _MOST_EVENTS = 10_000
 _BETWEEN_TRIES = 0.5  # s, for a simulator that is gone
@@ -112,9 +112,9 @@ class Hub:
                     return
                 if now_notices != notices:
                     notices = now_notices
-                    news = await self._node.call("window.events", next_event, timeout=_ANSWER)
-                    next_event = news["next"]
-                    for name, data in news["events"]:
+                    changes = await self._node.call("window.events", next_event, timeout=_ANSWER)
+                    next_event = changes["next"]
+                    for name, data in changes["events"]:
                         self.emit(name, data)
                     await self._notify()
                 if revision is not None and now_revision != revision:

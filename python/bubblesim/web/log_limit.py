@@ -15,7 +15,7 @@ _LOGGERS = ("aiohttp.server", "aiohttp.web", "aiohttp.websocket", "aiohttp.inter
 
 
 class _Limit(logging.Filter):
-    """Lets a few records pass in each period, then says that it leaves out others."""
+    """Lets a few records pass in each period, then logs that it leaves out others."""
 
     def __init__(self) -> None:
         super().__init__()

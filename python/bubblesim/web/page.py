@@ -2,7 +2,7 @@
 """The connection of one page: its calls, the frames and the events.
 
 The first message of a page is the token, as text. All others are binary. Those of the page are CBOR lists:
-``[number, function, arguments, connection]`` is a call, ``[count]`` says that a frame was drawn. Those of the server
+``[number, function, arguments, connection]`` is a call, ``[count]`` reports that a frame was drawn. Those of the server
 are frames, which begin with a zero byte (see FrameReader.packed), and CBOR lists: ``[number, reply]`` answers a call,
 ``[null, name, data]`` is an event.
 """
@@ -73,14 +73,14 @@ class Page:
 
     async def _receive_all(self, tasks: asyncio.TaskGroup) -> None:
         self.hub.pages += 1
-        news = tasks.create_task(self._send_news())
+        changes = tasks.create_task(self._send_events())
         try:
             async for message in self._socket:
                 if message.type == WSMsgType.BINARY:
                     await self._receive(message.data, tasks)
         finally:
             self.hub.pages -= 1
-            for task in (news, *self._calls):
+            for task in (changes, *self._calls):
                 task.cancel()
 
     async def _receive(self, data: bytes, tasks: asyncio.TaskGroup) -> None:
@@ -126,7 +126,7 @@ class Page:
         except Exception as error:
             return _encode({"err": str(error) or type(error).__name__})
 
-    async def _send_news(self) -> None:
+    async def _send_events(self) -> None:
         """Send events and frames: all events, and of the frames the last one when the page is ready for it."""
         hub = self.hub
         next_event = hub.next_event

@@ -43,12 +43,12 @@ def main() -> int:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the server."""
     parser.add_argument(
-        "--door",
+        "--remote",
         metavar="PORT_OR_PATH",
         default="23000",
         help="port of the node's --remote on this machine (default 23000), or path of its socket",
     )
-    parser.add_argument("--door-token", metavar="FILE", help="token of a node that runs with --remote-token=FILE")
+    parser.add_argument("--remote-token", metavar="FILE", help="token of a node that runs with --remote-token=FILE")
     parser.add_argument("--port", type=int, help=f"port of the page (default: {PORT}, or the next free one)")
     parser.add_argument(
         "--address",
@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "programs as you, over a connection that is not encrypted",
     )
     parser.add_argument(
-        "--look",
+        "--read-only",
         action="store_true",
         help="pages are read-only: no scripts, files or programs",
     )
@@ -80,7 +80,7 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         loop.add_signal_handler(number, ending.set)
     if options.until_closed is not None:  # by the end of the program that has started this
         loop.add_reader(options.until_closed, ending.set)
-    hub = Hub(_node_address(options.door), Path(options.door_token) if options.door_token else None)
+    hub = Hub(_node_address(options.remote), Path(options.remote_token) if options.remote_token else None)
     application = web.Application()
     runner = web.AppRunner(application, access_log=None, keepalive_timeout=5.0)
     connections = Connections()
@@ -91,7 +91,7 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
         return web.FileResponse(folder / "index.html")
 
     async def page(request: web.Request) -> web.StreamResponse:
-        return await serve_page(request, access, hub, may_edit=not options.look)
+        return await serve_page(request, access, hub, may_edit=not options.read_only)
 
     application.router.add_get("/", index)
     application.router.add_get("/socket", page)

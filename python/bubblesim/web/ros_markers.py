@@ -19,7 +19,7 @@ from bubblesim.web.threads import in_thread
 
 _OWN = "/bubblesim/drawings"  # pages have the drawings of scripts from the simulator
 _KINDS = ("visualization_msgs/Marker", "visualization_msgs/MarkerArray")
-_BETWEEN_SCANS = 2.0  # s between two looks for topics
+_BETWEEN_SCANS = 2.0  # s between two searches for topics
 _MOST_MARKERS = 5000
 _MOST_POINTS = 200_000  # of one marker
 _DEEPEST = 100  # frames
@@ -29,7 +29,7 @@ Pose = list[float]  # x, y, z (m) and the quaternion x, y, z, w
 
 
 class PageMarkers:
-    """The markers that the topics hold now. Empty until the first ``news``."""
+    """The markers that the topics hold now. Empty until the first ``changes``."""
 
     def __init__(self) -> None:
         """Subscribe to nothing yet."""
@@ -41,7 +41,7 @@ class PageMarkers:
         self._revision = 0
         self._next_scan = 0.0
 
-    async def news(self, since: int) -> dict[str, Any]:
+    async def changes(self, since: int) -> dict[str, Any]:
         """Return the ``revision``, all ``markers`` if it is not ``since``, and the ``frames`` that they are in."""
         if time.monotonic() >= self._next_scan:
             self._next_scan = time.monotonic() + _BETWEEN_SCANS
@@ -53,10 +53,10 @@ class PageMarkers:
                 self._revision += 1
             markers = [marker for marker, _ in self._markers.values()]
             frames = {frame: list(self._ancestors(frame)) for frame in {marker["frame"] for marker in markers}}
-            news: dict[str, Any] = {"revision": self._revision, "frames": frames}
+            changes: dict[str, Any] = {"revision": self._revision, "frames": frames}
             if since != self._revision:
-                news["markers"] = markers
-            return news
+                changes["markers"] = markers
+            return changes
 
     async def close(self) -> None:
         """End all subscriptions."""
@@ -141,9 +141,9 @@ def _plain(marker: Any) -> dict[str, Any]:
     }
 
 
-async def news(page: Any, since: int) -> dict[str, Any]:
-    """See PageMarkers.news."""
-    found: dict[str, Any] = await page.markers.news(since)
+async def changes(page: Any, since: int) -> dict[str, Any]:
+    """See PageMarkers.changes."""
+    found: dict[str, Any] = await page.markers.changes(since)
     return found
 
 

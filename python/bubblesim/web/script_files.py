@@ -53,13 +53,13 @@ async def save(page: Any, handle: int, text: str, version: str) -> dict[str, Any
 
 
 async def check(page: Any, handle: int, text: str) -> list[dict[str, Any]]:
-    """Compile a text in place of a script's own, without running it; return its errors with ``line`` and ``text``."""
+    """Compile a string in place of a script's own, without running it; return its errors with ``line`` and ``text``."""
     script = await _find(page, handle)
     return check_text(Path(script["file"]), text[:_MOST_CHARACTERS])
 
 
 def check_text(file: Path, text: str) -> list[dict[str, Any]]:
-    """Return the errors of a text as a script's source; errors of included files are at line 1."""
+    """Return the errors of a string as a script's source; errors of included files are at line 1."""
     if is_lua(file, text):
         return _check_lua(text)
     try:

@@ -51,7 +51,7 @@ _LOOKING: dict[str, Callable[..., Awaitable[Any]]] = {
     "server.watchTopic": _watch,
     "server.topicSamples": _samples,
     "server.unwatchTopic": _unwatch,
-    "server.markers": ros_markers.news,
+    "server.markers": ros_markers.changes,
     "server.endMarkers": ros_markers.end,
     "server.recording": _state,
     "server.sceneFolders": scene_files.folders,

@@ -46,7 +46,7 @@ std::vector<std::string> parts_between(const std::string& line, const std::vecto
   return parts;
 }
 
-/// Of a text "package/Type/md5".
+/// Of a string "package/Type/md5".
 TypeVersion type_version(const std::string& text) {
   const std::size_t slash = std::min(text.rfind('/'), text.size());
   return {text.substr(0, slash), text.substr(std::min(slash + 1, text.size()))};

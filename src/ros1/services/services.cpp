@@ -30,11 +30,11 @@ constexpr std::size_t kRetiredKept = 64;
 constexpr int kMostNested = 16;
 constexpr int kMostLeftBehind = 16;     // threads of calls that wait for a hanging master
 constexpr double kLongestWait = 86400;  // [s]; more would overflow the clock
-constexpr double kOneLook = 0.5;        // [s]
+constexpr double kOneAttempt = 0.5;     // [s]
 // Time after the timeout for a thread to report the timeout.
 constexpr std::chrono::milliseconds kGrace{100};
 
-Deadline patience_for(double timeout) {
+Deadline deadline_after(double timeout) {
   const std::chrono::duration<double> seconds(std::min(timeout, kLongestWait));
   return Deadline(Clock::now() + std::chrono::duration_cast<Clock::duration>(seconds));
 }
@@ -159,7 +159,7 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
   };
   const auto call = std::make_shared<Call>();
   call->request = std::move(request);
-  const Deadline deadline = patience_for(timeout);
+  const Deadline deadline = deadline_after(timeout);
   const bool finished = run_beside(
       [call, deadline, service = name, &wanted = type] {
         try {
@@ -183,7 +183,7 @@ bool Services::wait_for(const std::string& name, double timeout) {
   if (!(timeout >= 0)) throw std::invalid_argument("the timeout for a service must not be negative");
   if (find_own(resolved)) return true;
   const auto found = std::make_shared<bool>(false);
-  const Deadline deadline = patience_for(timeout > 0 ? timeout : kOneLook);
+  const Deadline deadline = deadline_after(timeout > 0 ? timeout : kOneAttempt);
   const auto look = [found, deadline, resolved, once = timeout == 0] {
     while (!(*found = find_service(resolved, deadline)) && !once && !deadline.over()) {
       std::this_thread::sleep_for(deadline.slice());

@@ -45,13 +45,13 @@ void Diagnostics::publish() {
   if (!updater_) {
     updater_ = std::make_unique<diagnostic_updater::Updater>();
     updater_->setHardwareID("bubblesim");
-    updater_->add("Simulation", [this](Status& status) { tell_simulation(status); });
-    updater_->add("Topics", [this](Status& status) { tell_topics(status); });
+    updater_->add("Simulation", [this](Status& status) { report_simulation(status); });
+    updater_->add("Topics", [this](Status& status) { report_topics(status); });
   }
   updater_->force_update();
 }
 
-void Diagnostics::tell_simulation(Status& status) {
+void Diagnostics::report_simulation(Status& status) {
   const RunReport report = take_report_();
   const double factor = real_time_factor(report);
   const bool paced = std::isfinite(report.wanted_speed);
@@ -84,7 +84,7 @@ void Diagnostics::tell_simulation(Status& status) {
   status.add("Measurements of sensors", report.measurements);
 }
 
-void Diagnostics::tell_topics(Status& status) {
+void Diagnostics::report_topics(Status& status) {
   traffic_.count();
   status.summary(Level::OK, "nothing dropped");
   for (const auto& [topic, count] : traffic_.just_dropped()) {

@@ -33,8 +33,8 @@ class Diagnostics {
   using Clock = std::chrono::steady_clock;
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  void tell_simulation(Status& status);
-  void tell_topics(Status& status);
+  void report_simulation(Status& status);
+  void report_topics(Status& status);
 
   const std::function<RunReport()> take_report_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;  // made late: its constructor calls the master

@@ -9,7 +9,7 @@
 #include "check/checks.hpp"
 #include "check/scene_check.hpp"
 #include "scene/describe.hpp"
-#include "scene/joint_types.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -74,46 +74,12 @@ void check_mimic(Checker& checker, const ModelDescription& model, const JointDes
   }
 }
 
-void check_revolute2(Checker& checker, const JointDescription& joint) {
-  if (joint.parent == "world") checker.report("a revolute2 joint needs a link as its parent, not the world");
-  if (std::isfinite(joint.axes[1].lower) || std::isfinite(joint.axes[1].upper)) {
-    checker.report("the second axis of a revolute2 joint turns freely: it cannot have limits");
-  }
-  checker.require(joint.axes[0].direction.cross(joint.axes[1].direction).norm() > 1e-3, "the second axis",
-                  text(joint.axes[1].direction), "not parallel to the first");
-}
-
-void check_universal(Checker& checker, const JointDescription& joint) {
-  checker.require(within(joint.axes[0].direction.dot(joint.axes[1].direction), 1e-2), "the second axis",
-                  text(joint.axes[1].direction), "at right angles to the first");
-}
-
-void check_gearbox(Checker& checker, const ModelDescription& model, const JointDescription& joint) {
-  checker.require(std::abs(joint.gearbox_ratio) >= 1e-3 && within(joint.gearbox_ratio, 1e3), "the gearbox ratio",
-                  text(joint.gearbox_ratio), "1e-3 to 1e3 in absolute value");
-  if (joint.gearbox_reference != "world") {
-    checker.check_link_name(model, joint.gearbox_reference, "gearbox_reference_body");
-  }
-  for (const std::string& link : {joint.parent, joint.child}) {
-    if (hinge_between(model, joint.gearbox_reference, link) != nullptr) continue;
-    checker.report("a gearbox couples two hinges: '" + link + "' needs a revolute joint with the reference body '" +
-                   joint.gearbox_reference + "'");
-  }
-  for (const AxisDescription& axis : joint.axes) {
-    if (axis.motor != MotorMode::kNone || axis.mimic || axis.friction > 0 || axis.damping > 0 ||
-        axis.spring_stiffness > 0 || std::isfinite(axis.lower) || std::isfinite(axis.upper)) {
-      checker.report(
-          "a gearbox cannot have a motor, limits, friction, damping or spring: set them on the hinges of its links");
-      return;
-    }
-  }
-}
-
 }  // namespace
 
 const JointDescription* hinge_between(const ModelDescription& model, const std::string& one, const std::string& other) {
   for (const JointDescription& joint : model.joints) {
-    if (joint.type != "revolute" && joint.type != "continuous") continue;
+    const JointKind* kind = find_joint_kind(joint.type);
+    if (kind == nullptr || !kind->is_hinge) continue;
     if ((joint.parent == one && joint.child == other) || (joint.parent == other && joint.child == one)) return &joint;
   }
   return nullptr;
@@ -124,34 +90,23 @@ void check_joint(Checker& checker, const ModelDescription& model, const JointDes
   if (joint.parent != "world") checker.check_link_name(model, joint.parent, "parent");
   checker.check_link_name(model, joint.child, "child");
   if (joint.parent == joint.child) checker.report("connects the link '" + joint.parent + "' with itself");
-  std::vector<std::string> types;
-  const JointType* type = nullptr;
-  for (const JointType& known : joint_types()) {
-    types.emplace_back(known.name);
-    if (joint.type == known.name) type = &known;
-  }
-  if (type == nullptr) {
+  const JointKind* kind = find_joint_kind(joint.type);
+  if (kind == nullptr) {
     std::string list;
-    for (const std::string& known : types) list += (list.empty() ? "" : ", ") + known;
+    for (const JointKind* known : joint_kinds()) list += (list.empty() ? "" : ", ") + std::string(known->name);
     checker.report("joint type '" + joint.type + "' is not supported; supported types: " + list);
     return;
   }
-  if (static_cast<int>(joint.axes.size()) != type->axes) {
+  if (static_cast<int>(joint.axes.size()) != kind->axes) {
     checker.report("the number of axes is " + std::to_string(joint.axes.size()) + ", it must be " +
-                   std::to_string(type->axes) + " for a " + joint.type + " joint");
+                   std::to_string(kind->axes) + " for a " + joint.type + " joint");
     return;
   }
   for (const AxisDescription& axis : joint.axes) {
     check_axis(checker, axis);
     if (axis.mimic) check_mimic(checker, model, joint, *axis.mimic);
   }
-  if (joint.type == "revolute2") check_revolute2(checker, joint);
-  if (joint.type == "universal") check_universal(checker, joint);
-  if (joint.type == "gearbox") check_gearbox(checker, model, joint);
-  if (joint.type == "screw") {
-    checker.require(std::abs(joint.screw_lead) >= 1e-6 && within(joint.screw_lead, 1e3), "the screw's lead",
-                    text(joint.screw_lead) + " m", "1e-6 to 1e3 m per turn in absolute value");
-  }
+  kind->check(checker, model, joint);
 }
 
 }  // namespace bubblesim

@@ -38,5 +38,8 @@ void check_shapes(Checker& checker, const ModelDescription& model, const LinkDes
 void check_sensors(Checker& checker, const LinkDescription& link, const std::string& path);
 void check_sensors(Checker& checker, const JointDescription& joint, const std::string& path);
 void check_joint(Checker& checker, const ModelDescription& model, const JointDescription& joint);
+void check_places(Checker& checker, const SceneDescription& scene);
+/// Of a model alone, whose objects may have had their parents elsewhere.
+void check_places(Checker& checker, const ModelDescription& model);
 
 }  // namespace bubblesim

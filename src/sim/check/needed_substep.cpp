@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "scene/joint_kind.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -14,8 +16,8 @@ constexpr double kTensions = 3;  // of a swing from the horizontal, in weights o
 
 /// Whether nothing but inertia determines the rotation of a joint.
 bool is_free(const JointDescription& joint) {
-  if (joint.type == "ball") return true;
-  if (joint.type != "revolute" && joint.type != "continuous" && joint.type != "universal") return false;
+  const JointKind* kind = find_joint_kind(joint.type);
+  if (kind == nullptr || !kind->swings) return false;
   return std::all_of(joint.axes.begin(), joint.axes.end(), [](const AxisDescription& axis) {
     return (axis.motor == MotorMode::kNone || axis.motor == MotorMode::kEffort) && !axis.mimic;
   });

@@ -98,6 +98,11 @@ void check_model(Checker& checker, const ModelDescription& model) {
     checker.check_pose(nested.pose);
     if (!nested.canonical_link.empty()) checker.check_link_name(model, nested.canonical_link, "canonical link");
   }
+  for (const FrameDescription& frame : model.frames) {
+    once(frame.source, frame.name);
+    checker.check_pose(frame.pose);
+    if (!frame.link.empty()) checker.check_link_name(model, frame.link, "carrying link");
+  }
   checker.at(model.source, "/" + model.name);
   if (!model.canonical_link.empty()) checker.check_link_name(model, model.canonical_link, "canonical link");
 }
@@ -115,6 +120,12 @@ void check_scene(Checker& checker, const SceneDescription& scene) {
   checker.require(within(scene.gravity, kMaxGravity), "gravity", text(scene.gravity), "finite and at most 1e4 m/s^2");
   check_environment(checker, scene.environment);
   for (const ModelDescription& model : scene.models) check_model(checker, model);
+  for (const FrameDescription& frame : scene.frames) {
+    checker.at(frame.source, "/" + frame.name);
+    checker.check_pose(frame.pose);
+    if (!frame.link.empty()) checker.report("a frame of no model stays in the world: it has no link that carries it");
+  }
+  check_places(checker, scene);
 }
 
 }  // namespace
@@ -137,6 +148,7 @@ bool is_positive_definite(const Vector3& d, const Vector3& p) {
 std::vector<Problem> check_model(const ModelDescription& model) {
   Checker checker;
   check_model(checker, model);
+  check_places(checker, model);
   return checker.found();
 }
 

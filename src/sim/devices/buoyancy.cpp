@@ -104,7 +104,8 @@ void Buoyancy::lift(World& world, const Floating& link, const Solid& solid) cons
     const double volume = next.volume - below.volume;
     if (volume > 0) {
       const Vector3 centroid = (next.moment - below.moment) / volume;
-      world.apply_wrench(link.link, {-world.gravity() * (layers_[i].density * volume), {}}, pose * centroid);
+      world.wrenches().apply(link.link, {-world.properties().gravity() * (layers_[i].density * volume), {}},
+                             pose * centroid);
     }
     if (contains_rest) return;
     below = next;
@@ -116,7 +117,8 @@ void Buoyancy::update(World& world, double, double) {
   for (const Floating& link : links_) {
     if (link.given) {
       const Vector3 centre = world.pose(link.link) * link.given->centre;
-      world.apply_wrench(link.link, {-world.gravity() * (density_at(centre.z()) * link.given->volume), {}}, centre);
+      world.wrenches().apply(
+          link.link, {-world.properties().gravity() * (density_at(centre.z()) * link.given->volume), {}}, centre);
     }
     for (const Solid& solid : link.solids) lift(world, link, solid);
   }

@@ -51,7 +51,7 @@ void Drag::update(World& world, double, double duration) {
   const Vector3 turning = pose.orientation.conjugate() * twist.angular;
   const Vector3 force = resistance(velocity, d.linear, d.quadratic, Vector3::Constant(link.mass), duration);
   const Vector3 torque = resistance(turning, d.angular_linear, d.angular_quadratic, link.inertia_diagonal, duration);
-  world.apply_wrench(d.link, {pose.orientation * force, pose.orientation * torque}, pose.position);
+  world.wrenches().apply(d.link, {pose.orientation * force, pose.orientation * torque}, pose.position);
 }
 
 void Drag::reset(World&) { current_ = Vector3::Zero(); }

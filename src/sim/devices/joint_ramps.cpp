@@ -54,9 +54,9 @@ void JointRamps::update(World& world, double, double duration) {
   for (const Output& output : outputs_) {
     const double sum = std::inner_product(inputs_.begin(), inputs_.end(), output.factors.begin(), 0.0);
     if (output.mode == MotorMode::kPosition) {
-      world.set_target_position(output.joint, sum);
+      world.joints().set_target_position(output.joint, sum);
     } else {
-      world.set_target_velocity(output.joint, std::clamp(sum, -kMaxSpeed, kMaxSpeed));
+      world.joints().set_target_velocity(output.joint, std::clamp(sum, -kMaxSpeed, kMaxSpeed));
     }
   }
 }

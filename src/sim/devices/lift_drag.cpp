@@ -40,7 +40,7 @@ void check_wing(const World& world, const LiftDragDescription& d) {
   const bool usable = within(d.forward, kMaxSpeed) && within(d.upward, kMaxSpeed) &&
                       d.forward.normalized().cross(d.upward.normalized()).norm() > 1e-6;
   require(usable, "forward and upward directions", text(d.forward) + ", " + text(d.upward), "not parallel");
-  if (d.control_joint != kNoObject) world.max_force(d.control_joint);  // throws when it has no axis
+  if (d.control_joint != kNoObject) world.joints().max_force(d.control_joint);  // throws when it has no axis
 }
 
 /// A coefficient that is proportional to the angle of attack up to the stall.
@@ -93,12 +93,12 @@ void LiftDrag::update(World& world, double, double) {
   const double alpha = folded(d.alpha0 + (lift_direction.dot(forward) >= 0 ? lean : -lean));
   double lift = coefficient(alpha, d.lift_slope, d.alpha_stall, d.lift_slope_stall) * sweep_factor;
   if (std::abs(alpha) > d.alpha_stall) lift = alpha > 0 ? std::max(lift, 0.0) : std::min(lift, 0.0);
-  if (d.control_joint != kNoObject) lift += d.control_slope * world.joint_position(d.control_joint);
+  if (d.control_joint != kNoObject) lift += d.control_slope * world.joints().position(d.control_joint);
   const double drag = std::abs(coefficient(alpha, d.drag_slope, d.alpha_stall, d.drag_slope_stall) * sweep_factor);
 
   const double pressure = 0.5 * d.density * speed * speed;
   const Vector3 force = (lift_direction * lift - in_plane / speed * drag) * (pressure * d.area);
-  world.apply_wrench(d.link, {force, {}}, pose.position + offset);
+  world.wrenches().apply(d.link, {force, {}}, pose.position + offset);
 }
 
 }  // namespace bubblesim

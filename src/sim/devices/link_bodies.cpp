@@ -12,12 +12,12 @@ const LinkDescription& link_description(const World& world, ObjectId link) {
   if (object.kind != ObjectKind::kLink) {
     throw WrongObject(world.tree().short_path(link) + " is a " + std::string(kind_name(object.kind)) + ", not a link");
   }
-  return world.description(link).links[object.index];
+  return world.models().description(link).links[object.index];
 }
 
 void check_pushable(const World& world, ObjectId link) {
   link_description(world, link);
-  if (world.description(link).is_static) {
+  if (world.models().description(link).is_static) {
     throw WrongObject(world.tree().short_path(link) + " is static: it cannot be moved");
   }
 }
@@ -25,7 +25,7 @@ void check_pushable(const World& world, ObjectId link) {
 std::vector<ObjectId> moving_links(const World& world, const std::function<bool(const LinkDescription&)>& matches) {
   std::vector<ObjectId> found;
   for (const ObjectId model : world.tree().models()) {
-    if (world.description(model).is_static) continue;
+    if (world.models().description(model).is_static) continue;
     for (const ObjectId link : world.tree().parts(model, ObjectKind::kLink)) {
       if (matches(link_description(world, link))) found.push_back(link);
     }

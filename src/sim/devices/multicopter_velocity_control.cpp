@@ -26,7 +26,7 @@ Axes axes_of(const Quaternion& turn) {
 
 double mass_of_model(const World& world, ObjectId link) {
   double mass = 0;
-  for (const LinkDescription& each : world.description(link).links) mass += each.mass;
+  for (const LinkDescription& each : world.models().description(link).links) mass += each.mass;
   return mass;
 }
 
@@ -37,7 +37,7 @@ std::vector<double> mixing_of(const World& world, ObjectId link, const std::vect
   const Pose frame(motion_of(world, link).centre, world.pose(link).orientation);
   for (std::size_t i = 0; i < rotors.size(); ++i) {
     const RotorDescription& rotor = rotors[i]->description();
-    const Vector3 place = (frame.inverse() * world.joint_child_pose(rotor.joint)).position;
+    const Vector3 place = (frame.inverse() * world.joints().child_pose(rotor.joint)).position;
     const double turning = rotor.clockwise ? -1 : 1;
     effect.col(static_cast<Eigen::Index>(i)) =
         Eigen::Vector4d(place.y(), -place.x(), -turning * rotor.torque_length, 1) * rotor.thrust_coefficient;
@@ -110,7 +110,7 @@ void MulticopterVelocityControl::update(World& world, double, double) {
   const Vector3 error = pose.orientation * command_->linear - twist.linear;
   const Vector3& most = description_.max_acceleration;
   const Vector3 acceleration = (error.cwiseProduct(description_.velocity_gain) / mass_).cwiseMin(most).cwiseMax(-most);
-  const Vector3 force = (acceleration - world.gravity()) * mass_;
+  const Vector3 force = (acceleration - world.properties().gravity()) * mass_;
   if (force.squaredNorm() == 0) return;  // weightless and at the velocity: any attitude will do
 
   // e_R = (R_d^T R - R^T R_d)^v / 2, and e_omega with R^T R_d omega_d.

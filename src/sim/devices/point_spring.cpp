@@ -18,7 +18,7 @@ constexpr double kMostDamping = 0.4;  // of a link's momentum in one update: mor
 
 void PointSpring::grip(const World& world, ObjectId link, const Vector3& point) {
   const SceneTree& tree = world.tree();
-  const ModelDescription& model = world.description(link);
+  const ModelDescription& model = world.models().description(link);
   if (tree.at(link).kind != ObjectKind::kLink || model.is_static) {
     throw WrongObject(tree.short_path(link) + " is not a link of a moving model");
   }
@@ -48,7 +48,7 @@ void PointSpring::update(World& world, double /*time*/, double duration) {
   Vector3 force = (target_ - pose.position - arm) * (kFrequency * kFrequency * mass_) - velocity * damping;
   const double most = kMostForce * mass_;
   if (force.norm() > most) force *= most / force.norm();
-  world.apply_wrench(link_, {force, {}}, pose.position + arm);
+  world.wrenches().apply(link_, {force, {}}, pose.position + arm);
 }
 
 void PointSpring::reset(World& /*world*/) { release(); }

@@ -11,6 +11,7 @@
 #include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -19,11 +20,11 @@ constexpr double kStill = 1e-3;  // rad/s; a rotor below this speed does not kee
 
 void check_rotor(const World& world, const RotorDescription& d) {
   const std::string path = world.tree().short_path(d.joint);
-  const std::string& type = world.joint_description(d.joint).type;
-  if (type != "revolute" && type != "continuous") {
+  const std::string& type = world.joints().description(d.joint).type;
+  if (!find_joint_kind(type)->is_hinge) {
     throw WrongObject(path + " is a " + type + " joint: a rotor needs a revolute or continuous one");
   }
-  check_pushable(world, world.joint_links(d.joint).second);
+  check_pushable(world, world.joints().links(d.joint).second);
   const auto require = [&](bool fine, const char* what, double value, const char* wanted) {
     if (fine) return;
     throw InvalidInput(path + ": the " + what + " " + text(value) + " of the rotor is not usable: it must be " +
@@ -43,9 +44,9 @@ void check_rotor(const World& world, const RotorDescription& d) {
 
 /// Before its update, the device and the joint have the same target.
 void turn_by_velocity(World& world, ObjectId joint) {
-  world.set_motor_mode(joint, MotorMode::kVelocity);
-  world.set_max_force(joint, std::numeric_limits<double>::infinity());
-  world.set_target_velocity(joint, 0);
+  world.joints().set_motor_mode(joint, MotorMode::kVelocity);
+  world.joints().set_max_force(joint, std::numeric_limits<double>::infinity());
+  world.joints().set_target_velocity(joint, 0);
 }
 
 }  // namespace
@@ -64,27 +65,27 @@ void Rotor::set_speed(double speed) {
 }
 
 void Rotor::take_command_of_joint(const World& world) {
-  const double target = world.target_velocity(description_.joint);
+  const double target = world.joints().target_velocity(description_.joint);
   if (target == target_) return;
   set_speed((description_.clockwise ? -target : target) * description_.slowdown);
 }
 
 void Rotor::push(World& world) const {
   const RotorDescription& d = description_;
-  const double joint_speed = world.joint_velocity(d.joint) * d.slowdown;
+  const double joint_speed = world.joints().velocity(d.joint) * d.slowdown;
   if (!(std::abs(joint_speed) > kStill)) return;
-  const auto [airframe, propeller] = world.joint_links(d.joint);
+  const auto [airframe, propeller] = world.joints().links(d.joint);
   const Vector3 axis =
-      world.joint_child_pose(d.joint).orientation * world.joint_description(d.joint).axes.front().direction;
+      world.joints().child_pose(d.joint).orientation * world.joints().description(d.joint).axes.front().direction;
   const double turning = d.clockwise ? -1 : 1;
   const double speed = std::abs(joint_speed);
   const double thrust = turning * joint_speed * speed * d.thrust_coefficient;
   Vector3 across = motion_of(world, propeller).twist.linear - (wind_ ? wind_->velocity() : Vector3::Zero());
   across -= axis * across.dot(axis);
-  world.apply_wrench(propeller, {axis * thrust - across * (speed * d.drag_coefficient), {}});
+  world.wrenches().apply(propeller, {axis * thrust - across * (speed * d.drag_coefficient), {}});
   if (airframe == kNoObject) return;
   const Vector3 torque = axis * (-turning * thrust * d.torque_length) - across * (speed * d.rolling_coefficient);
-  world.apply_wrench(airframe, {{}, torque});
+  world.wrenches().apply(airframe, {{}, torque});
 }
 
 void Rotor::update(World& world, double, double duration) {
@@ -94,7 +95,7 @@ void Rotor::update(World& world, double, double duration) {
   speed_ += (wanted_ - speed_) * (time > 0 ? -std::expm1(-duration / time) : 1.0);
   if (std::abs(wanted_ - speed_) < kStill) speed_ = wanted_;
   const double target = (description_.clockwise ? -speed_ : speed_) / description_.slowdown;
-  if (target != target_) world.set_target_velocity(description_.joint, target);
+  if (target != target_) world.joints().set_target_velocity(description_.joint, target);
   target_ = target;
 }
 

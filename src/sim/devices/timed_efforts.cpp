@@ -9,6 +9,7 @@
 #include "bubblesim/error.hpp"
 #include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 namespace {
@@ -37,28 +38,28 @@ void forget_ended(std::vector<Timed>& all, double time) {
 
 /// Pushes the child of a joint along its first axis, and the parent in the opposite direction, for a part of the time.
 void push_joint(World& world, ObjectId joint, double effort, double part) {
-  const JointDescription& description = world.joint_description(joint);
-  const double limit = world.max_force(joint);
-  const Pose frame = world.joint_axes(joint) == 1 ? world.joint_child_pose(joint) : world.pose(joint);
+  const JointDescription& description = world.joints().description(joint);
+  const double limit = world.joints().max_force(joint);
+  const Pose frame = world.joints().axes(joint) == 1 ? world.joints().child_pose(joint) : world.pose(joint);
   const Vector3 axis = frame.orientation * description.axes.front().direction;
   const Vector3 push = axis * (std::clamp(effort, -limit, limit) * part);
-  const Wrench wrench = description.type == "prismatic" ? Wrench{push, {}} : Wrench{{}, push};
-  const auto [parent, child] = world.joint_links(joint);
-  world.apply_wrench(child, wrench, frame.position);
-  if (parent != kNoObject) world.apply_wrench(parent, {-wrench.force, -wrench.torque}, frame.position);
+  const Wrench wrench = find_joint_kind(description.type)->slides ? Wrench{push, {}} : Wrench{{}, push};
+  const auto [parent, child] = world.joints().links(joint);
+  world.wrenches().apply(child, wrench, frame.position);
+  if (parent != kNoObject) world.wrenches().apply(parent, {-wrench.force, -wrench.torque}, frame.position);
 }
 
 }  // namespace
 
 void TimedEfforts::add_wrench(const World& world, ObjectId link, const Wrench& wrench,
                               const std::optional<Vector3>& point, const Interval& interval) {
-  world.check_wrench(link, wrench, point);
+  world.wrenches().check(link, wrench, point);
   check_interval(interval);
   wrenches_.push_back({link, wrench, point, interval});
 }
 
 void TimedEfforts::add_effort(const World& world, ObjectId joint, double effort, const Interval& interval) {
-  world.max_force(joint);  // throws when it has no axis
+  world.joints().max_force(joint);  // throws when it has no axis
   if (!within(effort, kMaxEffort)) {
     throw InvalidInput(world.tree().short_path(joint) + ": the effort " + text(effort) +
                        " is not usable: it must be finite and at most 1e9");
@@ -87,7 +88,7 @@ void TimedEfforts::update(World& world, double time, double duration) {
     if (part == 0 || !tree.contains(one.link)) continue;
     const Wrench mean{one.wrench.force * part, one.wrench.torque * part};
     const auto at = [&](const Vector3& point) { return world.pose(one.link) * point; };
-    world.apply_wrench(one.link, mean, one.point ? std::make_optional(at(*one.point)) : std::nullopt);
+    world.wrenches().apply(one.link, mean, one.point ? std::make_optional(at(*one.point)) : std::nullopt);
   }
   for (const TimedEffort& one : efforts_) {
     const double part = covered(one.interval, time, duration);

@@ -23,8 +23,8 @@ void VelocityDecay::update(World& world, double, double duration) {
   for (const ObjectId id : slowed_) {
     const LinkDescription& link = link_description(world, id);
     const LinkMotion motion = motion_of(world, id);
-    world.apply_wrench(id, {-motion.twist.linear * (link.mass * mean_decay(link.linear_decay, duration)),
-                            -spin_of(link, motion) * mean_decay(link.angular_decay, duration)});
+    world.wrenches().apply(id, {-motion.twist.linear * (link.mass * mean_decay(link.linear_decay, duration)),
+                                -spin_of(link, motion) * mean_decay(link.angular_decay, duration)});
   }
 }
 

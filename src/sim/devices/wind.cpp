@@ -102,7 +102,7 @@ void Wind::update(World& world, double time, double duration) {
     const double mass = link_description(world, link).mass;
     // A great factor stops the motion relative to the wind in one substep, and does not reverse it.
     const double rate = std::min(force_factor_, 1 / duration);
-    world.apply_wrench(link, {(velocity_ - motion_of(world, link).twist.linear) * (mass * rate), {}});
+    world.wrenches().apply(link, {(velocity_ - motion_of(world, link).twist.linear) * (mass * rate), {}});
   }
 }
 

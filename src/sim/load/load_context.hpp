@@ -22,7 +22,8 @@ class LoadContext {
   const std::string& file() const { return file_; }
   /// The folder of the scene's files.
   const std::filesystem::path& folder() const { return folder_; }
-  /// The folder of the files that an element refers to: that of its own file, or the scene's for a text without a file.
+  /// The folder of the files that an element refers to: that of its own file, or the scene's for a string without a
+  /// file.
   std::filesystem::path folder_of(const Source& source) const;
   std::vector<Problem>& problems() { return problems_; }
   std::vector<Problem>& warnings() { return warnings_; }

@@ -11,10 +11,10 @@
 #include "load/find/scene_folders.hpp"
 #include "load/load_context.hpp"
 #include "load/scene_text.hpp"
-#include "load/sdf/documents.hpp"
-#include "load/sdf/sdf_models.hpp"
-#include "load/sdf/sdf_visuals.hpp"
-#include "load/sdf/sdf_worlds.hpp"
+#include "load/sdf/documents/documents.hpp"
+#include "load/sdf/models/sdf_models.hpp"
+#include "load/sdf/models/sdf_visuals.hpp"
+#include "load/sdf/worlds/sdf_worlds.hpp"
 #include "load/substeps.hpp"
 #include "load/urdf/urdf_model.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name of a text without a file.
+// The name of a string without a file.
 constexpr const char* kText = "<data-string>";
 constexpr const char* kGroundPlane = "ground_plane";
 

@@ -7,7 +7,7 @@
 
 #include "check/checks.hpp"
 #include "check/needed_substep.hpp"
-#include "load/sdf/own_elements.hpp"
+#include "load/sdf/elements/own_elements.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim {

@@ -6,7 +6,7 @@
 
 #include "bubblesim/scene.hpp"
 #include "load/load_context.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 
 namespace bubblesim {
 

@@ -41,7 +41,7 @@ inline void intersect_packet(const int* use, RTCScene scene, EmbreeQuery& query,
   rtcInitIntersectArguments(&arguments);
   arguments.context = &query.context;
   arguments.filter = query.filter;
-  // Without the second flag the filter is not called, and nothing says so.
+  // Without the second flag the filter is not called, without a warning.
   arguments.flags =
       static_cast<RTCRayQueryFlags>((query.coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT) |
                                     (query.filter != nullptr ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : 0));

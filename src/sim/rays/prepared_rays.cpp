@@ -87,7 +87,7 @@ SharedRayModel prepare_rays(const SceneTree& tree, ObjectId model, const ModelDe
 }
 
 std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayModel>& models) {
-  // Simulations in other threads may attach the same geometries; Embree does not say that it allows that.
+  // Simulations in other threads may attach the same geometries; Embree does not document that it allows that.
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   auto statics = std::make_shared<StaticRays>();

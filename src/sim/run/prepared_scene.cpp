@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "check/scene_check.hpp"
-#include "physics/world_state.hpp"
+#include "physics/parts/prepared_model.hpp"
 #include "rays/prepared_rays.hpp"
+#include "scene/described_tree.hpp"
 #include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
@@ -21,6 +22,7 @@ SceneDescription checked(SceneDescription description) {
 
 SceneDescription with_unit_rotations(SceneDescription description) {
   for (ModelDescription& model : description.models) make_rotations_unit(model);
+  for (FrameDescription& frame : description.frames) make_rotation_unit(frame.pose);
   return description;
 }
 
@@ -33,11 +35,14 @@ Scene::Scene(Checked, SceneDescription description, std::vector<Problem> warning
       warnings_(std::move(warnings)) {
   auto tree = std::make_shared<SceneTree>();
   auto prepared = std::make_unique<Prepared>();
+  DescribedTree described(*tree);
   for (const ModelDescription& model : description_->models) {
-    enter_model(*tree, model);
+    described.add(model);
     // Shares the ownership of the whole description.
     prepared->models.push_back(prepare_model({description_, &model}, &warnings_));
   }
+  for (std::size_t i = 0; i < description_->frames.size(); ++i) described.add(description_->frames[i], i);
+  described.arrange();
   tree_ = std::move(tree);
   prepared_ = std::move(prepared);
 }

@@ -45,12 +45,13 @@ std::vector<const ReadingQuantity*> of_readings(const World& world, ObjectId obj
   if (object == kNoObject) {
     kinds = sensor_definitions();
   } else if (world.tree().at(object).kind == ObjectKind::kSensor) {
-    kinds = {&definition_of(world.sensor_description(object).kind)};
+    kinds = {&definition_of(world.models().sensor_description(object).kind)};
   }
   std::vector<const ReadingQuantity*> all;
   for (const SensorDefinition* kind : kinds) {
     for (const ReadingQuantity& quantity : kind->quantities) {
-      if (object == kNoObject || quantity.shape(world.sensor_description(object).kind)) all.push_back(&quantity);
+      if (object == kNoObject || quantity.shape(world.models().sensor_description(object).kind))
+        all.push_back(&quantity);
     }
   }
   return all;
@@ -126,8 +127,8 @@ void Quantities::add(Simulation& example, const std::string& name, Use use) {
     const ReadingQuantity* reading = kind == nullptr ? of_reading(world, object, parts.quantity) : nullptr;
     if (kind == nullptr && reading == nullptr) continue;
     const auto shape =
-        kind != nullptr ? kind->shape(world, object) : reading->shape(world.sensor_description(object).kind);
-    if (!shape || (use == Use::kCommand && kind->relative && world.description(object).is_static)) continue;
+        kind != nullptr ? kind->shape(world, object) : reading->shape(world.models().sensor_description(object).kind);
+    if (!shape || (use == Use::kCommand && kind->relative && world.models().description(object).is_static)) continue;
     std::string full = world.tree().path(object) + "." + parts.quantity;
     if (relative_to != kNoObject) full += "@" + world.tree().path(relative_to);
     add({kind, reading, object, relative_to}, *shape, full);

@@ -48,13 +48,13 @@ Shape of_any(const World&, ObjectId) {
 
 bool moves(const World& world, ObjectId object, std::initializer_list<ObjectKind> kinds) {
   const ObjectKind kind = world.tree().at(object).kind;
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() && !world.description(object).is_static;
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() && !world.models().description(object).is_static;
 }
 
 /// Of an axis of a moving joint.
 Shape of_axis(const World& world, ObjectId object) {
   const Object& found = world.tree().at(object);
-  if (found.kind != ObjectKind::kJoint || world.joint_axes(object) == 0) return std::nullopt;
+  if (found.kind != ObjectKind::kJoint || world.joints().axes(object) == 0) return std::nullopt;
   return Sizes{};
 }
 
@@ -74,7 +74,7 @@ Shape of_friction(const World& world, ObjectId object) {
   const ObjectKind kind = world.tree().at(object).kind;
   if (kind != ObjectKind::kModel && kind != ObjectKind::kLink) return std::nullopt;
   try {
-    world.friction(object);
+    world.properties().friction(object);
   } catch (const WrongObject&) {
     return std::nullopt;
   }
@@ -82,7 +82,7 @@ Shape of_friction(const World& world, ObjectId object) {
 }
 
 Shape of_moving_model(const World& world, ObjectId object) {
-  if (!moves(world, object, {ObjectKind::kModel}) || world.tree().at(object).parent != kNoObject) return std::nullopt;
+  if (!moves(world, object, {ObjectKind::kModel}) || !world.tree().at(object).is_outermost_model()) return std::nullopt;
   return Sizes{3};
 }
 
@@ -91,24 +91,24 @@ Shape of_any_sensor(const World& world, ObjectId object) {
   return Sizes{};
 }
 
-template <double (World::*kGet)(ObjectId, int) const>
+template <double (WorldJoints::*kGet)(ObjectId, int) const>
 void observe_axis(Simulation& simulation, const Place& place, Row& row) {
-  row.put((simulation.world().*kGet)(place.object, 0));
+  row.put((simulation.world().joints().*kGet)(place.object, 0));
 }
 
-template <void (World::*kSet)(ObjectId, double, int)>
+template <void (WorldJoints::*kSet)(ObjectId, double, int)>
 void command_axis(Simulation& simulation, ObjectId joint, Row& row) {
-  (simulation.world().*kSet)(joint, row.take(), 0);
+  (simulation.world().joints().*kSet)(joint, row.take(), 0);
 }
 
-template <double (World::*kGet)(ObjectId) const>
+template <double (WorldProperties::*kGet)(ObjectId) const>
 void observe_object(Simulation& simulation, const Place& place, Row& row) {
-  row.put((simulation.world().*kGet)(place.object));
+  row.put((simulation.world().properties().*kGet)(place.object));
 }
 
-template <void (World::*kSet)(ObjectId, double)>
+template <void (WorldProperties::*kSet)(ObjectId, double)>
 void command_object(Simulation& simulation, ObjectId object, Row& row) {
-  (simulation.world().*kSet)(object, row.take());
+  (simulation.world().properties().*kSet)(object, row.take());
 }
 
 void command_velocity_of_model(Simulation& simulation, ObjectId model, Row& row) {
@@ -160,24 +160,28 @@ std::vector<Kind> motions() {
 /// Quantities of joints, and pushes.
 std::vector<Kind> efforts() {
   return {
-      {"joint_position", of_axis, observe_axis<&World::joint_position>, nullptr},
-      {"joint_velocity", of_axis, observe_axis<&World::joint_velocity>, nullptr},
-      {"motor_effort", of_axis, observe_axis<&World::motor_effort>, nullptr},
-      {"target_position", of_axis, observe_axis<&World::target_position>, command_axis<&World::set_target_position>},
-      {"target_velocity", of_axis, observe_axis<&World::target_velocity>, command_axis<&World::set_target_velocity>},
-      {"target_effort", of_axis, observe_axis<&World::target_effort>, command_axis<&World::set_target_effort>},
-      {"max_force", of_axis, observe_axis<&World::max_force>, command_axis<&World::set_max_force>},
-      {"motor_gain", of_axis, observe_axis<&World::motor_gain>, command_axis<&World::set_motor_gain>},
-      {"mass", of_mass, observe_object<&World::mass>, command_object<&World::set_mass>},
-      {"friction", of_friction, observe_object<&World::friction>, command_object<&World::set_friction>},
+      {"joint_position", of_axis, observe_axis<&WorldJoints::position>, nullptr},
+      {"joint_velocity", of_axis, observe_axis<&WorldJoints::velocity>, nullptr},
+      {"motor_effort", of_axis, observe_axis<&WorldJoints::motor_effort>, nullptr},
+      {"target_position", of_axis, observe_axis<&WorldJoints::target_position>,
+       command_axis<&WorldJoints::set_target_position>},
+      {"target_velocity", of_axis, observe_axis<&WorldJoints::target_velocity>,
+       command_axis<&WorldJoints::set_target_velocity>},
+      {"target_effort", of_axis, observe_axis<&WorldJoints::target_effort>,
+       command_axis<&WorldJoints::set_target_effort>},
+      {"max_force", of_axis, observe_axis<&WorldJoints::max_force>, command_axis<&WorldJoints::set_max_force>},
+      {"motor_gain", of_axis, observe_axis<&WorldJoints::motor_gain>, command_axis<&WorldJoints::set_motor_gain>},
+      {"mass", of_mass, observe_object<&WorldProperties::mass>, command_object<&WorldProperties::set_mass>},
+      {"friction", of_friction, observe_object<&WorldProperties::friction>,
+       command_object<&WorldProperties::set_friction>},
       {"planar_velocity", of_moving_model, nullptr, command_velocity_of_model},
       {"force", of_body<3>, nullptr,
        [](Simulation& s, ObjectId object, Row& row) {
-         s.world().apply_wrench(object, {take_vector(row), {}});
+         s.world().wrenches().apply(object, {take_vector(row), {}});
        }},
       {"torque", of_body<3>, nullptr,
        [](Simulation& s, ObjectId object, Row& row) {
-         s.world().apply_wrench(object, {{}, take_vector(row)});
+         s.world().wrenches().apply(object, {{}, take_vector(row)});
        }},
   };
 }
@@ -202,8 +206,8 @@ std::vector<Kind> all() {
 const std::vector<Kind>& world_quantity_kinds() {
   static const std::vector<Kind> kinds = {
       {"time", of_any<0>, [](Simulation& s, const Place&, Row& row) { row.put(s.state_time()); }, nullptr},
-      {"gravity", of_any<3>, [](Simulation& s, const Place&, Row& row) { row.put(s.world().gravity()); },
-       [](Simulation& s, ObjectId, Row& row) { s.world().set_gravity(take_vector(row)); }},
+      {"gravity", of_any<3>, [](Simulation& s, const Place&, Row& row) { row.put(s.world().properties().gravity()); },
+       [](Simulation& s, ObjectId, Row& row) { s.world().properties().set_gravity(take_vector(row)); }},
       {"brightness", of_any<0>, [](Simulation& s, const Place&, Row& row) { row.put(s.brightness()); },
        [](Simulation& s, ObjectId, Row& row) { s.set_brightness(row.take()); }},
   };

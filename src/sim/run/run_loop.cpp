@@ -14,7 +14,7 @@ namespace {
 using Clock = Inbox::Clock;
 
 constexpr std::chrono::milliseconds kIdlePeriod{20};   // longest wait for input
-constexpr std::chrono::milliseconds kLongestWait{50};  // between two looks at input and signals while pacing
+constexpr std::chrono::milliseconds kLongestWait{50};  // between two polls of input and signals while pacing
 constexpr std::chrono::seconds kGateTimeout{5};        // for a step of a request
 
 FramePose to_frame(const Pose& pose) {
@@ -166,7 +166,7 @@ void RunLoop::publish_frame() {
   for (const ObjectId link : next->layout->links) next->poses.push_back(to_frame(world.pose(link)));
   next->joint_positions.reserve(next->layout->axes.size());
   for (const auto& [joint, axis] : next->layout->axes) {
-    next->joint_positions.push_back(static_cast<float>(world.joint_position(joint, axis)));
+    next->joint_positions.push_back(static_cast<float>(world.joints().position(joint, axis)));
   }
   if (memory_) memory_->write(*next);
   std::atomic_store(&frame_, std::shared_ptr<const Frame>(std::move(next)));

@@ -31,8 +31,8 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
       wind_(std::make_shared<Wind>(scene_->description().environment.wind, seed)),
       rays_(std::make_unique<RayScene>(scene_)),
       time_step_(scene_->description().time_step) {
-  world_.add_device(wind_);
-  world_.add_device(std::make_shared<VelocityDecay>());
+  world_.devices().add(wind_);
+  world_.devices().add(std::make_shared<VelocityDecay>());
   for (const ObjectId model : world_.tree().models()) make_sensors(model);
   index_sensors();
   const std::vector<RandomQuantity>& randomized = this->scene().randomized;
@@ -99,7 +99,7 @@ void Simulation::step() {
   const AccessLock::Hold alone(stepping_);
   process_input();
   const AccessLock::Hold hold(world_.access());
-  const Noted in_pass(in_step_);
+  const Noted in_step(in_step_);
   step_start_ = state_time();  // process_input() may reset it
   {
     const Noted actuates(actuates_);
@@ -178,8 +178,8 @@ void Simulation::set_seed(std::uint64_t seed) {
 ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {
   const AccessLock::Hold hold(world_.access());
   check_may_change_models();
-  const ObjectId id = world_.add_model(std::move(model), warnings);
-  rays_->add_model(world_, id, world_.description(id));
+  const ObjectId id = world_.models().add(std::move(model), warnings);
+  rays_->add_model(world_, id, world_.models().description(id));
   make_sensors(id);
   index_sensors();
   for (System* system : systems_) system->model_added(world_, id);
@@ -189,7 +189,7 @@ ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* war
 void Simulation::remove_model(ObjectId model) {
   const AccessLock::Hold hold(world_.access());
   check_may_change_models();
-  world_.check_removable(model);
+  world_.models().check_removable(model);
   remove_model_now(model);
 }
 
@@ -199,7 +199,7 @@ void Simulation::remove_model_now(ObjectId model) {
   sensors_.erase(std::remove_if(sensors_.begin(), sensors_.end(), gone), sensors_.end());
   index_sensors();
   rays_->remove_model(model);
-  world_.remove_model(model);
+  world_.models().remove(model);
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -45,7 +45,7 @@ Color Simulation::color(ObjectId object) const {
   const SceneTree& tree = world_.tree();
   for (const ObjectId link : coloured_links(tree, object)) {
     if (const Color* own = rays_->color(link)) return *own;
-    const LinkDescription& description = world_.description(link).links[tree.at(link).index];
+    const LinkDescription& description = world_.models().description(link).links[tree.at(link).index];
     if (!description.visuals.empty()) return description.visuals.front().material.diffuse;
   }
   return Material().diffuse;

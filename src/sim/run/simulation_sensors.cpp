@@ -16,25 +16,14 @@
 namespace bubblesim {
 
 void Simulation::make_sensors(ObjectId model) {
-  const SceneTree& tree = world_.tree();
-  const ModelDescription& description = world_.description(model);
-  const auto make_below = [&](ObjectId carrier, const std::vector<SensorDescription>& sensors) {
-    auto sensor = sensors.begin();
-    for (const ObjectId id : tree.children(carrier, ObjectKind::kSensor)) {
-      SensorSlot& slot = sensors_.emplace_back();
-      slot.id = id;
-      slot.sensor = make_sensor(*sensor, scene().environment, id, world_);
-      slot.period = sensor->update_rate > 0 ? 1 / sensor->update_rate : 0;
-      slot.time = state_time();
-      slot.due = slot.time + slot.period;
-      ++sensor;
-    }
-  };
-  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) {
-    make_below(id, description.links[tree.at(id).index].sensors);
-  }
-  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) {
-    make_below(id, description.joints[tree.at(id).index].sensors);
+  for (const ObjectId id : world_.tree().parts(model, ObjectKind::kSensor)) {
+    const SensorDescription& sensor = world_.models().sensor_description(id);
+    SensorSlot& slot = sensors_.emplace_back();
+    slot.id = id;
+    slot.sensor = make_sensor(sensor, scene().environment, id, world_);
+    slot.period = sensor.update_rate > 0 ? 1 / sensor.update_rate : 0;
+    slot.time = state_time();
+    slot.due = slot.time + slot.period;
   }
 }
 
@@ -130,7 +119,7 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
                       ", not a camera");
   }
   const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
-  const bool has_color = world_.sensor_description(camera).kind.get<CameraDescription>().color;
+  const bool has_color = world_.models().sensor_description(camera).kind.get<CameraDescription>().color;
   const std::size_t bytes = has_color ? 3 * pixels : 0;
   if (rgb.size() != bytes) {
     throw InvalidInput(world_.tree().short_path(camera) + " needs an image of " + std::to_string(image->width) + " x " +

@@ -193,7 +193,7 @@ void Simulation::check_models(const std::vector<ObjectId>& saved) const {
         "the simulation ran; restore the state in a new simulation, or add the model first");
   }
   for (const ObjectId model : present) {
-    if (std::find(saved.begin(), saved.end(), model) == saved.end()) world_.check_removable(model);
+    if (std::find(saved.begin(), saved.end(), model) == saved.end()) world_.models().check_removable(model);
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace bubblesim {
 
-struct PreparedModel;  // see physics/prepared_model.hpp
+struct PreparedModel;  // see physics/parts/prepared_model.hpp
 namespace rays {
 struct PreparedRays;  // see rays/prepared_rays.hpp
 }

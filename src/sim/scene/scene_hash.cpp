@@ -156,8 +156,10 @@ class DescriptionHash {
             j.gearbox_reference);
   }
   void add(const NestedModelDescription& n) { (*this)(n.name, n.pose, n.canonical_link, n.plugins); }
+  void add(const FrameDescription& f) { (*this)(f.name, f.link, f.pose); }
   void add(const ModelDescription& m) {
     (*this)(m.name, m.pose, m.is_static, m.self_collide, m.canonical_link, m.links, m.joints, m.nested, m.plugins);
+    if (!m.frames.empty()) add(m.frames);
   }
   void add(const Environment& e) {
     (*this)(e.ambient, e.background, e.sky, e.shadows, e.lights, e.origin.latitude, e.origin.longitude,
@@ -168,6 +170,7 @@ class DescriptionHash {
   }
   void add(const SceneDescription& s) {
     (*this)(s.gravity, s.time_step, s.substep, s.on_divergence, s.environment, s.models, s.plugins, s.randomized);
+    if (!s.frames.empty()) add(s.frames);
   }
 
   Fnv1a hash_;

@@ -8,5 +8,6 @@ namespace bubblesim {
 /// Scales the quaternions of a model's poses to unit length. Those that have it but for rounding stay the same, to the
 /// bit, so that a copy of a model is that model.
 void make_rotations_unit(ModelDescription& model);
+void make_rotation_unit(Pose& pose);
 
 }  // namespace bubblesim

@@ -15,12 +15,12 @@ std::uint64_t bits_of(double value) {
   return bits;
 }
 
-std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel, std::uint64_t moment) {
+std::uint64_t seed_of(std::uint64_t seed, ObjectId sensor, std::uint64_t channel, std::uint64_t time_bits) {
   Fnv1a hash;
   hash.add(seed);
   hash.add(static_cast<std::uint64_t>(sensor));
   hash.add(channel);
-  hash.add(moment);
+  hash.add(time_bits);
   return hash.value();
 }
 
@@ -84,14 +84,14 @@ double NormalSource::next() {
   return u * scale;
 }
 
-Noise::Noise(const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+Noise::Noise(const NoiseDescription& description, const MeasurementContext& context, ObjectId sensor,
              std::uint64_t channel)
-    : description_(scaled_noise(description, moment.noise_scale)),
+    : description_(scaled_noise(description, context.noise_scale)),
       active_(description_.mean != 0 || description_.stddev > 0 || description_.bias_mean != 0 ||
               description_.bias_stddev > 0 || description_.precision > 0),
-      normal_(seed_of(moment.seed, sensor, 2 * channel, bits_of(moment.time))) {
+      normal_(seed_of(context.seed, sensor, 2 * channel, bits_of(context.time))) {
   // The bias does not depend on time: it is equal in all measurements.
-  NormalSource once(seed_of(moment.seed, sensor, 2 * channel + 1, 0));
+  NormalSource once(seed_of(context.seed, sensor, 2 * channel + 1, 0));
   bias_ = description_.bias_mean + description_.bias_stddev * once.next();
 }
 
@@ -102,17 +102,17 @@ double Noise::operator()(double value) {
   return noisy;
 }
 
-void distort(double& value, const NoiseDescription& description, const MeasurementContext& moment, ObjectId sensor,
+void distort(double& value, const NoiseDescription& description, const MeasurementContext& context, ObjectId sensor,
              std::uint64_t channel) {
-  Noise noise(description, moment, sensor, channel);
+  Noise noise(description, context, sensor, channel);
   if (noise.active()) value = noise(value);
 }
 
-void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& moment,
+void distort(Vector3& value, const std::array<NoiseDescription, 3>& descriptions, const MeasurementContext& context,
              ObjectId sensor, std::uint64_t first_channel) {
   double* component = value.data();
   for (const NoiseDescription& description : descriptions) {
-    distort(*component++, description, moment, sensor, first_channel++);
+    distort(*component++, description, context, sensor, first_channel++);
   }
 }
 

@@ -13,13 +13,13 @@ Sensor::Sensor(Measurement empty) : empty_(std::move(empty)), reading_(std::make
   reading_->measurement = empty_;
 }
 
-void Sensor::update(const MeasurementContext& moment) {
+void Sensor::update(const MeasurementContext& context) {
   if (reading_.use_count() > 1) {  // a caller holds the last one
     reading_ = std::make_shared<Reading>();
     reading_->measurement = empty_;
   }
-  reading_->time = moment.time;
-  measure(moment, reading_->measurement);
+  reading_->time = context.time;
+  measure(context, reading_->measurement);
 }
 
 void Sensor::reset() {

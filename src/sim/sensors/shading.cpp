@@ -15,7 +15,7 @@ Color scaled_light(const Color& color, float scale) { return {scale * color.r, s
 void Shading::place_lights(const World& world, double brightness) {
   const auto scale = static_cast<float>(brightness);
   lights_ = environment_.lights;
-  for (Light& light : world.link_lights()) lights_.push_back(std::move(light));
+  for (Light& light : world.geometry().link_lights()) lights_.push_back(std::move(light));
   for (Light& light : lights_) light.diffuse = scaled_light(light.diffuse, scale);
   ambient_ = scaled_light(environment_.ambient, scale);
 }

@@ -94,7 +94,7 @@ def stamp_theory(sensor: str, rate: float, step: float) -> float:
 
 
 def stamps(engine: Any, sensor: str, rate: float, step: float) -> float:
-    """Return the greatest difference between a stamp and the time at which the body was where the reading says, s."""
+    """Return the greatest difference between a stamp and the time at which the body was where the reading has it, s."""
     forms = {
         "gps": f'<sensor name="probe" type="navsat"><update_rate>{rate}</update_rate></sensor>',
         "lidar": f"""<sensor name="probe" type="lidar"><update_rate>{rate}</update_rate><lidar><scan><horizontal>

@@ -28,14 +28,14 @@ class Floating : public ::testing::Test {
     made.substep = 0.001;
     simulation = std::make_unique<Simulation>(made);
     device = std::make_shared<Buoyancy>(kWater, std::move(layers), std::vector<std::string>{});
-    world().add_device(device);
+    world().devices().add(device);
   }
   void slow_down(double linear, double angular) {
     DragDescription drag;
     drag.link = body();
     drag.linear = Vector3::Ones() * linear;
     drag.angular_linear = Vector3::Ones() * angular;
-    world().add_device(std::make_shared<Drag>(world(), drag, nullptr));
+    world().devices().add(std::make_shared<Drag>(world(), drag, nullptr));
   }
   World& world() { return simulation->world(); }
   ObjectId body() { return world().tree().find("/Body/link"); }
@@ -123,7 +123,7 @@ TEST_F(Floating, ActsOnlyOnItsModels) {
   SceneDescription made = scene({model("Duck", link_with(Box{{1, 1, 1}}), at(0, 0, -5)),
                                  model("Duckling", link_with(Box{{1, 1, 1}}), at(5, 0, -5))});
   Simulation pond(made);
-  pond.world().add_device(
+  pond.world().devices().add(
       std::make_shared<Buoyancy>(kWater, std::vector<FluidLayer>{}, std::vector<std::string>{"/Duck"}));
   pond.step();
   EXPECT_GT(pond.world().velocity(pond.world().tree().find("/Duck")).linear.z(), 1);

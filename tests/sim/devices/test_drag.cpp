@@ -27,7 +27,7 @@ class Falling : public ::testing::Test {
     simulation = std::make_unique<Simulation>(described);
     drag.link = link_id();
     device = std::make_shared<Drag>(simulation->world(), drag, simulation->wind());
-    simulation->world().add_device(device);
+    simulation->world().devices().add(device);
   }
   ObjectId link_id() { return simulation->world().tree().find("/Body/link"); }
   Twist velocity() { return simulation->world().velocity(link_id()); }

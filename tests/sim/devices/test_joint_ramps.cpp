@@ -21,7 +21,7 @@ class Ramps : public ::testing::Test {
   std::shared_ptr<JointRamps> add(std::vector<double> rates, std::vector<double> factors,
                                   MotorMode mode = MotorMode::kVelocity, double rate = 0) {
     auto ramps = std::make_shared<JointRamps>(std::move(rates), std::vector{JointRamps::Output{hinge, mode, factors}});
-    world.add_device(ramps, kNoObject, rate);
+    world.devices().add(ramps, kNoObject, rate);
     return ramps;
   }
 
@@ -33,55 +33,55 @@ TEST_F(Ramps, ReachTheirTargetAtTheirRate) {
   const auto ramps = add({4}, {1});
   ramps->set_targets({1});
   world.advance(0.1, kStep);
-  EXPECT_NEAR(world.target_velocity(hinge), 0.4, 1e-9);
-  EXPECT_NEAR(world.joint_velocity(hinge), 0.4, 1e-6) << "each substep has its own target";
-  EXPECT_NEAR(world.joint_position(hinge), 0.4 * 0.1 / 2, 0.4 * kStep);
+  EXPECT_NEAR(world.joints().target_velocity(hinge), 0.4, 1e-9);
+  EXPECT_NEAR(world.joints().velocity(hinge), 0.4, 1e-6) << "each substep has its own target";
+  EXPECT_NEAR(world.joints().position(hinge), 0.4 * 0.1 / 2, 0.4 * kStep);
   world.advance(0.2, kStep);
-  EXPECT_EQ(world.target_velocity(hinge), 1);
+  EXPECT_EQ(world.joints().target_velocity(hinge), 1);
   ramps->set_targets({-1});
   world.advance(0.25, kStep);
-  EXPECT_NEAR(world.target_velocity(hinge), 0, 1e-9);
+  EXPECT_NEAR(world.joints().target_velocity(hinge), 0, 1e-9);
 }
 
 TEST_F(Ramps, WithoutALimitFollowAtOnce) {
   add({kInfinity}, {1})->set_targets({-3});
   world.advance(kStep, kStep);
-  EXPECT_EQ(world.target_velocity(hinge), -3);
+  EXPECT_EQ(world.joints().target_velocity(hinge), -3);
 }
 
 TEST_F(Ramps, CombineTheirInputs) {
   const auto ramps = add({kInfinity, kInfinity}, {10, -2});
   ramps->set_targets({0.3, 0.5});
   world.advance(kStep, kStep);
-  EXPECT_NEAR(world.target_velocity(hinge), 2, 1e-12);
+  EXPECT_NEAR(world.joints().target_velocity(hinge), 2, 1e-12);
 }
 
 TEST_F(Ramps, ChangeWithTheSameRateWhateverTheRateOfUpdates) {
   const auto ramps = add({4}, {1}, MotorMode::kVelocity, 50);
   ramps->set_targets({1});
   world.advance(0.1, kStep);
-  EXPECT_NEAR(world.target_velocity(hinge), 0.4, 1e-9);
+  EXPECT_NEAR(world.joints().target_velocity(hinge), 0.4, 1e-9);
 }
 
 TEST_F(Ramps, SetPositions) {
   const auto ramps = add({1}, {2}, MotorMode::kPosition);
   ramps->set_targets({0.5});
   world.advance(0.1, kStep);
-  EXPECT_NEAR(world.target_position(hinge), 0.2, 1e-9);
+  EXPECT_NEAR(world.joints().target_position(hinge), 0.2, 1e-9);
 }
 
 TEST_F(Ramps, LeaveTheJointAloneOnceTheyAreThere) {
   add({kInfinity}, {1})->set_targets({1});
   world.advance(kStep, kStep);
-  world.set_target_velocity(hinge, 0.5);
+  world.joints().set_target_velocity(hinge, 0.5);
   world.advance(kStep, kStep);
-  EXPECT_EQ(world.target_velocity(hinge), 0.5);
+  EXPECT_EQ(world.joints().target_velocity(hinge), 0.5);
 }
 
 TEST_F(Ramps, KeepToTheSpeedsOfTheWorld) {
   add({kInfinity}, {1e6})->set_targets({100});
   EXPECT_NO_THROW(world.advance(kStep, kStep));
-  EXPECT_EQ(world.target_velocity(hinge), 1e6);
+  EXPECT_EQ(world.joints().target_velocity(hinge), 1e6);
 }
 
 TEST_F(Ramps, StartAgainAfterAReset) {
@@ -91,7 +91,7 @@ TEST_F(Ramps, StartAgainAfterAReset) {
   world.reset();
   EXPECT_EQ(ramps->inputs().front(), 0);
   world.advance(0.1, kStep);
-  EXPECT_EQ(world.target_velocity(hinge), 0);
+  EXPECT_EQ(world.joints().target_velocity(hinge), 0);
 }
 
 TEST_F(Ramps, InvalidNumbersAreRefused) {

@@ -44,7 +44,7 @@ class Wing : public ::testing::Test {
     Simulation simulation(described);
     World& world = simulation.world();
     wing.link = world.tree().find("/Wing/link");
-    world.add_device(std::make_shared<LiftDrag>(world, wing, simulation.wind()));
+    world.devices().add(std::make_shared<LiftDrag>(world, wing, simulation.wind()));
     world.set_velocity(wing.link, {{kSpeed + wind.x(), wind.y(), wind.z()}, {}});
     world.advance(0.001, 0.001);
     const Vector3 change = world.velocity(wing.link).linear - Vector3(kSpeed, 0, 0) - wind;
@@ -109,7 +109,7 @@ TEST_F(Wing, AForceBesideTheCentreOfMassTurnsIt) {
   wing.link = world.tree().find("/Wing/link");
   wing.centre_of_pressure = {-0.5, 0, 0};
   wing.drag_slope = 0;
-  world.add_device(std::make_shared<LiftDrag>(world, wing, nullptr));
+  world.devices().add(std::make_shared<LiftDrag>(world, wing, nullptr));
   world.set_velocity(wing.link, {{kSpeed, 0, 0}, {}});
   world.advance(0.001, 0.001);
   const double lift = 0.5 * 0.5 * 1.2 * kSpeed * kSpeed * 0.5;
@@ -126,8 +126,8 @@ TEST_F(Wing, AFlapAddsToTheLift) {
   wing.link = world.tree().find("/Wing/base");
   wing.control_joint = world.tree().find("/Wing/joint");
   wing.control_slope = 2;
-  world.add_device(std::make_shared<LiftDrag>(world, wing, nullptr));
-  world.set_joint_position(wing.control_joint, 0.2);
+  world.devices().add(std::make_shared<LiftDrag>(world, wing, nullptr));
+  world.joints().set_position(wing.control_joint, 0.2);
   world.set_velocity(world.tree().find("/Wing"), {{kSpeed, 0, 0}, {}});
   world.advance(0.001, 0.001);
   const double momentum =

@@ -48,10 +48,10 @@ class X3 : public ::testing::Test {
       rotor.max_speed = 800;
       rotor.drag_coefficient = rotor.rolling_coefficient = 0;  // they leave an error: there is no integral part
       rotors.push_back(std::make_shared<Rotor>(world, rotor, simulation.wind()));
-      world.add_device(rotors.back());
+      world.devices().add(rotors.back());
     }
     control = std::make_shared<MulticopterVelocityControl>(world, gains, rotors);
-    world.add_device(control);
+    world.devices().add(control);
   }
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds / simulation.time_step()); ++i) simulation.step();

@@ -21,7 +21,7 @@ class Planar : public ::testing::Test {
   ObjectId robot = world.tree().find("/Robot");
   std::shared_ptr<PlanarDrive> drive = [this] {
     auto added = std::make_shared<PlanarDrive>(robot);
-    world.add_device(added, robot);
+    world.devices().add(added, robot);
     return added;
   }();
 };

@@ -22,7 +22,7 @@ SceneDescription body_in_air() {
 
 class Pulled : public ::testing::Test {
  protected:
-  Pulled() { world.add_device(spring, 0); }
+  Pulled() { world.devices().add(spring, 0); }
 
   Vector3 place_of(const Vector3& point) const {
     const Pose pose = world.pose(body);

@@ -53,7 +53,7 @@ class Quadcopter : public ::testing::Test {
       rotor.joint = joint_of(i);
       rotor.clockwise = i == 1 || i == 2;
       rotors.push_back(std::make_shared<Rotor>(world(), rotor, simulation->wind()));
-      world().add_device(rotors.back(), world().tree().find("/Quad"));
+      world().devices().add(rotors.back(), world().tree().find("/Quad"));
     }
   }
   World& world() { return simulation->world(); }
@@ -112,7 +112,7 @@ TEST_F(Quadcopter, SpeedApproachesTheCommandExponentially) {
   command(100);
   run(0.5);
   EXPECT_NEAR(rotors[0]->speed(), 100 + 400 * std::exp(-1), 1e-2);
-  EXPECT_NEAR(world().joint_velocity(joint_of(0)) * rotor.slowdown, rotors[0]->speed(), 1);
+  EXPECT_NEAR(world().joints().velocity(joint_of(0)) * rotor.slowdown, rotors[0]->speed(), 1);
 }
 
 TEST_F(Quadcopter, SpeedIsLimited) {
@@ -160,8 +160,8 @@ TEST_F(Quadcopter, ATargetVelocityOfTheJointIsACommand) {
   RotorDescription rotor;
   rotor.time_up = 0.05;
   make(quadcopter(Vector3::Zero()), rotor);
-  world().set_target_velocity(joint_of(0), 30);
-  world().set_target_velocity(joint_of(1), -40);  // clockwise
+  world().joints().set_target_velocity(joint_of(0), 30);
+  world().joints().set_target_velocity(joint_of(1), -40);  // clockwise
   run(1);
   EXPECT_NEAR(rotors[0]->speed(), 300, 1e-2);
   EXPECT_NEAR(rotors[1]->speed(), 400, 1e-2);

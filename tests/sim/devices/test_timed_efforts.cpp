@@ -16,7 +16,7 @@ constexpr double kPass = 0.05;
 
 class TimedWrenches : public ::testing::Test {
  protected:
-  TimedWrenches() { world.add_device(device); }
+  TimedWrenches() { world.devices().add(device); }
   void run(int steps) {
     for (int i = 0; i < steps; ++i) world.advance(kPass, kStep);
   }
@@ -76,7 +76,7 @@ TEST_F(TimedWrenches, EndWithAResetAndWithTheirModel) {
   run(1);
   EXPECT_EQ(speed(), 0);
   device->add_wrench(world, link, {{1, 0, 0}, {}}, {}, {0, -1});
-  world.remove_model(world.tree().find("/Body"));
+  world.models().remove(world.tree().find("/Body"));
   EXPECT_NO_THROW(run(1));
 }
 
@@ -101,11 +101,11 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TimedJointEfforts, ::testing::Values("revolute",
 TEST_P(TimedJointEfforts, AccelerateBothLinks) {
   World world(jointed(joint(GetParam(), {axis(Vector3::UnitZ())})), 0);
   auto device = std::make_shared<TimedEfforts>();
-  world.add_device(device);
+  world.devices().add(device);
   const ObjectId id = world.tree().find("/joint");
   device->add_effort(world, id, 0.5, {0, 0.123});
   world.advance(0.5, kStep);
-  EXPECT_NEAR(world.joint_velocity(id), 2 * 0.5 * 0.123, 1e-6) << "two bodies of 1 kg and 1 kg m^2";
+  EXPECT_NEAR(world.joints().velocity(id), 2 * 0.5 * 0.123, 1e-6) << "two bodies of 1 kg and 1 kg m^2";
   const Twist both[] = {world.velocity(world.tree().find("/base")), world.velocity(world.tree().find("/arm"))};
   EXPECT_NEAR((both[0].linear + both[1].linear).norm(), 0, 1e-9) << "there is no force from outside";
   EXPECT_NEAR((both[0].angular + both[1].angular).norm(), 0, 1e-9);
@@ -116,14 +116,14 @@ TEST_P(TimedJointEfforts, KeepToTheLimitOfTheJoint) {
   weak.max_force = 0.25;
   World world(jointed(joint(GetParam(), {weak}, {}, "world")), 0);
   auto device = std::make_shared<TimedEfforts>();
-  world.add_device(device);
+  world.devices().add(device);
   const ObjectId id = world.tree().find("/joint");
   device->add_effort(world, id, -7, {0, -1});
   world.advance(1, kStep);
-  EXPECT_NEAR(world.joint_velocity(id), -0.25, 1e-6);
+  EXPECT_NEAR(world.joints().velocity(id), -0.25, 1e-6);
   device->clear_efforts(id);
   world.advance(1, kStep);
-  EXPECT_NEAR(world.joint_velocity(id), -0.25, 1e-6);
+  EXPECT_NEAR(world.joints().velocity(id), -0.25, 1e-6);
 }
 
 }  // namespace

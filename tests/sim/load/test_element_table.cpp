@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "load/sdf/element_kinds.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/element_kinds.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 
 namespace bubblesim::test::test_element_table {
 namespace {
@@ -49,7 +49,7 @@ std::string joined(const std::vector<std::string>& path) {
   return text;
 }
 
-/// Equal as numbers, or as texts.
+/// Equal as numbers, or as strings.
 bool same_value(const std::string& one, const std::string& other) {
   std::vector<double> numbers;
   std::vector<double> others;

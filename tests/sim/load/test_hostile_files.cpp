@@ -32,11 +32,11 @@ class HostileFiles : public ::testing::Test {
     write(name + "/model.sdf",
           "<sdf version='" + version + "'>\n<model name='" + name + "'>" + content + "</model></sdf>");
   }
-  std::string complaint(const std::string& text, const std::string& name = "scene.sdf") const {
-    return complaint_of([&] { read_scene(write(name, text)); });
+  std::string reported_for(const std::string& text, const std::string& name = "scene.sdf") const {
+    return error_text_of([&] { read_scene(write(name, text)); });
   }
   template <class Load>
-  static std::string complaint_of(const Load& load) {
+  static std::string error_text_of(const Load& load) {
     try {
       load();
     } catch (const SceneError& error) {
@@ -52,14 +52,14 @@ class HostileFiles : public ::testing::Test {
 
 TEST_F(HostileFiles, AModelThatIncludesItselfIsAnError) {
   write_model("self", included("self") + "<link name='l'/>");
-  const std::string reported = complaint(in_world(included("self")));
+  const std::string reported = reported_for(in_world(included("self")));
   EXPECT_TRUE(holds(reported, "self/model.sdf:2: the file includes itself")) << reported;
 }
 
 TEST_F(HostileFiles, ModelsThatIncludeEachOtherAreAnError) {
   write_model("a", included("b") + "<link name='l'/>");
   write_model("b", included("a") + "<link name='l'/>");
-  const std::string reported = complaint(in_world(included("a")));
+  const std::string reported = reported_for(in_world(included("a")));
   EXPECT_TRUE(holds(reported, "b/model.sdf:2: includes ")) << reported;
   EXPECT_TRUE(holds(reported, "a/model.sdf, which includes this file")) << reported;
 }
@@ -71,35 +71,35 @@ TEST_F(HostileFiles, IncludesThatMultiplyAreAnError) {
     for (int n = 0; n < 10; ++n) ten += included("m" + std::to_string(i - 1));
     write_model("m" + std::to_string(i), ten);
   }
-  const std::string reported = complaint(in_world(included("m10")));
+  const std::string reported = reported_for(in_world(included("m10")));
   EXPECT_TRUE(holds(reported, "more than 1000000,")) << reported;
 }
 
 TEST_F(HostileFiles, AnIncludedFifoIsAnError) {
   fs::create_directories(folder_ / "pipe");
   ASSERT_EQ(::mkfifo((folder_ / "pipe/model.config").c_str(), 0600), 0);
-  const std::string reported = complaint(in_world(included("pipe")));
+  const std::string reported = reported_for(in_world(included("pipe")));
   EXPECT_TRUE(holds(reported, "pipe/model.config, which is not a regular file")) << reported;
 }
 
 TEST_F(HostileFiles, ADeviceAsAHeightmapIsAnError) {
   const std::string reported =
-      complaint(in_world("<model name='m'><link name='l'><collision name='c'><geometry><heightmap><uri>/dev/zero"
-                         "</uri></heightmap></geometry></collision></link></model>"));
+      reported_for(in_world("<model name='m'><link name='l'><collision name='c'><geometry><heightmap><uri>/dev/zero"
+                            "</uri></heightmap></geometry></collision></link></model>"));
   EXPECT_TRUE(holds(reported, "/m/l/c: /dev/zero is not a regular file")) << reported;
 }
 
 TEST_F(HostileFiles, AModelConfigMayBeAlmostEmpty) {
   write_model("nameless", "<link name='l'/>");
   write("nameless/model.config", "<model><description/></model>");
-  EXPECT_EQ(complaint(in_world(included("nameless"))), "it loads") << "its model.sdf is used";
+  EXPECT_EQ(reported_for(in_world(included("nameless"))), "it loads") << "its model.sdf is used";
 }
 
 TEST_F(HostileFiles, NamesAndTextsOfMegabytesAreErrorsOfALine) {
   const std::string megabytes(20'000'000, 'a');
-  const std::string named = complaint(in_world("<model name='" + megabytes + "'><link name='l'/></model>"));
+  const std::string named = reported_for(in_world("<model name='" + megabytes + "'><link name='l'/></model>"));
   EXPECT_TRUE(holds(named, "scene.sdf:1: the name 'aaaa")) << named.substr(0, 200);
-  const std::string posed = complaint(in_world("<model name='m'><pose>" + megabytes + "</pose></model>"));
+  const std::string posed = reported_for(in_world("<model name='m'><pose>" + megabytes + "</pose></model>"));
   EXPECT_TRUE(holds(posed, "scene.sdf:1: the text of <pose> 'aaaa")) << posed.substr(0, 200);
   EXPECT_LT(named.size() + posed.size(), 1000U);
 }
@@ -128,13 +128,13 @@ TEST_F(HostileFiles, TenThousandsOfLinksAreRead) {
 TEST_F(HostileFiles, ElementsNestedWithoutEndAreAnError) {
   std::string models;
   for (int i = 0; i < 100'000; ++i) models += "<model name='m'>";
-  const std::string reported = complaint("<sdf version='1.9'>" + models);
+  const std::string reported = reported_for("<sdf version='1.9'>" + models);
   EXPECT_TRUE(holds(reported, "scene.sdf:1: ")) << reported.substr(0, 200);
 }
 
 TEST_F(HostileFiles, XacroThatDoesNotEndIsEnded) {
   ::setenv("BUBBLESIM_XACRO_SECONDS", "1", 1);
-  const std::string reported = complaint("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
+  const std::string reported = reported_for("<robot name='r'><link name='${10**10**10}'/></robot>", "endless.xacro");
   ::unsetenv("BUBBLESIM_XACRO_SECONDS");
   EXPECT_TRUE(holds(reported, "endless.xacro: xacro did not end within 1.00 s and was killed")) << reported;
 }

@@ -44,7 +44,7 @@ class ModelIncludes : public ::testing::Test {
     return read_scene(write("scene/scene.sdf", in_world(includes)).string(), {}, warnings);
   }
 
-  std::string complaint(const std::string& includes) const {
+  std::string reported_for(const std::string& includes) const {
     try {
       load(includes);
     } catch (const SceneError& error) {
@@ -104,7 +104,7 @@ TEST_F(ModelIncludes, MayGiveAnotherScriptBesideTheScene) {
 TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
   write_model("scene/near");
   const std::string reported =
-      complaint("\n<include><uri>near</uri><bubblesim:child_script>none.py</bubblesim:child_script></include>");
+      reported_for("\n<include><uri>near</uri><bubblesim:child_script>none.py</bubblesim:child_script></include>");
   EXPECT_NE(reported.find("scene.sdf:2"), std::string::npos) << reported;
   EXPECT_NE(reported.find("none.py does not exist"), std::string::npos) << reported;
 }
@@ -123,7 +123,7 @@ TEST_F(ModelIncludes, ProblemsInsideAModelAreToldInItsFile) {
   write("scene/near/model.sdf",
         "<sdf version='1.9'><model name='robot'><link name='base'><inertial><mass>-1</mass></inertial>\n"
         "</link></model></sdf>");
-  EXPECT_NE(complaint("<include><uri>near</uri></include>").find("near/model.sdf:1"), std::string::npos);
+  EXPECT_NE(reported_for("<include><uri>near</uri></include>").find("near/model.sdf:1"), std::string::npos);
 }
 
 }  // namespace

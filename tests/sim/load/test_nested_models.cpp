@@ -58,7 +58,7 @@ TEST_F(NestedModels, StandInTheFramesThatTheyName) {
 }
 
 TEST_F(NestedModels, AreJoinedAcrossTheirBorders) {
-  world_.set_target_velocity(find("/shoulder"), 0.5);
+  world_.joints().set_target_velocity(find("/shoulder"), 0.5);
   world_.advance(2, 0.005);
   EXPECT_NEAR(turn_about(Vector3::UnitZ(), world_.pose(find("/body")), world_.pose(find("/palm"))), 1, 0.02);
   EXPECT_NEAR((world_.pose(find("/palm")).position - world_.pose(find("/upper")).position).norm(), 0.3, 1e-3);
@@ -72,14 +72,14 @@ TEST_F(NestedModels, AreMovedAlone) {
 }
 
 TEST_F(NestedModels, AreRemovedWithTheirOutermostModelOnly) {
-  EXPECT_THROW(world_.remove_model(find("/Arm")), InvalidInput);
-  world_.remove_model(find("/Cart"));
+  EXPECT_THROW(world_.models().remove(find("/Arm")), InvalidInput);
+  world_.models().remove(find("/Cart"));
   EXPECT_THROW(find("/palm"), NoSuchObject);
 }
 
 TEST_F(NestedModels, AreBuiltAnewByAReset) {
   const std::uint64_t before = world_.state_hash();
-  world_.set_target_velocity(find("/shoulder"), 0.5);
+  world_.joints().set_target_velocity(find("/shoulder"), 0.5);
   world_.advance(1, 0.005);
   world_.reset();
   EXPECT_EQ(world_.state_hash(), before);

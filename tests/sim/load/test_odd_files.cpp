@@ -24,7 +24,7 @@ SceneDescription loaded(const std::string& text, const std::string& name = "odd.
   return scene;
 }
 
-std::string complaint(const std::string& text, const std::string& name = "odd.sdf") {
+std::string reported_for(const std::string& text, const std::string& name = "odd.sdf") {
   try {
     loaded(text, name);
   } catch (const SceneError& error) {
@@ -56,8 +56,8 @@ TEST(PhysicsStep, ThatDoesNotFitADefaultPassMakesItShorter) {
 }
 
 TEST(Version, IsAskedFor) {
-  EXPECT_TRUE(holds(complaint("<sdf><world name='w'/></sdf>"), ":1: <sdf> has no version"));
-  EXPECT_TRUE(holds(complaint("<sdf version='abc'><world name='w'/></sdf>"), ":1: invalid version 'abc': expected"));
+  EXPECT_TRUE(holds(reported_for("<sdf><world name='w'/></sdf>"), ":1: <sdf> has no version"));
+  EXPECT_TRUE(holds(reported_for("<sdf version='abc'><world name='w'/></sdf>"), ":1: invalid version 'abc': expected"));
 }
 
 TEST(Latin1, IsRead) {
@@ -194,7 +194,7 @@ TEST(Urdf, StandsWhenItsFirstLinkHasNoMass) {
 }
 
 TEST(Urdf, WithoutALinkOfItsOwnTellsSo) {
-  EXPECT_TRUE(holds(complaint(robot("<link name='world'/>"), "odd.urdf"), "contains no <link> except the world"));
+  EXPECT_TRUE(holds(reported_for(robot("<link name='world'/>"), "odd.urdf"), "contains no <link> except the world"));
 }
 
 TEST(Urdf, RunsWithoutWhatHangsOnALinkWithoutMass) {
@@ -208,12 +208,12 @@ TEST(Urdf, WithANegativeMassIsRefused) {
   const std::string text = robot(
       "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
       "</inertial></link>");
-  EXPECT_TRUE(holds(complaint(text, "odd.urdf"), "/r/a: the mass is -1 kg, it must be above 0"));
+  EXPECT_TRUE(holds(reported_for(text, "odd.urdf"), "/r/a: the mass is -1 kg, it must be above 0"));
 }
 
 TEST(Urdf, ThatCannotBeParsedSaysWhy) {
   EXPECT_TRUE(
-      holds(complaint(robot(heavy("a") + urdf_joint("fixed", "a", "b")), "odd.urdf"), "child link [b] of joint"));
+      holds(reported_for(robot(heavy("a") + urdf_joint("fixed", "a", "b")), "odd.urdf"), "child link [b] of joint"));
 }
 
 TEST(Urdf, FreesWhatMimicsAJointThatDoesNotMove) {

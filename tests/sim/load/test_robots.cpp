@@ -53,8 +53,10 @@ constexpr double kWheelRadius = 0.3;
 
 class Tricycle : public ::testing::Test {
  protected:
-  void steer(double angle) { world().set_target_position(world().tree().find("/Steering"), angle); }
-  void drive(double wheel_speed) { world().set_target_velocity(world().tree().find("/FrontMotor"), wheel_speed); }
+  void steer(double angle) { world().joints().set_target_position(world().tree().find("/Steering"), angle); }
+  void drive(double wheel_speed) {
+    world().joints().set_target_velocity(world().tree().find("/FrontMotor"), wheel_speed);
+  }
   void run(double duration) {
     for (int i = 0; i < std::lround(duration / simulation.time_step()); ++i) simulation.step();
   }
@@ -149,7 +151,7 @@ TEST(BubbleRob, CirclesAboutItsRightWheelWhenOnlyTheLeftTurns) {
   constexpr double kWheelSpeed = 3;
   for (int i = 0; i < 20; ++i) simulation.step();
   const Vector3 right_before = world.pose(world.tree().find("/right_wheel")).position;
-  world.set_target_velocity(world.tree().find("/rosInterfaceControlledBubbleRobLeftMotor"), kWheelSpeed);
+  world.joints().set_target_velocity(world.tree().find("/rosInterfaceControlledBubbleRobLeftMotor"), kWheelSpeed);
   std::vector<Vector3> track;
   const double lap = 2 * M_PI * kTrack / (kRadius * kWheelSpeed);
   while (simulation.time() < 1 + lap) {

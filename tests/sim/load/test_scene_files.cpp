@@ -39,7 +39,7 @@ class SceneFiles : public ::testing::Test {
     return "<" + role + " name='s'><geometry><mesh><uri>" + uri + "</uri></mesh></geometry></" + role + ">";
   }
 
-  static std::string complaint(const std::string& file) {
+  static std::string reported_for(const std::string& file) {
     try {
       read_scene(file);
     } catch (const SceneError& error) {
@@ -81,7 +81,7 @@ TEST_F(SceneFiles, OfAPackageAreFoundFromWithinIt) {
 
 TEST_F(SceneFiles, BrokenMeshIsAnErrorOfACollisionAndAWarningOfAVisual) {
   write("a.stl", "this is no mesh");
-  const std::string reported = complaint(write("s.sdf", model_with(mesh("a.stl"))));
+  const std::string reported = reported_for(write("s.sdf", model_with(mesh("a.stl"))));
   EXPECT_NE(reported.find("s.sdf:1: /m/l/s: "), std::string::npos) << reported;
   EXPECT_NE(reported.find("a.stl cannot be read as a mesh"), std::string::npos) << reported;
   const std::string sphere = "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>";
@@ -144,7 +144,7 @@ TEST_F(SceneFiles, OfBeforeSdformat13AreReadWithTheirLines) {
     return text.replace(text.find('%'), 1, radius);
   };
   EXPECT_EQ(read_scene(write("old.sdf", with_radius("1"))).models.at(1).name, "old");
-  EXPECT_NE(complaint(write("old.sdf", with_radius("-1"))).find("old.sdf:4: /old/l/c: the sphere's radius"),
+  EXPECT_NE(reported_for(write("old.sdf", with_radius("-1"))).find("old.sdf:4: /old/l/c: the sphere's radius"),
             std::string::npos);
 }
 
@@ -180,7 +180,7 @@ TEST_F(SceneFiles, OfXacroAreExpanded) {
 <collision><geometry><sphere radius="${r}"/></geometry></collision></link></robot>)");
   const SceneDescription scene = read_scene(file);
   EXPECT_EQ(std::get<Sphere>(scene.models.at(1).links.at(0).collisions.at(0).geometry).radius, 0.5);
-  const std::string reported = complaint(write("bad.xacro", "<robot name='b'><link name='${nothing}'/></robot>"));
+  const std::string reported = reported_for(write("bad.xacro", "<robot name='b'><link name='${nothing}'/></robot>"));
   EXPECT_NE(reported.find("bad.xacro: xacro failed: "), std::string::npos) << reported;
 }
 
@@ -214,7 +214,7 @@ TEST_F(SceneFiles, ElementsThatAreNotUsedStopNothing) {
 <visual name="v"><meta><layer>1</layer></meta><geometry><box><size>1 1 1</size></box></geometry><material><shader
  type="normal_map_tangent_space"><normal_map>n.png</normal_map></shader></material><plugin name="p" filename="p.so"/></visual>
 </link><gripper name="g"><grasp_check/><gripper_link>l</gripper_link><palm_link>l</palm_link></gripper></model>)");
-  EXPECT_EQ(complaint(write("w.world", world)), "");
+  EXPECT_EQ(reported_for(write("w.world", world)), "");
 }
 
 }  // namespace

@@ -19,24 +19,24 @@ namespace {
 const fs::path kBadScenes = BUBBLESIM_TEST_SCENES;
 const fs::path kScenes = BUBBLESIM_SCENES;
 
-/// The problems of a scene, as texts without the file: `12: /Robot: ...`.
-std::vector<std::string> complaints(const std::string& name_or_path) {
+/// The problems of a scene, as strings without the file: `12: /Robot: ...`.
+std::vector<std::string> problems(const std::string& name_or_path) {
   try {
     read_scene(name_or_path);
   } catch (const SceneError& error) {
-    std::vector<std::string> texts;
+    std::vector<std::string> strings;
     for (const Problem& problem : error.problems) {
       const std::string object = problem.object.empty() ? "" : problem.object + ": ";
-      texts.push_back(std::to_string(problem.line) + ": " + object + problem.message);
+      strings.push_back(std::to_string(problem.line) + ": " + object + problem.message);
     }
-    return texts;
+    return strings;
   }
   return {"it loads"};
 }
 
-std::string all_complaints(const std::string& name_or_path) {
+std::string all_problems(const std::string& name_or_path) {
   std::string all;
-  for (const std::string& text : complaints(name_or_path)) all += text + "\n";
+  for (const std::string& text : problems(name_or_path)) all += text + "\n";
   return all;
 }
 
@@ -52,12 +52,12 @@ class BadScene : public ::testing::TestWithParam<fs::path> {};
 TEST_P(BadScene, EveryProblemIsReportedInItsPlaceAndNoOther) {
   static const std::regex pattern("<!-- expect: (\\d+: )(.*?) -->");
   const std::string text = content(GetParam());
-  std::vector<std::string> found = complaints(GetParam().string());
+  std::vector<std::string> found = problems(GetParam().string());
   int expected = 0;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern); match != std::sregex_iterator(); ++match) {
     ++expected;
-    const auto fits = std::find_if(found.begin(), found.end(), [&](const std::string& complaint) {
-      return complaint.rfind(match->str(1), 0) == 0 && complaint.find(match->str(2)) != std::string::npos;
+    const auto fits = std::find_if(found.begin(), found.end(), [&](const std::string& problem) {
+      return problem.rfind(match->str(1), 0) == 0 && problem.find(match->str(2)) != std::string::npos;
     });
     if (fits == found.end()) {
       ADD_FAILURE() << "not reported: " << match->str(1) << match->str(2);
@@ -66,7 +66,7 @@ TEST_P(BadScene, EveryProblemIsReportedInItsPlaceAndNoOther) {
     }
   }
   EXPECT_GT(expected, 0) << "the file expects nothing";
-  for (const std::string& complaint : found) ADD_FAILURE() << "not expected: " << complaint;
+  for (const std::string& problem : found) ADD_FAILURE() << "not expected: " << problem;
 }
 
 std::vector<fs::path> bad_scenes() {
@@ -92,10 +92,10 @@ TEST(SceneError, TextIsAsEditorsReadIt) {
 }
 
 TEST(SceneFile, EmptyFileIsSaidToBeEmpty) {
-  EXPECT_EQ(all_complaints(TemporaryFile("empty.sdf", "").path()), "0: is empty\n");
+  EXPECT_EQ(all_problems(TemporaryFile("empty.sdf", "").path()), "0: is empty\n");
 }
 
-TEST(SceneFile, FolderIsNoScene) { EXPECT_EQ(all_complaints(kBadScenes.string()), "0: is a folder, not a scene\n"); }
+TEST(SceneFile, FolderIsNoScene) { EXPECT_EQ(all_problems(kBadScenes.string()), "0: is a folder, not a scene\n"); }
 
 TEST(SceneFile, MissingFileIsNamed) {
   try {
@@ -111,12 +111,12 @@ TEST(SceneFile, BinaryFileIsNoScene) {
       "\x7f"
       "ELF\0\1\2\3\xff\xfe<",
       11);
-  EXPECT_NE(all_complaints(TemporaryFile("binary.sdf", bytes).path()), "it loads\n");
+  EXPECT_NE(all_problems(TemporaryFile("binary.sdf", bytes).path()), "it loads\n");
 }
 
 TEST(SceneName, UnknownNameSuggestsAKnownOne) {
-  EXPECT_NE(all_complaints("trycicle").find("scene not found: 'trycicle'; did you mean tricycle?"), std::string::npos);
-  EXPECT_NE(all_complaints("").find("scene not found: ''"), std::string::npos);
+  EXPECT_NE(all_problems("trycicle").find("scene not found: 'trycicle'; did you mean tricycle?"), std::string::npos);
+  EXPECT_NE(all_problems("").find("scene not found: ''"), std::string::npos);
 }
 
 TEST(SceneName, ShippedScenesAreFoundByName) {
@@ -238,7 +238,7 @@ TEST(LoadedScene, FindsTheChildScriptBesideTheFile) {
 }
 
 /// The same for the text of a model.
-std::string complaints_about_model(const std::string& text) {
+std::string problems_of_model(const std::string& text) {
   try {
     load_model(text, kScenes);
   } catch (const SceneError& error) {
@@ -304,7 +304,7 @@ TEST(ModelText, ThatCannotBeUsedTellsWhere) {
       {"<robot/>", "<data-string>: No name given for the robot."},
   };
   for (const auto& [text, expected] : cases) {
-    const std::string error = complaints_about_model(text);
+    const std::string error = problems_of_model(text);
     EXPECT_NE(error.find(expected), std::string::npos) << text << "\n" << error;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that Gazebo takes although they break SDFormat's rules: each is read, with a warning that says what was done.
+// Files that Gazebo takes although they break SDFormat's rules: each is read, with a warning that states what was done.
 #include <gtest/gtest.h>
 
 #include "bubblesim/error.hpp"

@@ -39,7 +39,7 @@ std::shared_ptr<const TriangleMesh> load(const MeshRequest& request) {
 }
 
 template <class Call>
-std::string complaint(const Call& call) {
+std::string problem(const Call& call) {
   try {
     call();
   } catch (const MeshError& error) {
@@ -161,7 +161,7 @@ TEST(MeshFile, CentersASubmeshIfAsked) {
 
 TEST(MeshFile, WithoutTheSubmeshAskedForTellsASimilarOne) {
   const TemporaryFile file("parts.obj", kObj);
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(problem([&] {
               load({file.path(), Vector3::Ones(), "lage"});
             }),
             "has no submesh 'lage'; did you mean large?");
@@ -209,10 +209,10 @@ TEST(MeshFile, IsReadOnceAndSharedWhileAnybodyUsesIt) {
 
 TEST(MeshFile, ThatCannotBeReadTellsWhy) {
   const TemporaryFile broken("broken.dae", "<COLLADA");
-  EXPECT_NE(complaint([&] { load({broken.path()}); }).find("cannot be read as a mesh"), std::string::npos);
+  EXPECT_NE(problem([&] { load({broken.path()}); }).find("cannot be read as a mesh"), std::string::npos);
   const TemporaryFile empty("empty.stl", "solid nothing\nendsolid nothing\n");
-  EXPECT_NE(complaint([&] { load({empty.path()}); }), "");
-  EXPECT_EQ(complaint([&] { load({"/nowhere/at_all.stl"}); }), "does not exist");
+  EXPECT_NE(problem([&] { load({empty.path()}); }), "");
+  EXPECT_EQ(problem([&] { load({"/nowhere/at_all.stl"}); }), "does not exist");
 }
 
 std::size_t number_of_children() {
@@ -222,10 +222,10 @@ std::size_t number_of_children() {
 
 TEST(MeshFile, ThatIsDamagedIsReadOnce) {
   const TemporaryFile broken("broken.dae", "<COLLADA version='1.4.1'>");
-  const std::string reported = complaint([&] { load({broken.path()}); });
+  const std::string reported = problem([&] { load({broken.path()}); });
   const std::size_t before = number_of_children();
   MeshReader reader;
-  EXPECT_EQ(complaint([&] { load_mesh({broken.path()}, reader); }), reported);
+  EXPECT_EQ(problem([&] { load_mesh({broken.path()}, reader); }), reported);
   EXPECT_EQ(number_of_children(), before) << "a reader was started";
 }
 
@@ -245,7 +245,7 @@ TEST(MeshFile, ThatItsReaderDoesNotSurviveIsAnErrorAndTheNextOneIsRead) {
   const TemporaryFile fine("corner.stl", kStl);
   MeshReader reader;
   for (const std::string& file : {runs_away.path(), crashes.path()}) {
-    const std::string reported = complaint([&] { load_mesh({file}, reader); });
+    const std::string reported = problem([&] { load_mesh({file}, reader); });
     EXPECT_EQ(reported.find("cannot be read as a mesh"), 0U) << reported;
     EXPECT_EQ(load_mesh({fine.path()}, reader)->triangles.size(), 4U);
   }
@@ -277,7 +277,7 @@ TEST(MeshFile, ThatIsAFifoIsAnError) {
   const TemporaryFile beside("corner.stl", kStl);
   const std::string fifo = beside.folder() + "/fifo.stl";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  EXPECT_EQ(complaint([&] { load({fifo}); }), "is not a regular file");
+  EXPECT_EQ(problem([&] { load({fifo}); }), "is not a regular file");
 }
 
 TEST(Surface, LosesTrianglesWithoutAnArea) {
@@ -289,12 +289,12 @@ TEST(Surface, LosesTrianglesWithoutAnArea) {
 TEST(Surface, WithNumbersThatAreNoneIsTurnedDown) {
   TriangleMesh mesh = box_triangles({1, 1, 1});
   mesh.vertices[3][1] = NAN;
-  EXPECT_NE(complaint([&] { finish_mesh(mesh); }).find("not finite"), std::string::npos);
+  EXPECT_NE(problem([&] { finish_mesh(mesh); }).find("not finite"), std::string::npos);
   mesh = box_triangles({1, 1, 1});
   mesh.triangles[3][1] = 8;
-  EXPECT_NE(complaint([&] { finish_mesh(mesh); }).find("does not exist"), std::string::npos);
+  EXPECT_NE(problem([&] { finish_mesh(mesh); }).find("does not exist"), std::string::npos);
   mesh.triangles.clear();
-  EXPECT_NE(complaint([&] { finish_mesh(mesh); }).find("no triangle"), std::string::npos);
+  EXPECT_NE(problem([&] { finish_mesh(mesh); }).find("no triangle"), std::string::npos);
 }
 
 class Extrusion : public ::testing::TestWithParam<bool> {};
@@ -315,10 +315,10 @@ TEST(Extrusions, TakeAClosedOutlineAndCornersInOneLine) {
 }
 
 TEST(Extrusions, TellWhatIsWrongWithAnOutline) {
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}}, 1}}); }), "has fewer than three corners");
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {2, 0}}, 1}}); }), "has no area");
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {1, 0}, {1, 1}}, 0}}); }), "must have a height above 0");
-  EXPECT_EQ(complaint([] { extrude({{{{0, 0}, {2, 2}, {2, 0}, {0, 3}}, 1}}); }), "crosses itself");
+  EXPECT_EQ(problem([] { extrude({{{{0, 0}, {1, 0}}, 1}}); }), "has fewer than three corners");
+  EXPECT_EQ(problem([] { extrude({{{{0, 0}, {1, 0}, {2, 0}}, 1}}); }), "has no area");
+  EXPECT_EQ(problem([] { extrude({{{{0, 0}, {1, 0}, {1, 1}}, 0}}); }), "must have a height above 0");
+  EXPECT_EQ(problem([] { extrude({{{{0, 0}, {2, 2}, {2, 0}, {0, 3}}, 1}}); }), "crosses itself");
 }
 
 TEST(Extrusions, HaveHolesWhereOutlinesLieInOthers) {
@@ -338,7 +338,7 @@ TEST(Walls, StandOnTheDarkPixelsOfAPicture) {
   EXPECT_NEAR(volume(*mesh), 3 * 0.1 * 0.1 * 2, 1e-6);
   expect_near(mesh->low, {-0.15, -0.1, 0}, kRounding);
   expect_near(mesh->high, {0.05, 0.1, 2}, kRounding);
-  EXPECT_EQ(complaint([&] { raise_walls(picture, 0.1, 0, 1); }), "has no pixel darker than the <threshold>");
+  EXPECT_EQ(problem([&] { raise_walls(picture, 0.1, 0, 1); }), "has no pixel darker than the <threshold>");
 }
 
 TEST(Ground, HasItsUpperEdgeAtPlusYAndItsBrightestPixelAtItsHeight) {

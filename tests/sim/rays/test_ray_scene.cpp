@@ -151,7 +151,7 @@ void expect_as_exact_rays(const Traced& traced, std::mt19937& random, ObjectId i
     const Vector3 origin(static_cast<float>(place(random)), static_cast<float>(place(random)),
                          static_cast<float>(place(random) + 8));
     const Vector3 direction = Vector3(any(random), any(random), any(random)).normalized();
-    const auto exact = traced.world.cast_ray(origin, direction, kFar, ignored);
+    const auto exact = traced.world.geometry().cast_ray(origin, direction, kFar, ignored);
     const auto traced_hit = traced.hit(origin, direction, ignored, i % 2 == 0);
     if (exact.has_value() != traced_hit.has_value() || (exact && exact->link != traced_hit->link)) {
       ++differing;

@@ -18,7 +18,7 @@ constexpr double kFar = 1000;
 std::optional<RayHit> hit(const Geometry& geometry, const Vector3& origin, const Vector3& direction,
                           double max_distance = kFar, const Pose& pose = {}) {
   const World world(scene({still(model("Target", link_with(geometry), pose))}), 0);
-  return world.cast_ray(origin, direction.normalized(), max_distance);
+  return world.geometry().cast_ray(origin, direction.normalized(), max_distance);
 }
 
 void expect_hit(const std::optional<RayHit>& found, double distance, const Vector3& normal) {
@@ -184,7 +184,7 @@ TEST_P(RayOnAnyShape, AgreesWithSamplingAlongRandomRays) {
     const Vector3 origin(place(random), place(random), place(random));
     const Vector3 direction = Vector3(any(random), any(random), any(random)).normalized();
     if (outside(geometry, origin) <= 0) continue;
-    const auto found = world.cast_ray(origin, direction, kReach);
+    const auto found = world.geometry().cast_ray(origin, direction, kReach);
     if (found) {
       ++hits;
       const Vector3 point = origin + direction * found->distance;
@@ -207,11 +207,11 @@ TEST(RayInAWorld, NearestOfSeveralShapesCountsAndModelsCanBeLeftOut) {
   const World world(scene({still(model("Near", link_with(Sphere{1}), at(5, 0, 0))),
                            still(model("Far", link_with(Sphere{1}), at(9, 0, 0)))}),
                     0);
-  const auto near = world.cast_ray({}, Vector3::UnitX(), kFar);
+  const auto near = world.geometry().cast_ray({}, Vector3::UnitX(), kFar);
   ASSERT_TRUE(near);
   EXPECT_DOUBLE_EQ(near->distance, 4);
   EXPECT_EQ(world.tree().path(near->link), "/Near/link");
-  const auto far = world.cast_ray({}, Vector3::UnitX(), kFar, world.tree().find("/Near"));
+  const auto far = world.geometry().cast_ray({}, Vector3::UnitX(), kFar, world.tree().find("/Near"));
   ASSERT_TRUE(far);
   EXPECT_DOUBLE_EQ(far->distance, 8);
 }
@@ -219,8 +219,8 @@ TEST(RayInAWorld, NearestOfSeveralShapesCountsAndModelsCanBeLeftOut) {
 TEST(RayInAWorld, SeesABodyWhereItHasMovedTo) {
   World world(scene({model("Ball", link_with(Sphere{1}), at(5, 0, 0))}), 0);
   world.set_pose(world.tree().find("/Ball"), at(0, 8, 0));
-  EXPECT_FALSE(world.cast_ray({}, Vector3::UnitX(), kFar));
-  const auto found = world.cast_ray({}, Vector3::UnitY(), kFar);
+  EXPECT_FALSE(world.geometry().cast_ray({}, Vector3::UnitX(), kFar));
+  const auto found = world.geometry().cast_ray({}, Vector3::UnitY(), kFar);
   ASSERT_TRUE(found);
   EXPECT_DOUBLE_EQ(found->distance, 7);
 }

@@ -57,8 +57,8 @@ TEST(Batch, EqualsSingleSimulationsForAnyNumberOfThreads) {
       Simulation alone(scene, 7 + i);
       const SceneTree& tree = alone.world().tree();
       for (int k = 0; k < 25; ++k) {
-        alone.world().set_target_velocity(tree.find("/FrontMotor"), commands(i, k)[0]);
-        alone.world().set_target_position(tree.find("/Steering"), commands(i, k)[1]);
+        alone.world().joints().set_target_velocity(tree.find("/FrontMotor"), commands(i, k)[0]);
+        alone.world().joints().set_target_position(tree.find("/Steering"), commands(i, k)[1]);
         alone.step();
         alone.read_proximity(tree.find("/FrontSonar"));
       }

@@ -33,7 +33,7 @@ std::shared_ptr<const Scene> boxes(std::vector<RandomQuantity> randomized = {}) 
 }
 
 double mass_of(const Simulation& simulation, const char* path = "/Box") {
-  return simulation.world().mass(simulation.world().tree().find(path));
+  return simulation.world().properties().mass(simulation.world().tree().find(path));
 }
 
 /// Masses of a box for many seeds.
@@ -108,7 +108,7 @@ TEST(Randomization, AResetDrawsTheSameAgain) {
   const std::string start = simulation.save();
   const double mass = mass_of(simulation);
   EXPECT_NE(mass, mass_of(simulation, "/Other"));
-  EXPECT_NE(simulation.world().gravity().z(), -9.81);
+  EXPECT_NE(simulation.world().properties().gravity().z(), -9.81);
   simulation.step();
   simulation.reset();
   EXPECT_TRUE(simulation.save() == start);

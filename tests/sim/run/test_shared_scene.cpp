@@ -22,8 +22,8 @@ const std::shared_ptr<const Scene>& tricycle() {
 /// The hashes of the states after each step of a tricycle that drives a curve, and the distances to walls.
 std::vector<double> drive(Simulation& simulation, int steps = 40) {
   const SceneTree& tree = simulation.world().tree();
-  simulation.world().set_target_position(tree.find("/Steering"), 0.3);
-  simulation.world().set_target_velocity(tree.find("/FrontMotor"), 4);
+  simulation.world().joints().set_target_position(tree.find("/Steering"), 0.3);
+  simulation.world().joints().set_target_velocity(tree.find("/FrontMotor"), 4);
   const ObjectId sonar = tree.find("/FrontSonar");
   std::vector<double> states;
   for (int i = 0; i < steps; ++i) {

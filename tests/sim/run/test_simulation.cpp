@@ -88,8 +88,8 @@ TEST(Drain, MovesNothing) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
-constexpr double kExact = 1e-4;                   // m, of rays
-constexpr double kExactInPasses = kExact / 0.05;  // for a motion of 1 m/s
+constexpr double kExact = 1e-4;                  // m, of rays
+constexpr double kExactInSteps = kExact / 0.05;  // for a motion of 1 m/s
 
 /// A sonar that looks along x at a sphere, which starts 5 m away and approaches with 1 m/s: the distance shows the time
 /// of the measurement.
@@ -109,7 +109,7 @@ struct Approach {
     simulation.world().set_velocity(simulation.world().tree().find("/Ball"), {{-1, 0, 0}, {}});
   }
   /// Age of the sensor's measurement in steps.
-  double age_in_passes() {
+  double age_in_steps() {
     const double measured_at = 5 - simulation.read_proximity(sonar).distance;
     return (simulation.time() - measured_at) / simulation.time_step();
   }
@@ -122,19 +122,19 @@ TEST(Sensor, WithoutARateMeasuresInEveryPass) {
   Approach approach(0);
   for (int i = 0; i < 30; ++i) {
     approach.simulation.step();
-    EXPECT_NEAR(approach.age_in_passes(), 0, kExactInPasses);
+    EXPECT_NEAR(approach.age_in_steps(), 0, kExactInSteps);
   }
 }
 
 class SensorRate : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 TEST_P(SensorRate, MeasuresOnceInItsPeriod) {
-  const auto [rate, passes] = GetParam();
+  const auto [rate, steps] = GetParam();
   Approach approach(rate);
-  approach.age_in_passes();  // the sensor has a reader from now on
+  approach.age_in_steps();  // the sensor has a reader from now on
   for (int i = 0; i < 60; ++i) {
     approach.simulation.step();
-    EXPECT_NEAR(approach.age_in_passes(), (i + 1) % passes, kExactInPasses) << "rate " << rate << " pass " << i;
+    EXPECT_NEAR(approach.age_in_steps(), (i + 1) % steps, kExactInSteps) << "rate " << rate << " step " << i;
   }
 }
 
@@ -145,11 +145,11 @@ INSTANTIATE_TEST_SUITE_P(Rates, SensorRate,
 
 TEST(SensorRateThatDoesNotDivideTheClock, IsKeptOnAverage) {
   Approach approach(3);
-  approach.age_in_passes();
+  approach.age_in_steps();
   int measured = 0;
   for (int i = 0; i < 200; ++i) {
     approach.simulation.step();
-    if (std::abs(approach.age_in_passes()) < kExactInPasses) ++measured;
+    if (std::abs(approach.age_in_steps()) < kExactInSteps) ++measured;
     if (approach.simulation.time() > 4.5) break;  // it would pass through the sensor
   }
   EXPECT_NEAR(measured, 3 * 4.5, 1);
@@ -159,14 +159,14 @@ TEST(SensorThatNobodyReads, MeasuresWhenItIsAsked) {
   Approach approach(1);
   for (int i = 0; i < 33; ++i) approach.simulation.step();
   // A measurement at its due time, 1.0 s, would be old.
-  EXPECT_NEAR(approach.age_in_passes(), 0, kExactInPasses);
+  EXPECT_NEAR(approach.age_in_steps(), 0, kExactInSteps);
   approach.simulation.step();
-  EXPECT_NEAR(approach.age_in_passes(), 1, kExactInPasses) << "now it measures with its rate again";
+  EXPECT_NEAR(approach.age_in_steps(), 1, kExactInSteps) << "now it measures with its rate again";
 }
 
 TEST(Measuring, IsIndependentOfTheRate) {
   Approach approach(1);
-  approach.age_in_passes();
+  approach.age_in_steps();
   for (int i = 0; i < 5; ++i) approach.simulation.step();
   EXPECT_NEAR(approach.simulation.measure_proximity(approach.sonar).distance, 5 - 0.25, kExact);
 }
@@ -285,7 +285,7 @@ TEST(ResetWorld, KeepsTheTime) {
 
 TEST(ResetWorld, LetsSensorsForgetWhatTheySawAndKeepTheirRate) {
   Approach approach(1);
-  approach.age_in_passes();
+  approach.age_in_steps();
   for (int i = 0; i < 30; ++i) approach.simulation.step();
   approach.simulation.reset_world();
   EXPECT_NEAR(approach.simulation.read_proximity(approach.sonar).distance, 5, kExact);
@@ -348,7 +348,7 @@ TEST(ReadingSensors, DoesNotChangeTheState) {
   Approach alone(0);
   for (int i = 0; i < 20; ++i) {
     watched.simulation.step();
-    watched.age_in_passes();
+    watched.age_in_steps();
     alone.simulation.step();
   }
   EXPECT_EQ(watched.simulation.state_hash(), alone.simulation.state_hash());

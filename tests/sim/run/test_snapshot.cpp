@@ -34,9 +34,9 @@ std::vector<std::string> run(Simulation& simulation, int from, int to) {
     for (const ObjectId id : world.tree().objects()) {
       const ObjectKind kind = world.tree().at(id).kind;
       if (kind == ObjectKind::kSensor && step % 3 == 0) simulation.read(id);
-      if (kind != ObjectKind::kJoint || world.joint_axes(id) == 0 || step % 4 != 0) continue;
-      world.set_target_velocity(id, 3 * std::sin(0.7 * step + id));
-      world.set_target_position(id, std::sin(0.3 * step + id));
+      if (kind != ObjectKind::kJoint || world.joints().axes(id) == 0 || step % 4 != 0) continue;
+      world.joints().set_target_velocity(id, 3 * std::sin(0.7 * step + id));
+      world.joints().set_target_position(id, std::sin(0.3 * step + id));
     }
     simulation.step();
     states.push_back(simulation.save());
@@ -140,14 +140,14 @@ TEST(Snapshot, KeepsDevices) {
     auto ramps = std::make_shared<JointRamps>(std::vector<double>{0.5},
                                               std::vector<JointRamps::Output>{{motor, MotorMode::kVelocity, {2}}});
     ramps->set_targets({3});
-    world.add_device(ramps, robot, 70);
+    world.devices().add(ramps, robot, 70);
     auto drive = std::make_shared<PlanarDrive>(robot);
     drive->set_velocity(0.2, 0.1, 0.3);
-    world.add_device(drive, robot);
+    world.devices().add(drive, robot);
     auto efforts = std::make_shared<TimedEfforts>();
     efforts->add_wrench(world, world.tree().parts(robot, ObjectKind::kLink)[0], {{3, 1, 0}, {}}, Vector3(0, 0.1, 0),
                         {0.1, 0.4});
-    world.add_device(efforts);
+    world.devices().add(efforts);
     Wind::Variation variation;
     variation.speed_noise = 1;
     simulation.wind()->set_mean({1, 2, 0});
@@ -159,29 +159,29 @@ TEST(Snapshot, KeepsMassFrictionAndGravity) {
   const auto scene = std::make_shared<const Scene>(heap());
   expect_equal_futures(scene, "properties", 40, [](Simulation& simulation) {
     World& world = simulation.world();
-    world.set_mass(world.tree().find("/Arm"), 7.3);
-    world.set_friction(world.tree().find("/Floor"), 0.2);
-    world.set_gravity({0, 1, -5});
+    world.properties().set_mass(world.tree().find("/Arm"), 7.3);
+    world.properties().set_friction(world.tree().find("/Floor"), 0.2);
+    world.properties().set_gravity({0, 1, -5});
   });
   Simulation simulation(scene, 5);
   const std::string start = simulation.save();
   World& world = simulation.world();
   world.set_planar_velocity(world.tree().find("/Box1"), 0.1, 0, 0);
   run(simulation, 0, 20);
-  world.set_mass(world.tree().find("/Box1"), 0.3);
-  world.set_friction(world.tree().find("/Box2"), 0.05);
-  world.set_gravity({0, 0, -2});
+  world.properties().set_mass(world.tree().find("/Box1"), 0.3);
+  world.properties().set_friction(world.tree().find("/Box2"), 0.05);
+  world.properties().set_gravity({0, 0, -2});
   const std::string saved = simulation.save();
   const std::vector<std::string> expected = run(simulation, 20, 40);
   Simulation other(scene, 6);
   other.restore(saved);
-  EXPECT_EQ(other.world().gravity().z(), -2);
-  EXPECT_EQ(other.world().mass(world.tree().find("/Box1")), 0.3);
-  EXPECT_EQ(other.world().friction(world.tree().find("/Box2")), 0.05);
+  EXPECT_EQ(other.world().properties().gravity().z(), -2);
+  EXPECT_EQ(other.world().properties().mass(world.tree().find("/Box1")), 0.3);
+  EXPECT_EQ(other.world().properties().friction(world.tree().find("/Box2")), 0.05);
   expect_equal(run(other, 20, 40), expected, "properties, other simulation");
   other.restore(start);
   EXPECT_TRUE(other.save() == start);
-  EXPECT_EQ(other.world().friction(world.tree().find("/Box2")), 1);
+  EXPECT_EQ(other.world().properties().friction(world.tree().find("/Box2")), 1);
 }
 
 /// Two hinges of one model, of which the second mimics the first; both may turn by some turns.
@@ -204,15 +204,15 @@ SceneDescription winches() {
 TEST(Snapshot, KeepsFullTurns) {
   const auto scene = std::make_shared<const Scene>(winches());
   Simulation simulation(scene);
-  simulation.world().set_target_velocity(simulation.world().tree().find("/winch"), 4);
+  simulation.world().joints().set_target_velocity(simulation.world().tree().find("/winch"), 4);
   for (int i = 0; i < 50; ++i) simulation.step();  // 2.5 s
   Simulation other(scene);
   other.restore(simulation.save());
   for (Simulation* each : {&simulation, &other}) {
     for (int i = 0; i < 10; ++i) each->step();
   }
-  EXPECT_NEAR(other.world().joint_position(other.world().tree().find("/winch")), 12, 0.05);
-  EXPECT_NEAR(other.world().joint_velocity(other.world().tree().find("/pointer")), 2, 2e-3);
+  EXPECT_NEAR(other.world().joints().position(other.world().tree().find("/winch")), 12, 0.05);
+  EXPECT_NEAR(other.world().joints().velocity(other.world().tree().find("/pointer")), 2, 2e-3);
   EXPECT_TRUE(other.save() == simulation.save());
 }
 
@@ -310,14 +310,14 @@ SceneDescription box_on_a_floor() { return scene({floor(), model("Box", link_wit
 
 TEST(Snapshot, KeepsTheModelsThatWereAddedWhenADeviceIsMissing) {
   Simulation with_device(box_on_a_floor());
-  with_device.world().add_device(std::make_shared<TimedEfforts>());
+  with_device.world().devices().add(std::make_shared<TimedEfforts>());
   run(with_device, 0, 3);
   const std::string saved = with_device.save();
   Simulation without(box_on_a_floor());
   without.add_model(model("Other", link_with(Sphere{0.5}), at(0, 0, 4)));
   run(without, 0, 5);
   expect_refused(without, saved, "number of devices");
-  without.world().add_device(std::make_shared<PlanarDrive>(without.world().tree().find("/Box")));
+  without.world().devices().add(std::make_shared<PlanarDrive>(without.world().tree().find("/Box")));
   expect_refused(without, saved, "kind of a device");
 }
 
@@ -381,13 +381,13 @@ struct Wide : Device {
 TEST(Snapshot, IsPutBackWhenADeviceRefusesItsPart) {
   Simulation narrow(box_on_a_floor());
   const auto first = std::make_shared<TimedEfforts>();
-  narrow.world().add_device(first);
-  narrow.world().add_device(std::make_shared<Wide>(2));
+  narrow.world().devices().add(first);
+  narrow.world().devices().add(std::make_shared<Wide>(2));
   run(narrow, 0, 3);
   const std::string saved = narrow.save();
   Simulation wide(box_on_a_floor());
-  wide.world().add_device(std::make_shared<TimedEfforts>());
-  wide.world().add_device(std::make_shared<Wide>(3));
+  wide.world().devices().add(std::make_shared<TimedEfforts>());
+  wide.world().devices().add(std::make_shared<Wide>(3));
   wide.add_model(model("Other", link_with(Sphere{0.5}), at(0, 0, 4)));
   run(wide, 0, 5);
   expect_refused(wide, saved, "numbers of the device");

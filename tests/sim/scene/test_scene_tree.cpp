@@ -17,7 +17,7 @@ class SceneTreePaths : public ::testing::Test {
   ObjectId add(ObjectKind kind, const std::string& name, ObjectId parent) { return tree.add(kind, name, parent, 0); }
 
   /// The error text of find().
-  std::string complaint(const std::string& path, ObjectId from = kNoObject, std::size_t index = 0) const {
+  std::string problem(const std::string& path, ObjectId from = kNoObject, std::size_t index = 0) const {
     try {
       tree.find(path, from, index);
     } catch (const NoSuchObject& error) {
@@ -61,7 +61,7 @@ TEST_F(SceneTreePaths, UniqueNameIsFoundAnywhere) {
   EXPECT_EQ(tree.find("/axis2"), axis2);
 }
 
-TEST_F(SceneTreePaths, LevelsInTheWrongOrderMatchNothing) { EXPECT_NE(complaint("/base/Robot"), "found"); }
+TEST_F(SceneTreePaths, LevelsInTheWrongOrderMatchNothing) { EXPECT_NE(problem("/base/Robot"), "found"); }
 
 TEST_F(SceneTreePaths, NearestToTheTopCountsFirst) {
   const ObjectId deep = add(ObjectKind::kLink, "Solo", base);
@@ -87,7 +87,7 @@ TEST_F(SceneTreePaths, TwoDotsRepeatedGoUpLevelByLevel) {
   EXPECT_EQ(tree.find("../..", eye0), robot);
   EXPECT_EQ(tree.find("../../arm", eye0), arm);
   EXPECT_EQ(tree.find("../../../Other", eye0), other);
-  EXPECT_NE(complaint("../../../../Other", eye0), "found") << "the scene has no parent";
+  EXPECT_NE(problem("../../../../Other", eye0), "found") << "the scene has no parent";
 }
 
 TEST_F(SceneTreePaths, ColonIsTheModel) {
@@ -98,14 +98,14 @@ TEST_F(SceneTreePaths, ColonIsTheModel) {
 
 TEST_F(SceneTreePaths, TwoColonsAreWhatTheModelStandsIn) {
   EXPECT_EQ(tree.find("::/Other", eye0), other);
-  EXPECT_NE(complaint("::", eye0), "found") << "the scene is not an object";
+  EXPECT_NE(problem("::", eye0), "found") << "the scene is not an object";
 }
 
 TEST_F(SceneTreePaths, RelativePathsWithoutAStartBeginAtTheScene) {
   EXPECT_EQ(tree.find("./Robot/eye"), eye0);
   EXPECT_EQ(tree.find(":/Other"), other);
-  EXPECT_NE(complaint("../eye"), "found");
-  EXPECT_NE(complaint("::/eye"), "found");
+  EXPECT_NE(problem("../eye"), "found");
+  EXPECT_NE(problem("::/eye"), "found");
 }
 
 /// /Car {lamp_0 and lamp_1 with the alias lamp, lamp with the alias horn}
@@ -123,7 +123,7 @@ TEST_F(Aliases, AreTheNamesInPathsAndMayBeEqual) {
   EXPECT_EQ(tree.find("/Car/lamp[1]"), lamp1);
   EXPECT_EQ(tree.find("/Car/lamp", kNoObject, 1), lamp1);
   EXPECT_EQ(tree.find("./lamp", car), lamp0);
-  EXPECT_EQ(complaint("/Car/lamp", kNoObject, 2), "only 2 objects match '/Car/lamp': there is no match with index 2");
+  EXPECT_EQ(problem("/Car/lamp", kNoObject, 2), "only 2 objects match '/Car/lamp': there is no match with index 2");
   EXPECT_EQ(tree.at(lamp1).name, "lamp_1");
 }
 
@@ -136,23 +136,23 @@ TEST_F(Aliases, AreFreeWhenTheirObjectIsRemoved) {
   tree.remove(lamp0);
   EXPECT_EQ(tree.path(lamp1), "/Car/lamp");
   tree.remove(car);
-  EXPECT_NE(complaint("/horn"), "found");
+  EXPECT_NE(problem("/horn"), "found");
 }
 
 TEST_F(SceneTreePaths, BracketsPickAmongSiblings) {
   EXPECT_EQ(tree.find("/Robot/eye[0]"), eye0);
   EXPECT_EQ(tree.find("/Robot/eye[1]"), eye1);
   EXPECT_EQ(tree.find("/wheel[2]"), wheel2);
-  EXPECT_NE(complaint("/wheel[3]"), "found");
+  EXPECT_NE(problem("/wheel[3]"), "found");
   EXPECT_EQ(tree.find("/Robot2/arm[0]"), robot2_arm);
-  EXPECT_NE(complaint("/arm[1]"), "found") << "the two arms are not siblings";
+  EXPECT_NE(problem("/arm[1]"), "found") << "the two arms are not siblings";
 }
 
 TEST_F(SceneTreePaths, BracesPickInTheScene) {
   EXPECT_EQ(tree.find("/arm{0}"), arm);
   EXPECT_EQ(tree.find("/arm{1}"), robot2_arm);
   EXPECT_EQ(tree.find("/eye{2}"), other_eye);
-  EXPECT_NE(complaint("/arm{2}"), "found");
+  EXPECT_NE(problem("/arm{2}"), "found");
 }
 
 TEST_F(SceneTreePaths, StarStandsForAnyCharacters) {
@@ -161,42 +161,42 @@ TEST_F(SceneTreePaths, StarStandsForAnyCharacters) {
   EXPECT_EQ(tree.find("/*heel", kNoObject, 1), wheel1);
   EXPECT_EQ(tree.find("/M*t*r"), motor);
   EXPECT_EQ(tree.find("./*", base), eye0);
-  EXPECT_NE(complaint("/x*"), "found");
+  EXPECT_NE(problem("/x*"), "found");
 }
 
 TEST_F(SceneTreePaths, ManyStarsAreDecidedQuickly) {
   const ObjectId odd = add(ObjectKind::kModel, std::string(60, 'a'), kNoObject);
   EXPECT_EQ(tree.find("/*a*a*a*a*a*a*a*a*a*a*"), odd);
-  EXPECT_NE(complaint("/*a*a*a*a*a*a*a*a*a*a*b"), "found");
+  EXPECT_NE(problem("/*a*a*a*a*a*a*a*a*a*a*b"), "found");
 }
 
 TEST_F(SceneTreePaths, IndexPicksALaterMatch) {
   EXPECT_EQ(tree.find("/arm", kNoObject, 1), robot2_arm);
-  EXPECT_EQ(complaint("/arm", kNoObject, 2), "only 2 objects match '/arm': there is no match with index 2");
+  EXPECT_EQ(problem("/arm", kNoObject, 2), "only 2 objects match '/arm': there is no match with index 2");
 }
 
 TEST_F(SceneTreePaths, SimilarNamesAreSuggested) {
-  EXPECT_EQ(complaint("/Moter"), "no object matches '/Moter'; did you mean /Motor, /Other?");
-  EXPECT_EQ(complaint("/Robot/bse"), "no object matches '/Robot/bse'; did you mean /Robot/base, /Robot/arm?");
-  EXPECT_EQ(complaint("./Motro", robot), "no object matches './Motro'; did you mean /Motor?");
-  EXPECT_EQ(complaint("/Quadrocopter"), "no object matches '/Quadrocopter'");
+  EXPECT_EQ(problem("/Moter"), "no object matches '/Moter'; did you mean /Motor, /Other?");
+  EXPECT_EQ(problem("/Robot/bse"), "no object matches '/Robot/bse'; did you mean /Robot/base, /Robot/arm?");
+  EXPECT_EQ(problem("./Motro", robot), "no object matches './Motro'; did you mean /Motor?");
+  EXPECT_EQ(problem("/Quadrocopter"), "no object matches '/Quadrocopter'");
 }
 
 TEST_F(SceneTreePaths, NameWithoutSlashIsExplainedAndCorrected) {
-  EXPECT_EQ(complaint("Motor"),
+  EXPECT_EQ(problem("Motor"),
             "no object matches 'Motor' (a path starts with '/', './', '../', ':/' or '::/'); did you mean /Motor?");
 }
 
 TEST_F(SceneTreePaths, EmptyPathsMatchNothing) {
-  EXPECT_NE(complaint(""), "found");
-  EXPECT_NE(complaint("/"), "found");
-  EXPECT_NE(complaint("//"), "found");
+  EXPECT_NE(problem(""), "found");
+  EXPECT_NE(problem("/"), "found");
+  EXPECT_NE(problem("//"), "found");
 }
 
 TEST_F(SceneTreePaths, MalformedIndicesArePartOfTheName) {
   for (const char* path :
        {"/arm[", "/arm]", "/arm[x]", "/arm[-1]", "/arm[0}", "/arm{0]", "/arm[99999999999999999999]", "/[0]"}) {
-    EXPECT_NE(complaint(path), "found") << path;
+    EXPECT_NE(problem(path), "found") << path;
   }
 }
 

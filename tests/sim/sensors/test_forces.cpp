@@ -43,7 +43,7 @@ TEST(ForceTorque, FastTurnIsMeasuredInItsAxesAtEachMoment) {
     kind.frame = frame;
     Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero()));
     const SceneTree& tree = simulation.world().tree();
-    simulation.world().set_target_velocity(tree.find("/joint"), kTurn);
+    simulation.world().joints().set_target_velocity(tree.find("/joint"), kTurn);
     for (int i = 0; i < 7; ++i) simulation.step();
     const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
     expect_near(reading.force, {kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);  // m w^2 r, outwards
@@ -59,7 +59,7 @@ TEST(ForceTorque, BandwidthIsThatOfAFirstOrderLowPass) {
   const SceneTree& tree = simulation.world().tree();
   simulation.step();
   for (int i = 1; i <= 3; ++i) {
-    simulation.world().apply_wrench(tree.find("/Robot/*", kNoObject, 1), {{0, 0, 4}, {}});
+    simulation.world().wrenches().apply(tree.find("/Robot/*", kNoObject, 1), {{0, 0, 4}, {}});
     simulation.step();
     const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
     EXPECT_NEAR(reading.force.z(), 4 * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i)), 1e-6);

@@ -75,7 +75,7 @@ TEST(Imu, OffTheCentreOfMassOfAHingedLink) {
   ModelDescription robot = with_imu(arm, Pose(0.5, 0, 0, 0, 0, 0));
   robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world", "arm"));
   Simulation simulation(scene({robot}, Vector3::Zero()));
-  simulation.world().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
+  simulation.world().joints().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
   for (int i = 0; i < 7; ++i) simulation.step();
   expect_near(measured(simulation).linear_acceleration, {-kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);
 }
@@ -88,7 +88,7 @@ TEST(Imu, BandwidthIsThatOfAFirstOrderLowPass) {
   Simulation simulation(scene({with_imu(link("link"), {}, {}, slow)}, Vector3::Zero()));
   simulation.step();
   for (int i = 1; i <= 4; ++i) {
-    simulation.world().apply_wrench(simulation.world().tree().find("/Robot"), {{kForce, 0, 0}, {}});
+    simulation.world().wrenches().apply(simulation.world().tree().find("/Robot"), {{kForce, 0, 0}, {}});
     simulation.step();
     const double wanted = kForce * (1 - std::exp(-2 * M_PI * kBandwidth * 0.05 * i));
     expect_near(measured(simulation).linear_acceleration, {wanted, 0, 0}, 1e-9);

@@ -75,11 +75,11 @@ export const output = {
     };
 
     const poll = new Poll(app, 250, async () => {
-      const news = await app.link.call("sim.getLog", [last], "log");
-      if (news.last < last) last = 0; // another simulator
+      const changes = await app.link.call("sim.getLog", [last], "log");
+      if (changes.last < last) last = 0; // another simulator
       else {
-        last = news.last;
-        if (news.entries.length) add(news.entries.map((each) => ({ ...each, kind: kindOf(each.level) })));
+        last = changes.last;
+        if (changes.entries.length) add(changes.entries.map((each) => ({ ...each, kind: kindOf(each.level) })));
       }
     });
     app.link.on("scene", () => {

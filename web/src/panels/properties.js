@@ -7,7 +7,7 @@ import { jointSection } from "./properties/joint.js";
 import { readingSection } from "./properties/reading.js";
 import { degrees, fields, numbers, section } from "./properties/sections.js";
 
-const PERIOD = 120; // ms between two looks at the state
+const PERIOD = 120; // ms between two polls of the state
 const NUMBERS = [
   { name: "mass", title: "Mass", unit: "kg", kinds: ["model", "link"], hint: "Inertias and the other links of a model are scaled with it" },
   { name: "friction", title: "Friction", kinds: ["model", "link"], hint: "Coefficient of all collisions, in all directions" },

@@ -42,9 +42,9 @@ export const scripts = {
       state.dataset.state = found?.state === "failed" ? "failed" : found?.state === "running" ? "running" : "";
     };
     const refresh = async () => {
-      const news = await app.link.call("sim.getScripts", [], "log");
-      const same = JSON.stringify(news.map(({ handle }) => handle)) === JSON.stringify(list.map(({ handle }) => handle));
-      list = news;
+      const changes = await app.link.call("sim.getScripts", [], "log");
+      const same = JSON.stringify(changes.map(({ handle }) => handle)) === JSON.stringify(list.map(({ handle }) => handle));
+      list = changes;
       if (!same) {
         chosen.replaceChildren(...list.map(({ handle, object }) => h("option", { value: handle }, object)));
         if (current) chosen.value = current.handle;

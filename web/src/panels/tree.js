@@ -16,7 +16,7 @@ class Tree {
   #kind = h(
     "select.kind",
     { title: "Kind of objects", onchange: () => this.#list() },
-    [["", "All"], ["model", "Models"], ["link", "Links"], ["joint", "Joints"], ["sensor", "Sensors"]].map(([value, text]) => h("option", { value }, text)),
+    [["", "All"], ["model", "Models"], ["link", "Links"], ["joint", "Joints"], ["sensor", "Sensors"], ["frame", "Frames"]].map(([value, text]) => h("option", { value }, text)),
   );
   #space = h("div.space");
   #box = h("div.rows", { role: "tree", tabIndex: 0 }, this.#space);
@@ -38,6 +38,7 @@ class Tree {
     const { scene } = this.#app;
     if (text || kind) {
       for (const object of scene.objects.values()) {
+        if (object.hidden) continue;
         if ((!kind || object.kind === kind) && (!text || object.path.toLowerCase().includes(text))) rows.push({ object, depth: 0, flat: true });
       }
     } else {
@@ -79,7 +80,7 @@ class Tree {
       icon(object.kind),
       h("span.name", flat ? object.path.slice(1) : object.name),
       object.script ? h("span.badge", { title: `script: ${object.script}` }, icon("script")) : null,
-      object.kind === "joint" || object.kind === "sensor" ? h("span.type", object.type) : null,
+      ["joint", "sensor", "frame"].includes(object.kind) ? h("span.type", object.type) : null,
     );
     row.style.top = `${ROW * place}px`;
     row.style.paddingLeft = `${6 + 14 * depth}px`;

@@ -140,9 +140,9 @@ const topic = {
     });
     const poll = new Poll(app, 100, async () => {
       if (number === null) return;
-      const news = await app.link.call("server.topicSamples", [number, last], "ros");
-      last = news.last;
-      news.times.forEach((time, i) => add(time, news.values[i]));
+      const changes = await app.link.call("server.topicSamples", [number, last], "ros");
+      last = changes.last;
+      changes.times.forEach((time, i) => add(time, changes.values[i]));
     });
     poll.start();
     return {
@@ -173,15 +173,15 @@ const graph = {
       const found = graphs.find((each) => each.object === object);
       const stream = found?.streams.find((each) => each.label === label);
       if (!stream) return;
-      const news = await app.link.call("sim.getGraphSamples", [found.handle, next], "plots");
-      if (resets !== null && news.resets !== resets) next = 0;
+      const changes = await app.link.call("sim.getGraphSamples", [found.handle, next], "plots");
+      if (resets !== null && changes.resets !== resets) next = 0;
       else {
-        const times = floats(news.times);
-        const values = floats(news.streams[stream.id] ?? new Uint8Array());
+        const times = floats(changes.times);
+        const values = floats(changes.streams[stream.id] ?? new Uint8Array());
         values.forEach((value, i) => Number.isNaN(value) || add(times[i], value));
-        next = news.end;
+        next = changes.end;
       }
-      resets = news.resets;
+      resets = changes.resets;
     });
     poll.start();
     return { label: `${object} ${label}`, end: () => poll.stop() };

@@ -10,7 +10,7 @@ export function extentOf(app, object) {
   const corner = new Vector3();
   const inside = (link) => {
     for (let each = link; each; each = scene.objects.get(each.parent)) if (each === object) return true;
-    return false;
+    return object.handle === link.model;
   };
   for (const link of scene.objects.values()) {
     if (link.kind !== "link" || (object && !inside(link))) continue;

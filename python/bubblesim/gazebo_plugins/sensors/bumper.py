@@ -32,6 +32,6 @@ class Bumper(Plugin):
     def publish(self) -> None:
         """Publish the contacts, also if there are none."""
         if self.is_needed(self._publisher) and (reading := self._readings.take()):
-            link = self.world.parent(self.context.owner)
+            link = self.world.carrier(self.context.owner)
             header = self.header(self._frame.lstrip("/"))
             self.bridge.publish(self._publisher, contacts_state(self.world, header, link, reading, self._reference))

@@ -20,7 +20,7 @@ class RaySensor(Plugin):
         super().__init__(context)
         p = self.parameters
         self.enter_namespace()
-        self._frame = p.text("frameName", self.world.name(self.world.parent(context.owner)))
+        self._frame = p.text("frameName", self.world.name(self.world.carrier(context.owner)))
         message_type = p.text("outputType", "sensor_msgs/PointCloud2")
         if message_type not in _OUTPUTS:
             raise p.fail("outputType", f"is '{message_type}', it must be {' or '.join(_OUTPUTS)}")

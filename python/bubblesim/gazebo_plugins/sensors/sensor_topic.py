@@ -64,7 +64,7 @@ class SensorTopic(Plugin):
     def place_of_topic(self) -> tuple[str, str]:
         """Return the sensor's topic and frame."""
         topic, frame, _ = self.world.sensor_topic(self.context.owner)
-        return topic, frame or self.world.name(self.world.parent(self.context.owner))
+        return topic, frame or self.world.name(self.world.carrier(self.context.owner))
 
     def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
         """Yield the outputs of a kind of reading: topic, type and the function that creates the message."""
@@ -117,7 +117,7 @@ class SensorTopic(Plugin):
                 raise ValueError(f"a {kind} cannot be published: remove the topic, or read the sensor in a script")
 
     def _contacts(self, header: Any, reading: Any) -> Any:
-        return contacts_state(self.world, header, self.world.parent(self.context.owner), reading)
+        return contacts_state(self.world, header, self.world.carrier(self.context.owner), reading)
 
     def _range(self, header: Any, reading: Any) -> Any:
         least, most, angle = self.world.sonar_limits(self.context.owner)

@@ -66,7 +66,7 @@ def set_joint_position(window: Window, joint: int, position: float) -> None:
 
 
 def remove(window: Window, model: int) -> int:
-    """Remove a model of the top level; return a number with which ``restore`` brings it back."""
+    """Remove a top-level model; return a number with which ``restore`` brings it back."""
     kept = _keep(window, model)
     window.host.remove_model(model)
     return window.keep_removed(kept)
@@ -132,7 +132,7 @@ def _release(window: Window, client: WindowClient) -> None:
 def _keep(window: Window, model: int) -> Kept:
     """Return what is needed to add a model again."""
     edits, world = window.edits, window.simulation.world
-    text = edits.texts.get(model)
+    text = edits.sources.get(model)
     original = edits.originals.get(model, str(world.name(model))) if text is None else None
     source = Source(text, original)
     return Kept(
@@ -151,7 +151,7 @@ def _add(window: Window, kept: Kept, position: Sequence[float], orientation: Seq
 
 def _note_source(window: Window, model: int, source: Source) -> None:
     if source.text is not None:
-        window.edits.texts[model] = source.text
+        window.edits.sources[model] = source.text
     if source.original is not None:
         window.edits.originals[model] = source.original
 

@@ -32,12 +32,12 @@ def events(window: Window, since: int = 0) -> dict[str, Any]:
 def models(window: Window, known: list[int] | None = None) -> dict[str, Any]:
     """Return the objects of all models, except of those whose handles are known, and the handles of all models.
 
-    ``links`` are the handles of the links whose poses are in the frames, in their order; ``axes`` are pairs of joint
-    and axis of the joint positions in the frames. ``colours`` are pairs of a link and the colour that was set
-    for it.
+    ``frames`` are all dummies and other objects of no model. ``links`` are the handles of the links whose poses are in
+    the frames of the run, in their order; ``axes`` are pairs of joint and axis of the joint positions there.
+    ``colours`` are pairs of a link and the colour that was set for it.
     """
     simulation = window.simulation
-    handles = [each.handle for each in simulation.objects if each.kind == "model" and each.parent is None]
+    handles = [int(model) for model in simulation.world.models]
     skipped = set(known or [])
     frame = window.runner.frame
     return {
@@ -45,6 +45,7 @@ def models(window: Window, known: list[int] | None = None) -> dict[str, Any]:
         "objects": [
             each for handle in handles if handle not in skipped for each in window.view.model(simulation, handle)
         ],
+        "frames": window.view.frames(simulation),
         "links": frame.links,
         "axes": [list(axis) for axis in frame.axes],
         "revision": frame.revision & 0xFFFFFFFF,

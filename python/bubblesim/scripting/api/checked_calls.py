@@ -143,7 +143,7 @@ class Parameters:
 
 
 def _checked_after_failure(function: Callable[..., Any], parameters: Parameters) -> Callable[..., Any]:
-    """Return a call that looks at its arguments only when the function raises a TypeError."""
+    """Return a call that checks its arguments only when the function raises a TypeError."""
 
     @functools.wraps(function)
     def call(*arguments: Any, **named: Any) -> Any:  # including self, which is faster

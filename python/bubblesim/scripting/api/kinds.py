@@ -37,6 +37,10 @@ def _string(value: Any) -> str:
     return value
 
 
+def _name_or_handle(value: Any) -> str | int:
+    return _string(value) if isinstance(value, str | bytes) else _integer(value)
+
+
 def _bytes(value: Any) -> bytes:
     return value.encode() if isinstance(value, str) else bytes(memoryview(value))
 
@@ -111,6 +115,7 @@ FLAG = Kind("true or false", _flag, bool)
 HANDLE = Kind("the handle of an object, an integer", _integer, int)
 
 Handle = Annotated[int, HANDLE]
+NameOrHandle = Annotated[str | int, Kind("the name of an object or sim.handle_self", _name_or_handle)]
 Vector3 = Annotated[list[float], numbers(3)]
 Vector4 = Annotated[list[float], numbers(4)]
 Vector7 = Annotated[list[float], numbers(7)]

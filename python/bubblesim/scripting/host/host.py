@@ -112,7 +112,7 @@ class ScriptHost:
         """End and remove the scripts, with all remaining data: signals, open files and sockets."""
         self.finish()
         self._keep([])
-        self.shared.clear()
+        self.shared.clear(self.simulation.world)
         gc.collect()  # a script's globals and functions refer to each other
 
     def add_script(self, path: str, file: Path) -> None:
@@ -131,7 +131,7 @@ class ScriptHost:
         _finish(ending)
         tree = self.simulation.world
         gone = {model, *(int(o.handle) for o in self.simulation.objects if tree.outermost_model_of(o.handle) == model)}
-        self.shared.dummies.remove_below(gone)
+        self.shared.dummies.remove_below(tree, gone)
         self.shared.drawings.remove_below(gone)
         self.shared.graphs.remove(gone)
         self.shared.edits.remove(gone)

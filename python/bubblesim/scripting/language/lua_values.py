@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Conversion between Lua and Python values: tables and lists or dicts, byte strings and texts, functions."""
+"""Conversion between Lua and Python values: tables and lists or dicts, byte strings and strings, functions."""
 
 from __future__ import annotations
 

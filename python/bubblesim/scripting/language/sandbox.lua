@@ -180,7 +180,7 @@ if not host.unsafe then
     return setmetatable(value, metatable)
   end
 
-  -- Only texts, because binary chunks are unsafe. A function that supplies the text may have been interrupted.
+  -- Only strings, because binary chunks are unsafe. A function that supplies the text may have been interrupted.
   function globals.load(chunk, name, _, ...)
     local environment = globals
     if select("#", ...) > 0 then environment = ... end
@@ -245,9 +245,9 @@ function globals.require(name)
 end
 
 function globals.print(...)
-  local texts = {}
-  for i = 1, select("#", ...) do texts[i] = host.shown((select(i, ...)), true) end
-  write(concat(texts, "\t"))
+  local strings = {}
+  for i = 1, select("#", ...) do strings[i] = host.shown((select(i, ...)), true) end
+  write(concat(strings, "\t"))
 end
 
 -- For Python ---------------------------------------------------------------------------------------------------------

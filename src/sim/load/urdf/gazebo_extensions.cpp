@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/check_values.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/check_values.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
 
 namespace bubblesim {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "load/load_context.hpp"
-#include "load/sdf/element_kinds.hpp"
+#include "load/sdf/elements/element_kinds.hpp"
 #include "load/urdf/urdf_robot.hpp"
 #include "load/xml/xml_element.hpp"
 

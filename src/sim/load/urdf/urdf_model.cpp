@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "bubblesim/error.hpp"
-#include "load/sdf/frames.hpp"
-#include "load/sdf/sdf_element.hpp"
-#include "load/sdf/sdf_joints.hpp"
-#include "load/sdf/sdf_links.hpp"
-#include "load/sdf/sdf_models.hpp"
-#include "load/sdf/unique_names.hpp"
+#include "load/sdf/documents/unique_names.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
+#include "load/sdf/models/frames.hpp"
+#include "load/sdf/models/sdf_joints.hpp"
+#include "load/sdf/models/sdf_links.hpp"
+#include "load/sdf/models/sdf_models.hpp"
 #include "load/urdf/fixed_joint_lumping.hpp"
 #include "load/urdf/gazebo_extensions.hpp"
 #include "load/urdf/urdf_robot.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
 #include "scene/describe.hpp"
 
@@ -24,11 +24,11 @@ std::string link_attribute(const XmlElement& joint, const char* which) {
 }
 
 std::vector<std::string> texts_of(const XmlElement& parent, const std::string& name) {
-  std::vector<std::string> texts;
+  std::vector<std::string> strings;
   for (const XmlElement& child : parent.children) {
-    if (child.name == name) texts.push_back(child.text);
+    if (child.name == name) strings.push_back(child.text);
   }
-  return texts;
+  return strings;
 }
 
 /// Reads the parts of a robot, one by one.

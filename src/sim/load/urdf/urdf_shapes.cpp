@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
 
 namespace bubblesim {
@@ -83,7 +83,7 @@ class GeometryReader {
   }
 
  private:
-  // The texts are copied, so that no digit is lost.
+  // The strings are copied, so that no digit is lost.
   void copy_number(const std::string& attribute) {
     if (required_number_in(shape_, attribute, path_, context_))
       geometry_.add_child(attribute, *shape_.attribute(attribute));

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "load/sdf/sdf_element.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
 
 namespace bubblesim {
 namespace {

@@ -36,7 +36,7 @@ std::string last_line(const std::string& text) {
 }
 
 /// Time limit of xacro.
-std::chrono::milliseconds patience() {
+std::chrono::milliseconds time_limit() {
   const char* given = std::getenv(kTimeVariable);
   const double seconds = given != nullptr ? std::atof(given) : 0;
   return seconds > 0 && seconds < 1e6 ? std::chrono::milliseconds(static_cast<long>(1000 * seconds))
@@ -57,7 +57,7 @@ std::string run_xacro(const std::filesystem::path& file, const XacroArguments& a
   const auto fail = [&](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
   const std::string xacro = program();
   if (xacro.empty()) fail("the program xacro is not on PATH; install it: pip install xacro==2.1.1");
-  const std::chrono::milliseconds time = patience();
+  const std::chrono::milliseconds time = time_limit();
   std::vector<std::string> command = with_packages();
   command.insert(command.end(), {xacro, file.string()});
   command.insert(command.end(), arguments.begin(), arguments.end());

@@ -46,7 +46,7 @@ std::string from_latin1(const std::string& text) {
   return converted;
 }
 
-/// Returns the line of an offset in a text.
+/// Returns the line of an offset in a string.
 class Lines {
  public:
   explicit Lines(const std::string& text) {

@@ -10,10 +10,10 @@
 
 namespace bubblesim {
 
-/// Returns the root element of a text in UTF-8 or Latin-1; `file` is its name in errors. What Gazebo's parser takes is
-/// taken: attributes without quotes are quoted, with a warning each; comments before the declaration, a bare & and
+/// Returns the root element of a string in UTF-8 or Latin-1; `file` is its name in errors. What Gazebo's parser takes
+/// is taken: attributes without quotes are quoted, with a warning each; comments before the declaration, a bare & and
 /// further root elements are read. Throws SceneError when the text has no element, is not well-formed, is nested more
-/// than 256 deep, has more than a million elements, names of more than 1,000 characters or texts of more than a
+/// than 256 deep, has more than a million elements, names of more than 1,000 characters or strings of more than a
 /// million.
 XmlElement parse_xml(const std::string& text, const std::string& file, std::vector<Problem>& warnings);
 

@@ -17,7 +17,7 @@ struct Piece {
   bool is_tag = false;
 };
 
-/// Cuts a text into tags and what is between them.
+/// Divides a document into tags and what is between them.
 class Pieces {
  public:
   explicit Pieces(std::string_view text) : rest_(text) {}

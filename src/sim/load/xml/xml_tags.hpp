@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the tags in a text that is not well-formed XML: to mend its attributes, and to say what is wrong.
+// Finds the tags in a document that is not well-formed XML: to repair its attributes, and to report what is wrong.
 #pragma once
 
 #include <optional>

@@ -35,7 +35,7 @@ class Terrain {
   }
 
   /// Whether a normal is possible at the corners of the triangle that are farthest along it.
-  Verdict judge(const NearTriangle& triangle, const Vector3& normal) const {
+  Verdict classify(const NearTriangle& triangle, const Vector3& normal) const {
     std::array<double, 3> reach{};
     for (std::size_t i = 0; i < 3; ++i) reach[i] = triangle.corners[i].dot(normal);
     const double most = std::max({reach[0], reach[1], reach[2]});
@@ -50,7 +50,7 @@ class Terrain {
       const bool both = touches[i] && touches[(i + 1) % 3];
       const bool either = touches[i] || touches[(i + 1) % 3];
       if (on_edge ? !both : !either) continue;
-      const Verdict here = judge_edge(triangle, i, normal);
+      const Verdict here = classify_edge(triangle, i, normal);
       if (here == Verdict::kUseFace) return here;
       if (here == Verdict::kLeaveToNeighbour) verdict = here;
     }
@@ -58,7 +58,7 @@ class Terrain {
   }
 
  private:
-  Verdict judge_edge(const NearTriangle& triangle, std::size_t i, const Vector3& normal) const {
+  Verdict classify_edge(const NearTriangle& triangle, std::size_t i, const Vector3& normal) const {
     const std::uint32_t other = tree_.across_edge(triangle.number, i);
     if (other == TriangleTree::kNone) return Verdict::kKeep;
     const Vector3 edge = (triangle.corners[(i + 1) % 3] - triangle.corners[i]).normalized();
@@ -92,7 +92,7 @@ std::optional<Penetration> allowed_overlap(const ConvexShape& shape, const Conve
   if (!found) return found;
   const Verdict verdict = found->normal.dot(triangle.normal) < -kAngleTolerance
                               ? Verdict::kUseFace  // through the surface
-                              : terrain.judge(triangle, found->normal);
+                              : terrain.classify(triangle, found->normal);
   if (verdict == Verdict::kKeep) return found;
   if (verdict == Verdict::kLeaveToNeighbour) return {};
   const double depth = depth_along(shape, flat, triangle.normal);
@@ -144,7 +144,7 @@ void add_terrain_contacts(const ConvexShape& shape, const TriangleTree& tree, co
     const double depth = shape.rounding() - (lowest - triangle.corners[0]).dot(triangle.normal);
     if (depth <= 0 || is_beside(shape, triangle)) continue;
     const ConvexShape flat(triangle.corners);
-    // Where the surface has no edge, its face pushes: see judge_edge().
+    // Where the surface has no edge, its face pushes: see classify_edge().
     if (depth < kMostLifted * shape.reach() && tree.is_plain(number, triangle.side < 0) &&
         add_area(shape, flat, triangle.normal, depth, points) > 0) {
       continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ball: the child rotates about a point.
-#include "physics/joints/kinds.hpp"
+#include "physics/joints/define.hpp"
 
 namespace bubblesim {
 namespace {
@@ -21,8 +21,15 @@ class Ball final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_ball(dWorldID world, const JointDescription&, const JointSite& site) {
-  return std::make_unique<Ball>(world, site);
-}
+class BallKind final : public JointKind {
+ public:
+  BallKind() : JointKind("ball", 0) { swings = true; }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription&, const JointSite& site) const override {
+    return std::make_unique<Ball>(world, site);
+  }
+};
+
+template const JointKind& joint_kind<BallKind>();
 
 }  // namespace bubblesim

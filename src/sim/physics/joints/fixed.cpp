@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fixed: child and parent move as one body.
-#include "physics/joints/kinds.hpp"
+#include "physics/joints/define.hpp"
 
 namespace bubblesim {
 namespace {
@@ -21,8 +21,15 @@ class Fixed final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_fixed(dWorldID world, const JointDescription&, const JointSite& site) {
-  return std::make_unique<Fixed>(world, site);
-}
+class FixedKind final : public JointKind {
+ public:
+  FixedKind() : JointKind("fixed", 0) {}
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription&, const JointSite& site) const override {
+    return std::make_unique<Fixed>(world, site);
+  }
+};
+
+template const JointKind& joint_kind<FixedKind>();
 
 }  // namespace bubblesim

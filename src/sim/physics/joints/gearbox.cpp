@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/body_state.hpp"
-#include "physics/contact_defaults.hpp"
-#include "physics/joints/kinds.hpp"
+#include "check/checker.hpp"
+#include "check/checks.hpp"
+#include "check/scene_check.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
+#include "physics/joints/define.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
-#include "physics/ode_math.hpp"
+#include "physics/ode/body_state.hpp"
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -185,8 +190,43 @@ class Gearbox final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_gearbox(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Gearbox>(world, description, site);
-}
+class GearboxKind final : public JointKind {
+ public:
+  GearboxKind() : JointKind("gearbox", 2) { couples_hinges = true; }
+
+  void read(const SdfElement& joint, const std::string&, LoadContext&, JointDescription& description) const override {
+    if (description.axes.size() == 1) description.axes.push_back(description.axes.front());
+    description.gearbox_ratio = joint.number("gearbox_ratio");
+    description.gearbox_reference = joint.text("gearbox_reference_body");
+  }
+
+  void check(Checker& checker, const ModelDescription& model, const JointDescription& joint) const override {
+    checker.require(std::abs(joint.gearbox_ratio) >= 1e-3 && within(joint.gearbox_ratio, 1e3), "the gearbox ratio",
+                    text(joint.gearbox_ratio), "1e-3 to 1e3 in absolute value");
+    if (joint.gearbox_reference != "world") {
+      checker.check_link_name(model, joint.gearbox_reference, "gearbox_reference_body");
+    }
+    for (const std::string& link : {joint.parent, joint.child}) {
+      if (hinge_between(model, joint.gearbox_reference, link) != nullptr) continue;
+      checker.report("a gearbox couples two hinges: '" + link + "' needs a revolute joint with the reference body '" +
+                     joint.gearbox_reference + "'");
+    }
+    for (const AxisDescription& axis : joint.axes) {
+      if (axis.motor != MotorMode::kNone || axis.mimic || axis.friction > 0 || axis.damping > 0 ||
+          axis.spring_stiffness > 0 || std::isfinite(axis.lower) || std::isfinite(axis.upper)) {
+        checker.report(
+            "a gearbox cannot have a motor, limits, friction, damping or spring: set them on the hinges of its links");
+        return;
+      }
+    }
+  }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Gearbox>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<GearboxKind>();
 
 }  // namespace bubblesim

@@ -2,7 +2,7 @@
 // revolute and continuous: the child rotates about one axis.
 #include <cmath>
 
-#include "physics/joints/kinds.hpp"
+#include "physics/joints/define.hpp"
 
 namespace bubblesim {
 namespace {
@@ -48,8 +48,31 @@ class Hinge final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_hinge(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Hinge>(world, description, site);
-}
+class RevoluteKind final : public JointKind {
+ public:
+  RevoluteKind() : JointKind("revolute", 1) { is_hinge = swings = true; }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Hinge>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<RevoluteKind>();
+
+class ContinuousKind final : public JointKind {
+ public:
+  ContinuousKind() : JointKind("continuous", 1) {
+    is_hinge = swings = true;
+    has_limits = false;
+  }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Hinge>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<ContinuousKind>();
 
 }  // namespace bubblesim

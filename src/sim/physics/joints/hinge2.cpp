@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // revolute2: a steered wheel in one joint. The first axis is fixed in the parent, the second in the child.
-#include "physics/joints/kinds.hpp"
+#include <cmath>
+
+#include "check/checker.hpp"
+#include "physics/joints/define.hpp"
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -38,8 +42,25 @@ class Hinge2 final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_hinge2(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Hinge2>(world, description, site);
-}
+class Revolute2Kind final : public JointKind {
+ public:
+  Revolute2Kind() : JointKind("revolute2", 2) {}
+
+  void check(Checker& checker, const ModelDescription&, const JointDescription& joint) const override {
+    if (joint.parent == "world") checker.report("a revolute2 joint needs a link as its parent, not the world");
+    if (std::isfinite(joint.axes[1].lower) || std::isfinite(joint.axes[1].upper)) {
+      checker.report("the second axis of a revolute2 joint turns freely: it cannot have limits");
+    }
+    checker.require(joint.axes[0].direction.cross(joint.axes[1].direction).norm() > 1e-3, "the second axis",
+                    text(joint.axes[1].direction), "not parallel to the first");
+  }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Hinge2>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<Revolute2Kind>();
 
 }  // namespace bubblesim

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "check/checks.hpp"
-#include "physics/contact_defaults.hpp"
+#include "physics/ode/constraint_defaults.hpp"
 
 namespace bubblesim {
 namespace {

@@ -11,7 +11,7 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/state_archive.hpp"
 #include "physics/joints/motor.hpp"
-#include "physics/ode_handles.hpp"
+#include "physics/ode/ode_handles.hpp"
 
 namespace bubblesim {
 

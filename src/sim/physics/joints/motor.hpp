@@ -5,7 +5,7 @@
 #include <ode/ode.h>
 
 #include "bubblesim/math.hpp"
-#include "physics/ode_handles.hpp"
+#include "physics/ode/ode_handles.hpp"
 
 namespace bubblesim {
 

@@ -1,24 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of joint kinds, by SDFormat's type names; scene/joint_types.cpp has their numbers of axes.
-#include <map>
+// The registry of joint kinds. A new kind is a file in this folder and a line here.
+#include <array>
 #include <string>
 
 #include "bubblesim/error.hpp"
-#include "physics/joints/kinds.hpp"
+#include "physics/joints/joint.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
 
+/// Instantiated by the file of each kind (define.hpp).
+template <class Kind>
+const JointKind& joint_kind();
+
+// clang-format off
+const std::array kJointKinds = {
+    &joint_kind<class RevoluteKind>,
+    &joint_kind<class ContinuousKind>,
+    &joint_kind<class PrismaticKind>,
+    &joint_kind<class FixedKind>,
+    &joint_kind<class BallKind>,
+    &joint_kind<class Revolute2Kind>,
+    &joint_kind<class UniversalKind>,
+    &joint_kind<class ScrewKind>,
+    &joint_kind<class GearboxKind>,
+};
+// clang-format on
+
+const std::vector<const JointKind*>& joint_kinds() {
+  static const std::vector<const JointKind*> kinds = [] {
+    std::vector<const JointKind*> list;
+    for (const auto kind : kJointKinds) list.push_back(&kind());
+    return list;
+  }();
+  return kinds;
+}
+
+const JointKind* find_joint_kind(std::string_view name) {
+  for (const JointKind* kind : joint_kinds()) {
+    if (kind->name == name) return kind;
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Joint> make_joint(dWorldID world, const JointDescription& description, const JointSite& site) {
-  static const std::map<std::string, decltype(&make_hinge)> kinds = {
-      {"revolute", make_hinge},      {"continuous", make_hinge}, {"prismatic", make_slider},
-      {"fixed", make_fixed},         {"ball", make_ball},        {"revolute2", make_hinge2},
-      {"universal", make_universal}, {"screw", make_screw},      {"gearbox", make_gearbox},
-  };
-  const auto kind = kinds.find(description.type);
-  if (kind == kinds.end()) {
+  const JointKind* kind = find_joint_kind(description.type);
+  if (kind == nullptr) {
     throw InvalidInput("joint '" + description.name + "': unknown type '" + description.type + "'");
   }
-  return kind->second(world, description, site);
+  return kind->make(world, description, site);
 }
 
 }  // namespace bubblesim

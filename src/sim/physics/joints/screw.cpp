@@ -2,9 +2,14 @@
 // screw: the child rotates about an axis and slides along it by its lead per turn.
 #include <cmath>
 
-#include "physics/contact_defaults.hpp"
-#include "physics/joints/kinds.hpp"
+#include "check/checker.hpp"
+#include "check/checks.hpp"
+#include "load/load_context.hpp"
+#include "load/sdf/elements/sdf_element.hpp"
+#include "physics/joints/define.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
+#include "physics/ode/constraint_defaults.hpp"
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -62,8 +67,35 @@ class Screw final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_screw(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Screw>(world, description, site);
-}
+class ScrewKind final : public JointKind {
+ public:
+  ScrewKind() : JointKind("screw", 1) {}
+
+  /// Metres per turn, from an element in one of two conventions.
+  void read(const SdfElement& joint, const std::string& path, LoadContext& context,
+            JointDescription& description) const override {
+    // SDFormat 1.10: metres per turn, right-handed.
+    if (joint.has("screw_thread_pitch")) {
+      description.screw_lead = joint.number("screw_thread_pitch");
+      return;
+    }
+    // Before: radians per metre, left-handed.
+    const double pitch = joint.number("thread_pitch");
+    if (pitch == 0) context.report(joint.source("thread_pitch"), path, "<thread_pitch> is 0, it must not be 0");
+    description.screw_lead = pitch == 0 ? 1 : -2 * M_PI / pitch;
+  }
+
+  void check(Checker& checker, const ModelDescription&, const JointDescription& joint) const override {
+    checker.require(std::abs(joint.screw_lead) >= 1e-6 && within(joint.screw_lead, 1e3), "the screw's lead",
+                    text(joint.screw_lead) + " m", "1e-6 to 1e3 m per turn in absolute value");
+  }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Screw>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<ScrewKind>();
 
 }  // namespace bubblesim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // prismatic: the child slides along one axis.
-#include "physics/joints/kinds.hpp"
+#include "physics/joints/define.hpp"
 
 namespace bubblesim {
 namespace {
@@ -25,8 +25,16 @@ class Slider final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_slider(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Slider>(world, description, site);
-}
+class PrismaticKind final : public JointKind {
+ public:
+  PrismaticKind() : JointKind("prismatic", 1) { slides = true; }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Slider>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<PrismaticKind>();
 
 }  // namespace bubblesim

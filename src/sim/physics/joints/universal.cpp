@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // universal: two axes at right angles. The first is fixed in the parent, the second in the child.
-#include "physics/joints/kinds.hpp"
+#include <cmath>
+
+#include "check/checker.hpp"
+#include "check/checks.hpp"
+#include "physics/joints/define.hpp"
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -35,8 +40,30 @@ class Universal final : public Joint {
 
 }  // namespace
 
-std::unique_ptr<Joint> make_universal(dWorldID world, const JointDescription& description, const JointSite& site) {
-  return std::make_unique<Universal>(world, description, site);
-}
+class UniversalKind final : public JointKind {
+ public:
+  UniversalKind() : JointKind("universal", 2) { swings = true; }
+
+  /// Old models omit one or both axes: these are at right angles to the others.
+  void read(const SdfElement&, const std::string&, LoadContext&, JointDescription& joint) const override {
+    if (joint.axes.empty()) joint.axes.emplace_back().direction = Vector3::UnitX();
+    if (joint.axes.size() > 1) return;
+    const Vector3 first = joint.axes.front().direction;
+    const Vector3 beside = std::abs(first.y()) < 0.9 ? Vector3::UnitY() : Vector3::UnitZ();
+    joint.axes.emplace_back().direction = (beside - first * first.dot(beside)).normalized();
+  }
+
+  void check(Checker& checker, const ModelDescription&, const JointDescription& joint) const override {
+    checker.require(within(joint.axes[0].direction.dot(joint.axes[1].direction), 1e-2), "the second axis",
+                    text(joint.axes[1].direction), "at right angles to the first");
+  }
+
+  std::unique_ptr<Joint> make(dxWorld* world, const JointDescription& description,
+                              const JointSite& site) const override {
+    return std::make_unique<Universal>(world, description, site);
+  }
+};
+
+template const JointKind& joint_kind<UniversalKind>();
 
 }  // namespace bubblesim

@@ -12,10 +12,10 @@ class Altimeter final : public Sensor {
       : Sensor(AltimeterReading{}), description_(description), id_(id), start_(start) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    AltimeterReading reading{moment.world.pose(id_).position.z() - start_, moment.world.velocity(id_).linear.z()};
-    distort(reading.height, description_.position_noise, moment, id_, 0);
-    distort(reading.velocity, description_.velocity_noise, moment, id_, 1);
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    AltimeterReading reading{context.world.pose(id_).position.z() - start_, context.world.velocity(id_).linear.z()};
+    distort(reading.height, description_.position_noise, context, id_, 0);
+    distort(reading.velocity, description_.velocity_noise, context, id_, 1);
     measurement = reading;
   }
 

@@ -73,17 +73,17 @@ class Camera final : public Sensor {
     return (columns + rays::kPacket - 1) / rays::kPacket * rays::kPacket;
   }
 
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
     auto& image = measurement.get<CameraImage>();
     const auto pixels = static_cast<std::size_t>(description_.width) * static_cast<std::size_t>(description_.height);
     image.depth.resize(pixels);
     image.objects.resize(pixels);
     if (description_.color) image.rgb.resize(3 * pixels);
-    moment.rays.refresh(moment.world);
-    if (description_.color) shading_.place_lights(moment.world, moment.brightness);
-    const Pose sensor = moment.world.pose(id_);
-    const View view{moment.rays, sensor.position, sensor.orientation.toRotationMatrix()};
-    Noise noise(description_.noise, moment, id_);
+    context.rays.refresh(context.world);
+    if (description_.color) shading_.place_lights(context.world, context.brightness);
+    const Pose sensor = context.world.pose(id_);
+    const View view{context.rays, sensor.position, sensor.orientation.toRotationMatrix()};
+    Noise noise(description_.noise, context, id_);
     colors_.resize(description_.color && noise.active() ? image.rgb.size() : 0);
     const auto rows = static_cast<std::size_t>(description_.height);
     const std::size_t length = image.depth.size() < kRaysWorthThreads ? rows : kRowsPerPart;

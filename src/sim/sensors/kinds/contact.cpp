@@ -15,8 +15,8 @@ class ContactSensor final : public Sensor {
       : Sensor(ContactReading{}), description_(std::move(description)), link_(link) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    std::vector<Contact> contacts = moment.world.contacts(link_);
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    std::vector<Contact> contacts = context.world.measurements().contacts(link_);
     const auto foreign = [this](const Contact& contact) { return !watches(description_, contact.collision); };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), foreign), contacts.end());
     measurement = ContactReading{std::move(contacts)};
@@ -102,7 +102,7 @@ class ContactKind final : public SensorDefinitionOf<ContactDescription, ContactR
 
   std::optional<ContactDescription> read(SensorElement& sensor) const override {
     ContactDescription description;
-    for (const std::string& collision : sensor.texts("contact/collision")) {
+    for (const std::string& collision : sensor.strings("contact/collision")) {
       description.collisions.push_back(without_scope(collision));
     }
     return description;
@@ -119,7 +119,7 @@ class ContactKind final : public SensorDefinitionOf<ContactDescription, ContactR
   }
 
   std::unique_ptr<Sensor> make(const ContactDescription& description, const SensorSite& site) const override {
-    return std::make_unique<ContactSensor>(description, site.world.tree().at(site.id).parent);
+    return std::make_unique<ContactSensor>(description, site.world.tree().at(site.id).carrier);
   }
 };
 

@@ -12,11 +12,11 @@ class ForceTorque final : public Sensor {
       : Sensor(ForceTorqueReading{}), description_(description), id_(id) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    const Wrench wrench = moment.world.sensor_wrench(id_);
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    const Wrench wrench = context.world.measurements().sensor_wrench(id_);
     ForceTorqueReading reading{wrench.force, wrench.torque};
-    distort(reading.force, description_.force_noise, moment, id_, 0);
-    distort(reading.torque, description_.torque_noise, moment, id_, 3);
+    distort(reading.force, description_.force_noise, context, id_, 0);
+    distort(reading.torque, description_.torque_noise, context, id_, 3);
     measurement = reading;
   }
 

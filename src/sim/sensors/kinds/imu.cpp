@@ -11,15 +11,15 @@ class Imu final : public Sensor {
   Imu(const ImuDescription& description, ObjectId id) : Sensor(ImuReading{}), description_(description), id_(id) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    const World& world = moment.world;
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    const World& world = context.world;
     ImuReading reading;
     reading.orientation = world.pose(id_).orientation;
-    const Inertial motion = world.sensor_motion(id_);
+    const Inertial motion = world.measurements().sensor_motion(id_);
     reading.angular_velocity = motion.angular_velocity;
     reading.linear_acceleration = motion.specific_force;
-    distort(reading.angular_velocity, description_.angular_velocity_noise, moment, id_, 0);
-    distort(reading.linear_acceleration, description_.linear_acceleration_noise, moment, id_, 3);
+    distort(reading.angular_velocity, description_.angular_velocity_noise, context, id_, 0);
+    distort(reading.linear_acceleration, description_.linear_acceleration_noise, context, id_, 3);
     measurement = reading;
   }
 

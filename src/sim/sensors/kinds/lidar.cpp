@@ -53,17 +53,17 @@ class Lidar final : public Sensor {
     return scan;
   }
 
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
     auto& scan = measurement.get<LidarScan>();
-    moment.rays.refresh(moment.world);
-    const Pose sensor = moment.world.pose(id_);
+    context.rays.refresh(context.world);
+    const Pose sensor = context.world.pose(id_);
     const Matrix3 turn = sensor.orientation.toRotationMatrix();
     const std::size_t parts = count_ < kRaysWorthThreads ? 1 : (count_ + kRaysPerPart - 1) / kRaysPerPart;
     const std::size_t length = parts == 1 ? count_ : kRaysPerPart;
     WorkerPool::shared().run(parts, [&](std::size_t part) {
-      scan_part(moment.rays, sensor.position, turn, part * length, std::min(count_, (part + 1) * length), scan);
+      scan_part(context.rays, sensor.position, turn, part * length, std::min(count_, (part + 1) * length), scan);
     });
-    distort(moment, scan.ranges);
+    distort(context, scan.ranges);
   }
 
   void scan_part(const RayScene& scene, const Vector3& origin, const Matrix3& turn, std::size_t begin, std::size_t end,
@@ -85,8 +85,8 @@ class Lidar final : public Sensor {
     }
   }
 
-  void distort(const MeasurementContext& moment, std::vector<float>& ranges) const {
-    Noise noise(description_.noise, moment, id_);
+  void distort(const MeasurementContext& context, std::vector<float>& ranges) const {
+    Noise noise(description_.noise, context, id_);
     if (!noise.active() && description_.resolution <= 0) return;
     for (float& range : ranges) {
       if (!std::isfinite(range)) continue;

@@ -12,9 +12,9 @@ class Magnetometer final : public Sensor {
       : Sensor(MagnetometerReading{}), description_(description), field_(field), id_(id) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    MagnetometerReading reading{moment.world.pose(id_).orientation.conjugate() * field_};
-    distort(reading.field, description_.field_noise, moment, id_, 0);
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    MagnetometerReading reading{context.world.pose(id_).orientation.conjugate() * field_};
+    distort(reading.field, description_.field_noise, context, id_, 0);
     measurement = reading;
   }
 

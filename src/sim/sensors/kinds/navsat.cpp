@@ -19,13 +19,13 @@ class NavSat final : public Sensor {
         earth_(origin.latitude, origin.longitude, origin.elevation) {}
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    Vector3 place = to_east_north_up_ * moment.world.pose(id_).position;
-    Vector3 velocity = to_east_north_up_ * moment.world.velocity(id_).linear;
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    Vector3 place = to_east_north_up_ * context.world.pose(id_).position;
+    Vector3 velocity = to_east_north_up_ * context.world.velocity(id_).linear;
     const NavSatDescription& d = description_;
-    distort(place, {d.horizontal_position_noise, d.horizontal_position_noise, d.vertical_position_noise}, moment, id_,
+    distort(place, {d.horizontal_position_noise, d.horizontal_position_noise, d.vertical_position_noise}, context, id_,
             0);
-    distort(velocity, {d.horizontal_velocity_noise, d.horizontal_velocity_noise, d.vertical_velocity_noise}, moment,
+    distort(velocity, {d.horizontal_velocity_noise, d.horizontal_velocity_noise, d.vertical_velocity_noise}, context,
             id_, 3);
     NavSatReading reading;
     std::vector<double> turn(9);  // row-major, from east, north, up at this position to those at the origin

@@ -78,9 +78,9 @@ class Sonar final : public Sensor {
   std::size_t ray_count() const override { return rays_.size(); }
 
  private:
-  void measure(const MeasurementContext& moment, Measurement& measurement) override {
-    moment.rays.refresh(moment.world);
-    const Pose sensor = moment.world.pose(id_);
+  void measure(const MeasurementContext& context, Measurement& measurement) override {
+    context.rays.refresh(context.world);
+    const Pose sensor = context.world.pose(id_);
     ProximityReading nearest;
     nearest.distance = description_.max_range;
     rays::RayPacket packet;
@@ -92,13 +92,13 @@ class Sonar final : public Sensor {
         const VolumeRay& ray = rays_[first + std::min(i, count - 1)];
         rays::aim(packet.data.ray, i, sensor * ray.start, sensor.orientation * ray.direction);
       }
-      moment.rays.trace(packet, false, model_);
+      context.rays.trace(packet, false, model_);
       for (std::size_t i = 0; i < count; ++i) {
         const double distance = packet.data.ray.tfar[i];
         if (!packet.hit(i) || distance > nearest.distance) continue;
         const VolumeRay& ray = rays_[first + i];
         nearest = {true, distance, ray.start + ray.direction * distance,
-                   sensor.orientation.conjugate() * moment.rays.normal(packet, i), moment.rays.shape(packet, i).link};
+                   sensor.orientation.conjugate() * context.rays.normal(packet, i), context.rays.shape(packet, i).link};
       }
     }
     if (!nearest.detected) nearest.distance = 0;

@@ -27,7 +27,7 @@ import {
 import { Poll } from "../../poll.js";
 import { poseMatrix } from "../pose_matrix.js";
 
-const PERIOD = 100; // ms between two looks
+const PERIOD = 100; // ms between two polls
 const SHAPES = {
   sphere: () => new SphereGeometry(0.5, 20, 12),
   cube: () => new BoxGeometry(1, 1, 1),
@@ -43,22 +43,22 @@ class Drawing {
   #first = 0;
 
   /// Takes what sim.getDrawings returns for it.
-  take(news) {
-    const width = news.values;
-    const added = new Float32Array(news.items.slice().buffer);
-    const kept = Math.max(0, Math.min(news.start, this.#first + this.#rows.length / width) - news.first);
-    const from = news.first - this.#first;
+  take(changes) {
+    const width = changes.values;
+    const added = new Float32Array(changes.items.slice().buffer);
+    const kept = Math.max(0, Math.min(changes.start, this.#first + this.#rows.length / width) - changes.first);
+    const from = changes.first - this.#first;
     const rows = new Float32Array(kept * width + added.length);
     if (kept) rows.set(this.#rows.subarray(from * width, (from + kept) * width));
     rows.set(added, kept * width);
     this.#rows = rows;
-    this.#first = news.first;
-    this.news = news;
+    this.#first = changes.first;
+    this.changes = changes;
     this.#build();
   }
 
   get count() {
-    return this.news ? this.#rows.length / this.news.values : 0;
+    return this.changes ? this.#rows.length / this.changes.values : 0;
   }
 
   dispose() {
@@ -73,10 +73,10 @@ class Drawing {
   #build() {
     this.dispose();
     if (!this.count) return;
-    const { kind } = this.news;
+    const { kind } = this.changes;
     const child = kind in SHAPES ? this.#shapes() : this.#lines();
     child.frustumCulled = false;
-    if (this.news.overlay) {
+    if (this.changes.overlay) {
       child.renderOrder = 10;
       child.material.depthTest = false;
     }
@@ -84,19 +84,19 @@ class Drawing {
   }
 
   #material(Kind, more = {}) {
-    const { news } = this;
-    const plain = news.colour.map((value, i) => Math.max(value, news.emission[i]));
+    const { changes } = this;
+    const plain = changes.colour.map((value, i) => Math.max(value, changes.emission[i]));
     return new Kind({
-      color: news.colours ? 0xffffff : new Color(...plain),
-      transparent: news.opacity < 1,
-      opacity: news.opacity,
-      depthWrite: news.opacity === 1,
+      color: changes.colours ? 0xffffff : new Color(...plain),
+      transparent: changes.opacity < 1,
+      opacity: changes.opacity,
+      depthWrite: changes.opacity === 1,
       ...more,
     });
   }
 
   #lines() {
-    const { kind, coordinates, values, colours, size } = this.news;
+    const { kind, coordinates, values, colours, size } = this.changes;
     const vertices = coordinates / 3;
     const positions = new Float32Array(this.count * coordinates);
     const shades = colours ? new Float32Array(this.count * coordinates) : null;
@@ -115,14 +115,14 @@ class Drawing {
     if (kind === "points") return new Points(geometry, this.#material(PointsMaterial, { ...more, size, sizeAttenuation: false }));
     if (kind === "triangles") {
       geometry.computeVertexNormals();
-      return new Mesh(geometry, this.#material(MeshBasicMaterial, { ...more, side: DoubleSide, wireframe: this.news.wireframe }));
+      return new Mesh(geometry, this.#material(MeshBasicMaterial, { ...more, side: DoubleSide, wireframe: this.changes.wireframe }));
     }
     const material = this.#material(LineBasicMaterial, { ...more, linewidth: size });
     return kind === "linestrip" ? new Line(geometry, material) : new LineSegments(geometry, material);
   }
 
   #shapes() {
-    const { kind, coordinates, values, colours, sizes, size, emission, wireframe } = this.news;
+    const { kind, coordinates, values, colours, sizes, size, emission, wireframe } = this.changes;
     const glows = emission.some(Boolean);
     const Kind = glows ? MeshBasicMaterial : MeshLambertMaterial;
     const geometry = SHAPES[kind]();
@@ -162,17 +162,17 @@ export const drawings = {
       revision = 0;
     };
     const poll = new Poll(app, PERIOD, async () => {
-      const news = await app.link.call("sim.getDrawings", [revision], "overlays");
-      if (news.revision < revision) clear();
-      const there = new Set(news.handles);
-      let changed = news.revision !== revision;
+      const changes = await app.link.call("sim.getDrawings", [revision], "overlays");
+      if (changes.revision < revision) clear();
+      const there = new Set(changes.handles);
+      let changed = changes.revision !== revision;
       for (const [handle, drawing] of known) {
         if (there.has(handle)) continue;
         object3d.remove(drawing.group);
         drawing.dispose();
         known.delete(handle);
       }
-      for (const each of news.changed) {
+      for (const each of changes.changed) {
         if (!known.has(each.handle)) {
           const drawing = new Drawing();
           known.set(each.handle, drawing);
@@ -180,9 +180,9 @@ export const drawings = {
         }
         known.get(each.handle).take(each);
       }
-      revision = news.revision;
-      changed ||= Object.keys(news.poses).length > 0;
-      poses = news.poses;
+      revision = changes.revision;
+      changed ||= Object.keys(changes.poses).length > 0;
+      poses = changes.poses;
       if (changed) app.view.invalidate();
     });
     app.link.on("scene", clear);
@@ -190,12 +190,12 @@ export const drawings = {
     return {
       object3d,
       update() {
-        for (const { group, news } of known.values()) {
-          if (news.parent === -1) continue;
-          const object = app.scene.objects.get(news.parent);
+        for (const { group, changes } of known.values()) {
+          if (changes.parent === -1) continue;
+          const object = app.scene.objects.get(changes.parent);
           group.matrixAutoUpdate = false;
           if (object) app.view.matrixOf(object, group.matrix);
-          else if (poses[news.parent]) poseMatrix(poses[news.parent], group.matrix); // a dummy
+          else if (poses[changes.parent]) poseMatrix(poses[changes.parent], group.matrix); // a dummy
           group.matrixWorldNeedsUpdate = true;
         }
       },

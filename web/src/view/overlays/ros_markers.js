@@ -31,7 +31,7 @@ import {
 import { Poll } from "../../poll.js";
 import { poseMatrix } from "../pose_matrix.js";
 
-const PERIOD = 100; // ms between two looks
+const PERIOD = 100; // ms between two polls
 const [ARROW, CUBE, SPHERE, CYLINDER, LINE_STRIP, LINE_LIST, CUBE_LIST, SPHERE_LIST, POINTS, TEXT, , TRIANGLES] = Array(12).keys();
 const SHAPES = {
   [CUBE]: () => new BoxGeometry(1, 1, 1),
@@ -150,9 +150,9 @@ export const rosMarkers = {
       app.rosMarkers = markers; // for tests
     };
     const poll = new Poll(app, PERIOD, async () => {
-      const news = await app.link.call("server.markers", [revision], "markers");
-      ({ revision, frames } = news);
-      if (news.markers) show(news.markers);
+      const changes = await app.link.call("server.markers", [revision], "markers");
+      ({ revision, frames } = changes);
+      if (changes.markers) show(changes.markers);
       app.view.invalidate();
     });
     app.link.on("connection", () => (revision = -1));

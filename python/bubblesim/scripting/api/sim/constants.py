@@ -98,10 +98,13 @@ class SimConstants:
 
     object_shape_type = 0
     object_joint_type = 1
+    object_graph_type = 2
+    object_camera_type = 3
     object_dummy_type = 4
     object_proximitysensor_type = 5
     object_visionsensor_type = 9
     object_forcesensor_type = 12
+    object_light_type = 13
 
     scripttype_main = 0
     scripttype_simulation = scripttype_childscript = 1

@@ -26,13 +26,6 @@ class ApiContext(SimConstants):
         self._edits = caller.shared.edits
         self._tree = ObjectTree(self._world, caller.shared.dummies, self._edits)
 
-    def _with_all_below(self, handle: int) -> list[int]:
-        """Return an object and all its descendants, parents first."""
-        found = [handle]
-        for child in self._tree.children(handle):
-            found += self._with_all_below(child)
-        return found
-
     def _is_stopped(self) -> bool:
         return bool(self._runner.state == RunState.STOPPED)
 

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from bubblesim.scene_state.dummies import FIRST_HANDLE
+from dataclasses import replace
+
+from bubblesim._core import add_copy, copy_model
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -19,14 +21,14 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
 
     def createDummy(self, size: float, colour: Numbers = _NO_COLOUR) -> int:
         """Create a dummy at the origin and return its handle; ``size`` in metres and the colour are for drawings."""
-        dummy = self._caller.shared.dummies.create("Dummy", size, temporary=not self._is_stopped())
+        dummy = self._caller.shared.dummies.create(self._world, "Dummy", size, temporary=not self._is_stopped())
         if colour:
             dummy.colours[self.colorcomponent_ambient_diffuse] = list(colour[:3])
         return dummy.handle
 
     def getDummySize(self, dummy: Handle) -> float:
         """Return the size of a dummy in metres."""
-        return self._tree.dummy(dummy).size
+        return self._tree.dummy(self._resolve(dummy)).size
 
     def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
         """Create a shape at the origin and return its handle; not in sysCall_sensing.
@@ -65,10 +67,12 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         for handle in resolved:
             self._check_removable(handle)
         for handle in resolved:
-            if handle >= FIRST_HANDLE:
-                self._caller.shared.dummies.remove(handle)
-            elif self._tree.contains(handle):
-                self._remove_model(handle)
+            if not self._tree.contains(handle):
+                continue  # it was below another one
+            if self._tree.is_created_dummy(handle):
+                self._caller.shared.dummies.remove(self._world, handle)
+            else:
+                self._remove_model(self._tree.model(handle))
         return len(handles)
 
     def removeObject(self, handle: Handle) -> int:
@@ -78,6 +82,55 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
     def removeModel(self, handle: Handle, delayed: bool = False) -> int:
         """Remove a model with all its objects, or a dummy; return 1."""
         return self.removeObjects([handle])
+
+    def copyPasteObjects(self, handles: Integers, options: int = 0) -> list[int]:
+        """Copy dummies and whole models where they are; return the handles of the copies.
+
+        A copy is below the copy of its parent, or else at the top. ``options`` 1: with a base of a model, all that is
+        below it is copied too. Copies of models stay until they are removed or the scene is closed.
+        """
+        wanted = [self._resolve(handle) for handle in handles]
+        whole = [handle for handle in wanted if options & 1 and self._world.is_model_base(handle)]
+        below = [each for handle in whole for each in self._tree.with_all_below(handle) if self._is_copied_alone(each)]
+        for handle in wanted:
+            if not self._is_copied_alone(handle):
+                path = self._tree.short_path(handle)
+                raise ValueError(f"{path} cannot be copied on its own: copy the whole model, or a dummy")
+        copies = {handle: self._copy(handle) for handle in dict.fromkeys([*wanted, *below])}
+        for handle, copy in copies.items():
+            if (parent := copies.get(self._tree.parent(handle))) is not None:
+                self._tree.set_parent(copy, parent, in_place=True)
+        return [copies[handle] for handle in wanted]
+
+    def _is_copied_alone(self, handle: int) -> bool:
+        model = self._tree.model(handle)
+        return self._tree.kind(handle) == "dummy" if model < 0 else self._tree.object_of(model) == handle
+
+    def _copy(self, handle: int) -> int:
+        if not self._tree.has_body(handle):
+            known = self._tree.dummy(handle)
+            copy = self.createDummy(known.size)
+            self._tree.dummy(copy).colours.update(known.colours)
+            self._tree.set_name(copy, self._tree.name(handle))
+            self._tree.set_pose(copy, self._tree.pose(handle))
+            return copy
+        model = self._tree.model(handle)
+        taken = copy_model(self._simulation, model)
+        with self._stand_in():
+            made = add_copy(self._simulation, taken, self._free_name(taken.name), taken.position, taken.orientation)
+        edits = self._edits
+        if model in edits.sources:
+            edits.sources[made] = edits.sources[model]
+        else:
+            edits.originals[made] = edits.originals.get(model, str(self._world.name(model)))
+        if model in edits.shapes:
+            edits.shapes[made] = replace(edits.shapes[model])
+        if model in edits.static:
+            edits.static.add(made)
+        edits.colours.give(self._simulation, made, edits.colours.of(self._world, model))
+        edits.numbers.give(self._world, made, edits.numbers.of(self._world, model))
+        self._update_hold(made)
+        return self._tree.object_of(made)
 
     def _add_shape(self, shape: PrimitiveShape) -> int:
         model = self._add_model(shape.sdf(), shape.name)
@@ -89,8 +142,9 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         return model
 
     def _check_removable(self, handle: int) -> None:
-        if self._tree.kind(handle) == "dummy":
+        if self._tree.is_created_dummy(handle):
             return
-        if self._tree.kind(handle) != "model" or int(self._world.parent(handle)) >= 0:
+        model = self._tree.model(handle)
+        if model < 0 or self._tree.object_of(model) != handle:
             path = self._tree.short_path(handle)
             raise ValueError(f"{path} cannot be removed on its own: remove the whole model, or a dummy")

@@ -35,7 +35,7 @@ class ForceFunctions(ApiContext):
         self._world.apply_wrench(target, force, torque)
 
     def _reset(self, handle: int) -> int:
-        """Return the handle without its flags, after doing what they say."""
+        """Return the handle without its flags, after doing what they request."""
         if handle < 0:
             return self._resolve(handle)
         force, torque = (bool(handle & flag) for flag in (self.handleflag_resetforce, self.handleflag_resettorque))

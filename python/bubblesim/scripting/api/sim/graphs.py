@@ -34,7 +34,7 @@ class GraphFunctions(ApiContext):
         colour: Numbers = _RED,
         cyclic_range: float = math.pi,
     ) -> int:
-        """Add a stream of numbers, or change the one of this name; return its id.
+        """Add a stream of numbers, or change the stream of this name; return its id.
 
         ``options``, added up: 1 invisible, 2 without label, 4 points that are not linked. ``cyclic_range``: values run
         from minus this to this and wrap around, as angles do; 0 for other numbers.
@@ -103,7 +103,7 @@ class GraphFunctions(ApiContext):
         return curve.id
 
     def duplicateGraphCurveToStatic(self, graph: Handle, curve: int, name: str = "") -> int:
-        """Keep what a stream or curve shows now as a new one that does not change, and return its id."""
+        """Keep what a stream or curve shows now as a new curve that does not change, and return its id."""
         _require_short(name)
         found = self._graph(graph)
         self._caller.shared.graphs.revision += 1
@@ -240,8 +240,8 @@ class GraphFunctions(ApiContext):
         return graph.streams[stream]
 
 
-def _require_short(*texts: str) -> None:
-    for text in texts:
+def _require_short(*strings: str) -> None:
+    for text in strings:
         if len(text) > _LONGEST_NAME:
             raise ValueError(f"a name or unit of {len(text)} characters: a graph takes at most {_LONGEST_NAME}")
 

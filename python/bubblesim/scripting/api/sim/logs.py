@@ -21,7 +21,7 @@ class LogFunctions(ApiContext):
         """Write a message with a level, sim.verbosity_errors to verbosity_trace; errors and warnings go to stderr.
 
         Add to the level sim.verbosity_undecorated to omit level and object in the terminal, verbosity_onlyterminal to
-        keep it out of the window, verbosity_once to write a text once only.
+        keep it out of the window, verbosity_once to write a string once only.
         """
         number = level if isinstance(level, int) else self.verbosity_infos
         shown = _text_of(text)

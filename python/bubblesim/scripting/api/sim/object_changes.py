@@ -16,7 +16,7 @@ _MOST_CHARACTERS = 255  # of a name
 
 class ObjectChangeFunctions(ApiContext):
     """Changes of a stopped scene stay until it is closed. Names, parents and static flags that are changed during a run
-    are those of before when it ends. ROS topics and messages keep the names of the scene's file."""
+    are restored when it ends. ROS topics and messages keep the names of the scene's file."""
 
     def setObjectAlias(self, handle: Handle, alias: str) -> None:
         """Name an object."""
@@ -26,23 +26,21 @@ class ObjectChangeFunctions(ApiContext):
             raise ValueError(
                 f"'{shown}' is not a name: it must have 1 to {_MOST_CHARACTERS} characters, no / [ ] {{ }} *"
             )
-        if self._tree.kind(handle) == "dummy":
-            self._tree.dummy(handle).name = alias
-            return
         self._edits.begin_change()
-        self._edits.names[handle] = alias
+        self._tree.set_name(handle, alias)
 
     def setObjectName(self, handle: Handle, name: str) -> None:
         """Name an object (old style)."""
         self.setObjectAlias(handle, name)
 
     def setObjectParent(self, handle: Handle, parent: int, keep_in_place: bool = True) -> None:
-        """Attach a model or a dummy to an object or, with -1, to the world. ``keep_in_place``: its pose in the world
-        stays, else its pose relative to the parent.
+        """Attach an object to another one or, with -1, to the world. ``keep_in_place``: its pose in the world stays,
+        else its pose relative to the parent.
 
-        As in the original, a model moves along when its parent is set to a pose; physics moves it along if it is static
-        (sim.shapeintparam_static), or if the parent is a force-torque sensor, which holds it. The parent does not feel
-        its weight. Parts of a model cannot be attached elsewhere.
+        A dummy moves with its parent. As in the original, a model moves along when its parent is set to a pose; physics
+        moves it along if it is static (sim.shapeintparam_static), or if the parent is a force-torque sensor, which
+        holds it. Its weight does not act on the parent. Parts of a model that physics holds elsewhere cannot be
+        attached.
         """
         handle = self._resolve(handle)
         parent = parent if parent == self.handle_world else self._resolve(parent)
@@ -50,8 +48,8 @@ class ObjectChangeFunctions(ApiContext):
             return
         self._edits.begin_change()
         self._tree.set_parent(handle, parent, in_place=keep_in_place)
-        if self._tree.kind(handle) == "model":
-            self._update_hold(handle)
+        if self._tree.kind(handle) in ("model", "link"):
+            self._update_hold(self._tree.model(handle))
 
     def setObjectColor(self, handle: Handle, index: int, component: int, colour: Vector3) -> bool:
         """Set a colour of a model, a link or a dummy: red, green, blue from 0 to 1. See setShapeColor."""
@@ -69,7 +67,7 @@ class ObjectChangeFunctions(ApiContext):
         have no effect. The colour stays until the scene is closed.
         """
         handle = self._resolve(handle)
-        if self._tree.kind(handle) == "dummy":
+        if not self._tree.has_body(handle):
             self._tree.dummy(handle).colours[component] = colour
         elif component == self.colorcomponent_ambient_diffuse:
             self._edits.colours.set(self._simulation, handle, colour)
@@ -84,7 +82,7 @@ class ObjectChangeFunctions(ApiContext):
     def isDynamicallyEnabled(self, handle: Handle) -> bool:
         """Return whether physics moves an object: the simulation is not stopped, and the model is not static."""
         handle = self._resolve(handle)
-        if self._tree.kind(handle) == "dummy" or self._is_stopped():
+        if not self._tree.has_body(handle) or self._is_stopped():
             return False
         return not self._is_static(handle)
 
@@ -115,7 +113,7 @@ class ObjectChangeFunctions(ApiContext):
         return float(self._world.mass(handle)) if shape is None else shape.mass
 
     def _colour(self, handle: int, component: int) -> list[float] | None:
-        if self._tree.kind(handle) == "dummy":
+        if not self._tree.has_body(handle):
             return self._tree.dummy(handle).colours.get(component)
         colour = [float(part) for part in self._simulation.color(handle)]
         return colour if component == self.colorcomponent_ambient_diffuse else None
@@ -149,7 +147,7 @@ class ObjectChangeFunctions(ApiContext):
             return
         if model not in self._edits.shapes:
             path = self._tree.short_path(model)
-            raise ValueError(f"{path} collides as the scene's file says; only created shapes can be changed")
+            raise ValueError(f"{path} collides as the scene's file defines; only created shapes can be changed")
         self._edits.shapes[model].respondable = respondable
         self._rebuild(model)
 
@@ -158,7 +156,7 @@ class ObjectChangeFunctions(ApiContext):
         self._edits.holds.pop(model, None)
         if self._world.is_static(model):
             return
-        frame = self._tree.frame_above(model)
+        frame = self._tree.frame_above(self._tree.object_of(model))
         if model in self._edits.static or (frame >= 0 and self._is_force_sensor(frame)):
             pose = [float(number) for number in self._world.pose(model)]
             self._edits.holds[model] = Hold(frame, relative(self._world, pose, frame))
@@ -174,10 +172,10 @@ class ObjectChangeFunctions(ApiContext):
         linear, angular = self._world.velocity(model)
         known, name, parent = self._shown(model), self._tree.name(model), self._tree.parent(model)
         colour, static, placed = self._simulation.color(model), model in edits.static, edits.placed.get(model)
-        attached = [child for child, of in edits.parents.items() if of == model]
-        dummies = self._caller.shared.dummies.children(model)
-        for dummy in dummies:
-            dummy.parent = -1
+        attached = self._tree.children(model)
+        attached = [child for child in attached if self._tree.is_created_dummy(child) or child in edits.parents]
+        for child in attached:
+            self._world.set_parent(child, self.handle_world)
         data = {key: value for key, value in self._caller.shared.custom_data.items() if key[0] == model}
         self._remove_model(model)
         anew = self._add_model(shape.sdf(), shape.name)
@@ -186,32 +184,35 @@ class ObjectChangeFunctions(ApiContext):
         self._world.set_state(anew, pose, list(linear), list(angular))
         self._edits.colours.set(self._simulation, anew, colour)
         if self._tree.name(anew) != name:
-            edits.names[anew] = name
+            self._tree.set_name(anew, name)
         if parent >= 0:
-            edits.parents[anew] = parent
+            self._tree.set_parent(anew, parent, in_place=True)
         if static:
             edits.static.add(anew)
         if placed:
             edits.placed[anew] = placed
         for child in attached:
-            edits.parents[child] = anew
-            self._update_hold(child)
-        for dummy in dummies:
-            dummy.parent = anew
+            self._tree.set_parent(child, anew, in_place=True)
+            if self._tree.has_body(child):
+                self._update_hold(child)
         for (_, tag), value in data.items():
             self._caller.shared.custom_data[anew, tag] = value
         self._update_hold(anew)
 
     def _add_model(self, text: str, name: str) -> int:
         """Add a model from the text of its file; a name that is taken gets a number."""
+        with self._stand_in():
+            model = int(self._simulation.add_model(text, name=self._free_name(name)).handle)
+        self._edits.sources[model] = text
+        return model
+
+    def _free_name(self, name: str) -> str:
+        """Return the name of a model, or the name with the next free number."""
         taken = {str(self._world.name(handle)) for handle in self._world.models}
         number = 1
         while (free := name if number == 1 else f"{name}_{number}") in taken:
             number += 1
-        with self._stand_in():
-            model = int(self._simulation.add_model(text, name=free).handle)
-        self._edits.texts[model] = text
-        return model
+        return free
 
     def _remove_model(self, handle: int) -> None:
         with self._stand_in():

@@ -39,7 +39,7 @@ class CollectionFunctions(ApiContext):
         """Return the handles of the objects in a collection."""
         items = self._collection(collection)
         roots = self._tree.children(self.handle_world)
-        everything = [handle for root in roots for handle in self._with_all_below(root)]
+        everything = [handle for root in roots for handle in self._tree.with_all_below(root)]
         return [handle for handle in everything if self._contains(items, handle)]
 
     def destroyCollection(self, collection: Handle) -> None:

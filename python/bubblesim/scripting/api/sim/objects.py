@@ -3,10 +3,22 @@
 
 from __future__ import annotations
 
+import contextlib
+
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
 from bubblesim.scripting.api.checked_calls import value_first
-from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Options, Vector3, Vector4, Vector7, Vector12
+from bubblesim.scripting.api.kinds import (
+    INTEGER,
+    NO_OPTIONS,
+    Handle,
+    NameOrHandle,
+    Options,
+    Vector3,
+    Vector4,
+    Vector7,
+    Vector12,
+)
 from bubblesim.scripting.api.sim.context import ApiContext
 
 Vector = list[float]
@@ -20,6 +32,9 @@ class ObjectFunctions(ApiContext):
     def getObject(self, path: str, options: Options = NO_OPTIONS) -> int:
         """Return the handle of the object at ``path``: '/a/b', './b', '../b', ':/b', '::/b'.
 
+        '..' of an object at the top is the object itself, as for scripts of CoppeliaSim 4.7, which are below their
+        object.
+
         Options: ``index`` selects one of several matches, ``noError`` returns -1 if there is none, ``proxy`` is the
         object where relative paths start.
         """
@@ -27,6 +42,9 @@ class ObjectFunctions(ApiContext):
         if unknown:
             raise ValueError(f"getObject has no option '{min(unknown)}'; valid options: index, noError and proxy")
         start = self._resolve(options["proxy"]) if "proxy" in options else self._caller.object_handle
+        is_from_parent = path == ".." or path.startswith("../")
+        if is_from_parent and start >= 0 and self._tree.parent(start) < 0:
+            path = path[1:]
         try:
             return self._shown(self._tree.find(path, start, INTEGER.convert(options.get("index", 0))))
         except LookupError:
@@ -34,10 +52,23 @@ class ObjectFunctions(ApiContext):
                 return -1
             raise
 
-    def getObjectHandle(self, name: str) -> int:
-        """Return the handle of the object with the name ``name``, anywhere in the scene (old style)."""
-        path = name if name.startswith(("/", ".", ":")) else f"/{name}"
-        return self._shown(self._tree.find(path, self._caller.object_handle))
+    def getObjectHandle(self, name: NameOrHandle, options: Options = NO_OPTIONS) -> int:
+        """Return the handle of the object with the name ``name``, anywhere in the scene (old style).
+
+        For sim.handle_self: the object that the script is attached to. Copies are named 'name#0', 'name#1' ...: a
+        script whose object has such a name finds the objects of its own copy, and 'name#' is the first object.
+        """
+        if isinstance(name, int):
+            return self._shown(self._resolve(name))
+        if name.startswith(("/", ".", ":")):
+            return self.getObject(name, options)
+        start = self._caller.object_handle
+        own_copy = str(self._world.name(start)).partition("#")[1:] if start >= 0 else ("", "")
+        names = [name.removesuffix("#")] if "#" in name else [name + "".join(own_copy), name]
+        for each in names[:-1]:
+            with contextlib.suppress(LookupError):
+                return self._shown(self._tree.find(f"/{each}", start))
+        return self.getObject(f"/{names[-1]}", options)
 
     def getObjectAssociatedWithScript(self, script: Handle) -> int:
         """Return the handle of the object that the script is attached to."""
@@ -95,20 +126,23 @@ class ObjectFunctions(ApiContext):
         """
         if base == self.handle_scene:
             roots = self._tree.children(WORLD)
-            found = [handle for root in roots for handle in ([root] if options & 2 else self._with_all_below(root))]
+            found = [
+                handle for root in roots for handle in ([root] if options & 2 else self._tree.with_all_below(root))
+            ]
         else:
             base = self._resolve(base)
-            below = self._tree.children(base) if options & 2 else self._with_all_below(base)[1:]
+            below = self._tree.children(base) if options & 2 else self._tree.with_all_below(base)[1:]
             found = below if options & 1 else [base, *below]
         wants_all = object_type == self.handle_all
         kept = [handle for handle in found if wants_all or self.getObjectType(handle) == object_type]
         return [self._shown(handle) for handle in kept]
 
     def getObjectType(self, handle: Handle) -> int:
-        """Return sim.object_shape_type for models and links, and the type of joints and sensors.
+        """Return sim.object_shape_type for models, links and shapes, and the type of joints and sensors.
 
         object_joint_type, object_proximitysensor_type, object_visionsensor_type for cameras, object_forcesensor_type
-        for force-torque sensors, and object_dummy_type for dummies and other sensors.
+        for force-torque sensors, and object_dummy_type for dummies and other sensors. Objects of a file that have no
+        effect here: object_camera_type, object_light_type, object_graph_type.
         """
         handle = self._resolve(handle)
         kind = self._tree.kind(handle)
@@ -119,9 +153,16 @@ class ObjectFunctions(ApiContext):
                 "force-torque sensor": self.object_forcesensor_type,
             }
             return sensors.get(sensor_kind(self._simulation, handle), self.object_dummy_type)
-        if kind == "dummy":
-            return self.object_dummy_type
-        return self.object_joint_type if kind == "joint" else self.object_shape_type
+        types = {
+            "joint": self.object_joint_type,
+            "model": self.object_shape_type,
+            "link": self.object_shape_type,
+            "shape": self.object_shape_type,
+            "camera": self.object_camera_type,
+            "light": self.object_light_type,
+            "graph": self.object_graph_type,
+        }
+        return types.get(kind, self.object_dummy_type)
 
     def getObjectPose(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
         """Return [x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""
@@ -171,10 +212,7 @@ class ObjectFunctions(ApiContext):
 
     def getObjectVelocity(self, handle: Handle) -> tuple[Vector, Vector]:
         """Return the linear (m/s) and angular (rad/s) velocity in world axes."""
-        handle = self._resolve(handle)
-        if self._tree.kind(handle) == "dummy":
-            raise ValueError(f"{self._tree.path(handle)} is a dummy, whose velocity is not known")
-        linear, angular = self._world.velocity(handle)
+        linear, angular = self._world.velocity(self._resolve(handle))
         return list(linear), list(angular)
 
     def _pose(self, handle: int, relative_to: int) -> Vector:

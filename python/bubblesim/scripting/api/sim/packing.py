@@ -20,7 +20,7 @@ class PackFunctions(ApiContext):
     """Numbers that a call can return."""
 
     def packTable(self, table: Any) -> bytes:
-        """Return nested tables, texts, bytes and numbers as bytes (CBOR, RFC 8949)."""
+        """Return nested tables, strings, bytes and numbers as bytes (CBOR, RFC 8949)."""
         try:
             data: bytes = cbor2.dumps(table)
         except cbor2.CBOREncodeError as error:

@@ -176,13 +176,13 @@ class ParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFuncti
 
     def getModelProperty(self, handle: Handle) -> int:
         """Return 0 for a model, and sim.modelproperty_not_model for another object."""
-        return 0 if self._tree.kind(self._resolve(handle)) == "model" else self.modelproperty_not_model
+        return 0 if self._world.is_model_base(self._resolve(handle)) else self.modelproperty_not_model
 
     def setModelProperty(self, handle: Handle, value: int) -> None:
         """Accept the value that the object has; others raise ValueError: parts of a model cannot be switched off."""
         if value != self.getModelProperty(handle):
             raise ValueError(
-                f"the model property {value} is not supported: models are visible and dynamic as their file says"
+                f"the model property {value} is not supported: models are visible and dynamic as their file defines"
             )
 
     def _set_entity_to_detect(self, sensor: int, entity: int) -> None:

@@ -14,7 +14,7 @@ _PREFIX = "signal."  # of the names in the newer functions: properties of the sc
 
 
 class SignalFunctions(ApiContext):
-    """Named values, shared by all scripts; texts, numbers and integers have separate namespaces."""
+    """Named values, shared by all scripts; strings, numbers and integers have separate namespaces."""
 
     def setStringSignal(self, name: str, value: TextOrBytes) -> None:
         """Set a string or bytes."""

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The devices that a world calls before its physics substeps.
+#pragma once
+
+#include <memory>
+
+#include "bubblesim/scene_tree.hpp"
+#include "bubblesim/world_part.hpp"
+
+namespace bubblesim {
+
+class Device;
+
+class WorldDevices : public WorldPart {
+ public:
+  using WorldPart::WorldPart;
+
+  /// Calls a device before physics substeps, after those added before it, until it is removed or `model` is; kNoObject
+  /// for the world. `rate` in Hz; 0 for each substep. A rate that the substeps do not divide is kept in the mean.
+  void add(std::shared_ptr<Device> device, ObjectId model = kNoObject, double rate = 0);
+  /// Does nothing when the device was removed with its model.
+  void remove(const Device& device);
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames, which are objects without physics, and changes of the tree of objects.
+#pragma once
+
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "bubblesim/scene_tree.hpp"
+#include "bubblesim/world_part.hpp"
+
+namespace bubblesim {
+
+class WorldFrames : public WorldPart {
+ public:
+  using WorldPart::WorldPart;
+
+  /// Adds a dummy, a frame at the origin of the world and the top of the tree; resets keep it.
+  ObjectId add_dummy(std::string name);
+  /// Throws WrongObject for other objects. What is below it in the tree is at the top then, and stays where it is.
+  void remove_dummy(ObjectId dummy);
+  /// Throws WrongObject for other objects.
+  FrameKind kind(ObjectId frame) const;
+  /// The link that carries a frame, kNoObject for the world. Throws WrongObject for other objects.
+  ObjectId link(ObjectId frame) const;
+  /// Changes the tree: the object becomes the last child of `parent`, kNoObject is the top. Nothing moves. A frame is
+  /// carried from now on by what carries the parent, below a joint by the joint's child; physics does not change.
+  /// Throws InvalidInput when the parent is the object itself or below it. Resets keep the tree.
+  void set_parent(ObjectId object, ObjectId parent);
+  /// Sets the name in paths; resets keep it.
+  void set_alias(ObjectId object, std::string alias);
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The devices of bubblesim._core, which are called before physics substeps.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "bubblesim/joint_ramps.hpp"
+#include "bubblesim/planar_drive.hpp"
+#include "bubblesim/timed_efforts.hpp"
+#include "devices/attached.hpp"
+#include "devices/number_target.hpp"
+
+namespace bubblesim::bindings {
+namespace {
+
+namespace py = pybind11;
+
+void bind_timed_efforts(py::module_& module) {
+  using Efforts = Attached<TimedEfforts>;
+  py::class_<Efforts> efforts(module, "TimedEfforts",
+                              "Wrenches on links and efforts on joints during intervals of simulation time.");
+  efforts.def(py::init([](World& world) { return attach(world, std::make_shared<TimedEfforts>(), kNoObject, 0); }),
+              py::arg("world"), py::keep_alive<1, 2>());
+  Guarded(efforts)
+      .def(
+          "add_wrench",
+          [](Efforts& e, ObjectId link, const Numbers3& force, const Numbers3& torque,
+             const std::optional<Numbers3>& point, double start, double duration) {
+            e.device->add_wrench(e.world, link, {to_vector3(force), to_vector3(torque)},
+                                 point ? std::make_optional(to_vector3(*point)) : std::nullopt, {start, duration});
+          },
+          py::arg("link"), py::arg("force"), py::arg("torque"), py::arg("point"), py::arg("start"), py::arg("duration"),
+          "Apply a wrench in world axes at a point of the link, None for its centre of mass; s of simulation time, a "
+          "negative duration until it is cleared.")
+      .def(
+          "add_effort",
+          [](Efforts& e, ObjectId joint, double effort, double start, double duration) {
+            e.device->add_effort(e.world, joint, effort, {start, duration});
+          },
+          py::arg("joint"), py::arg("effort"), py::arg("start"), py::arg("duration"),
+          "Push the links of a joint along its first axis, within the force limit of its motor.")
+      .def("clear_wrenches", [](Efforts& e, ObjectId link) { e.device->clear_wrenches(link); })
+      .def("clear_efforts", [](Efforts& e, ObjectId joint) { e.device->clear_efforts(joint); });
+}
+
+void bind_joint_ramps(py::module_& module) {
+  py::class_<NumberTarget>(module, "NumberTarget", "Takes the numbers of messages; see Bridge.subscribe_numbers().")
+      .def(
+          "__call__",
+          [](const NumberTarget& target, const std::vector<double>& numbers) { return target.take(numbers); },
+          py::arg("numbers"), "Take numbers; return whether they were usable.");
+  using Ramps = Attached<JointRamps>;
+  using Output = std::tuple<ObjectId, MotorMode, std::vector<double>>;
+  py::class_<Ramps> ramps(module, "JointRamps", "Targets of joints that follow inputs at limited rates.");
+  ramps.def(py::init([](World& world, ObjectId model, double rate, std::vector<double> rates,
+                        const std::vector<Output>& outputs) {
+              std::vector<JointRamps::Output> all;
+              for (const auto& [joint, mode, factors] : outputs) all.push_back({joint, mode, factors});
+              return attach(world, std::make_shared<JointRamps>(std::move(rates), std::move(all)), model, rate);
+            }),
+            py::arg("world"), py::arg("model"), py::arg("rate"), py::arg("rates"), py::arg("outputs"),
+            py::keep_alive<1, 2>(),
+            R"(Add it to a world.
+
+:param rate: Hz, 0 for each physics substep.
+:param rates: how fast each input may change, per s; infinite without a limit.
+:param outputs: joint, MotorMode of its target, and a factor for each input.)");
+  Guarded(ramps)
+      .def(
+          "set_targets", [](Ramps& r, std::vector<double> targets) { r.device->set_targets(std::move(targets)); },
+          py::arg("targets"), "Set the targets of the inputs.")
+      .def(
+          "commands",
+          [](Ramps& r, const std::vector<std::pair<std::vector<double>, double>>& rows, double most) {
+            CommandMix mix{{}, most};
+            for (const auto& [factors, divisor] : rows) mix.rows.push_back({factors, divisor});
+            return NumberTarget{[&world = r.world, device = r.device, mix = std::move(mix)](const auto& commands) {
+              std::optional<std::vector<double>> targets = mix.inputs(commands);
+              if (!targets) return false;
+              const AccessLock::Hold hold(world.access());
+              device->set_targets(std::move(*targets));
+              return true;
+            }};
+          },
+          py::arg("rows"), py::arg("most"), py::keep_alive<0, 1>(),
+          R"(Return a NumberTarget that sets the targets from commands.
+
+:param rows: for each input the factors of the commands, and a divisor of their sum.
+:param most: larger commands are not usable; larger inputs are scaled down together.)")
+      .def(
+          "stop", [](Ramps& r) { r.device->stop(); }, "Set inputs and targets to zero, without commanding the joints.")
+      .def("remove", &Ramps::remove, "Remove it from the world.");
+}
+
+void bind_planar_drive(py::module_& module) {
+  using Drive = Attached<PlanarDrive>;
+  py::class_<Drive> drive(module, "PlanarDrive", "Moves a model at a velocity along its own axes.");
+  drive.def(py::init([](World& world, ObjectId model) {
+              return attach(world, std::make_shared<PlanarDrive>(model), model, 0);
+            }),
+            py::arg("world"), py::arg("model"), py::keep_alive<1, 2>());
+  Guarded(drive)
+      .def(
+          "set_velocity",
+          [](Drive& d, double forward, double leftward, double turning) {
+            d.device->set_velocity(forward, leftward, turning);
+          },
+          py::arg("forward"), py::arg("leftward"), py::arg("turning"), "m/s and rad/s.")
+      .def("remove", &Drive::remove, "Remove it from the world.");
+}
+
+}  // namespace
+
+void bind_devices(py::module_& module) {
+  bind_timed_efforts(module);
+  bind_joint_ramps(module);
+  bind_planar_drive(module);
+}
+
+}  // namespace bubblesim::bindings

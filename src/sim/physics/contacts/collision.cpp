@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contacts/collision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/contacts/contact_points.hpp"
+#include "physics/contacts/contact_thinning.hpp"
+#include "physics/contacts/round_contacts.hpp"
+#include "physics/contacts/surface_pair.hpp"
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
+
+namespace bubblesim {
+namespace {
+
+static_assert(Islands::kNone == Collider::kNoModel);
+
+Vector3 turned(dGeomID geom, const Vector3& direction) {
+  dQuaternion q;
+  dGeomGetQuaternion(geom, q);
+  return to_quaternion(q) * direction;
+}
+
+/// Sets the friction direction, projected on the contact plane; does nothing when it is normal to the plane.
+void direct(const Vector3& wanted, dContact& contact) {
+  const dReal* n = contact.geom.normal;
+  const Vector3 normal(n[0], n[1], n[2]);
+  Vector3 along = wanted - normal * wanted.dot(normal);
+  if (along.norm() < 1e-3 * wanted.norm()) return;
+  along.normalize();
+  contact.surface.mode |= dContactFDir1;
+  for (unsigned i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
+}
+
+/// Makes rigid shapes sink to their rest depth, with a speed that decreases near it.
+void sink(double depth, const SurfacePair& pair, double step, dContact& contact) {
+  const double left = pair.sink - kSurfaceLayer - depth;
+  if (pair.sink_speed == 0 || left <= 0) return;
+  contact.surface.mode |= dContactMotionN;
+  contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
+}
+
+/// Whether a body sleeps. Null is the static world.
+bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
+
+bool sleeps(const PlacedModel& model) {
+  return std::all_of(model.links.begin(), model.links.end(), [](const Link& link) { return sleeps(link.body.get()); });
+}
+
+/// Whether joints or a motor act on the links of a model.
+bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.exists(); }
+
+void touch(void* data, dGeomID first, dGeomID second) {
+  auto& substep = *static_cast<Substep*>(data);
+  Contacts& contacts = substep.contacts;
+  const double step = substep.duration;
+  if (collider_of(second).number < collider_of(first).number) std::swap(first, second);
+  const Collider& a = collider_of(first);
+  const Collider& b = collider_of(second);
+  if (a.link == b.link) return;
+  dBodyID body_a = dGeomGetBody(first);
+  dBodyID body_b = dGeomGetBody(second);
+  if (sleeps(body_a) && sleeps(body_b)) return;
+  if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
+
+  ContactPoints points;
+  const Surface& surface_a = a.surface();
+  const Surface& surface_b = b.surface();
+  const int most = std::max(std::min(surface_a.max_contacts, surface_b.max_contacts), 1);
+  const int count = std::min(find_contact_points(first, second, points), most);
+  if (count == 0) return;
+  place_on_round_shape(first, second, count, points.data());
+  contacts.islands.touch(a.model, b.model, count);
+  contacts.found.pairs.push_back({&a, &b, contacts.found.points.size(), count});
+  SurfacePair pair = combine(surface_a, surface_b, step);
+  share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
+  for (int i = 0; i < count; ++i) {
+    FoundContact& point = contacts.found.points.emplace_back();
+    point.has_own_correction = pair.has_own_correction;
+    dContact& contact = point.contact;
+    contact.surface = pair.ode;
+    contact.geom = points[static_cast<std::size_t>(i)];
+    if (pair.torsion_by_depth > 0) {
+      const double patch = pair.torsion_by_depth * std::sqrt(std::max(contact.geom.depth, 0.0));
+      contact.surface.rhoN = std::max(contact.surface.rhoN, patch);
+    }
+    sink(contact.geom.depth, pair, step, contact);
+    contact.geom.depth = kSurfaceLayer + std::min(contact.geom.depth - pair.sink, pair.max_depth);
+    if (pair.directed != nullptr) {
+      direct(turned(pair.directed == &surface_a ? first : second, pair.directed->fdir1), contact);
+    }
+  }
+}
+
+/// Pairs come in an order that depends on the state only, not on what the search went through before.
+void sort(std::vector<FoundPair>& pairs) {
+  const auto before = [](const FoundPair& a, const FoundPair& b) {
+    return std::make_pair(a.first->number, a.second->number) < std::make_pair(b.first->number, b.second->number);
+  };
+  if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
+}
+
+void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
+
+dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
+
+}  // namespace
+
+void search_contacts(Substep& substep) {
+  const MovingModels& moving = substep.moving;
+  dJointGroupEmpty(substep.ode.contact_joints.get());
+  substep.contacts.found.clear();
+  substep.contacts.islands.clear(moving.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (is_jointed(*moving[i])) substep.contacts.islands.set_jointed(static_cast<int>(i));
+  }
+  if (std::all_of(moving.begin(), moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) return;
+  // Collide models with each other; shapes of one model collide only with self_collide.
+  if (moving.size() > 1) dSpaceCollide(substep.spaces.movers.get(), &substep, touch_spaces);
+  for (const PlacedModel* model : moving) {
+    dSpaceID space = model->space.get();
+    if (sleeps(*model)) continue;
+    if (model->description.self_collide) dSpaceCollide(space, &substep, touch);
+    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.statics.get()), &substep, touch);
+    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.planes.get()), &substep, touch);
+  }
+}
+
+void order_contacts(Contacts& contacts) {
+  sort(contacts.found.pairs);
+  if (contacts.islands.may_be_beyond_limit()) thin_out(contacts.found, contacts.islands);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ODE's spaces: where collisions are searched.
+#pragma once
+
+#include "physics/ode/ode_handles.hpp"
+
+namespace bubblesim {
+
+struct Spaces {
+  ode::SpaceHandle movers;   // one space per moving model
+  ode::SpaceHandle statics;  // geoms without a body, of finite size
+  ode::SpaceHandle planes;   // infinite geoms would degrade the quadtree of the statics
+};
+
+}  // namespace bubblesim

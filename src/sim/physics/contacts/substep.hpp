@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a physics substep works on.
+#pragma once
+
+#include "bubblesim/math.hpp"
+#include "physics/contacts/contact_memory.hpp"
+#include "physics/contacts/found_contacts.hpp"
+#include "physics/contacts/islands.hpp"
+#include "physics/contacts/spaces.hpp"
+#include "physics/ode/ode_world.hpp"
+#include "physics/parts/placed_model.hpp"
+
+namespace bubblesim {
+
+/// The contacts of a world in the last substep.
+struct Contacts {
+  FoundContacts found;
+  Islands islands;  // of models, by their index among the moving ones
+  ContactMemory memory;
+  ContactMemory memory_before;  // working memory
+};
+
+struct Substep {
+  double duration;  // s
+  const Vector3& gravity;
+  const MovingModels& moving;
+  const Spaces& spaces;
+  OdeWorld& ode;
+  Contacts& contacts;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision shape in ODE.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bubblesim/scene.hpp"
+#include "physics/convex/collision_mesh.hpp"
+#include "physics/ode/ode_handles.hpp"
+#include "physics/parts/link.hpp"
+
+namespace bubblesim {
+
+/// ODE's geom points back at it, see collider_of().
+struct Collider {
+  explicit Collider(const CollisionDescription& description)
+      : name(description.name),
+        geometry(description.geometry),
+        given_surface(description.surface),
+        in_link(description.pose) {}
+
+  static constexpr int kNoModel = -1;
+
+  ode::GeomHandle geom;
+  const CollisionMesh* mesh = nullptr;  // null for shapes that ODE has itself
+  const Link* link = nullptr;
+  const std::string& name;
+  const Geometry& geometry;
+  const Surface& given_surface;                // of the description
+  std::unique_ptr<const Surface> own_surface;  // in its place, after a change
+  const Pose& in_link;
+  bool watched = false;   // observed by a contact sensor
+  int model = kNoModel;   // index of its outermost model among the moving ones; kNoModel when it is static
+  int number = 0;         // in the order of the models, moving ones first
+  double model_mass = 0;  // kg, of its outermost model; infinite when it is static
+
+  const Surface& surface() const { return own_surface == nullptr ? given_surface : *own_surface; }
+};
+
+inline const Collider& collider_of(dGeomID geom) { return *static_cast<const Collider*>(dGeomGetData(geom)); }
+
+}  // namespace bubblesim

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The wrench that a joint transmits, substep by substep, from the feedback of its joints in ODE.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "bubblesim/scene.hpp"
+#include "bubblesim/state_archive.hpp"
+#include "bubblesim/wrench.hpp"
+#include "physics/parts/link.hpp"
+#include "physics/parts/substep_signal.hpp"
+
+namespace bubblesim {
+
+/// ODE's joints keep pointers to its reports.
+class WrenchMeter {
+ public:
+  /// Requests the feedback of the joints between two links; `parent` is null for the world. `joint_in_child` is the
+  /// pose of the joint in the child link's frame.
+  WrenchMeter(const Link* parent, const Link& child, const Pose& joint_in_child);
+  WrenchMeter(const WrenchMeter&) = delete;
+  WrenchMeter& operator=(const WrenchMeter&) = delete;
+
+  /// `sensor` is the Object::index of a force-torque sensor, `in_joint` its pose in the joint's frame.
+  void add_sensor(const ForceTorqueDescription& description, std::size_t sensor, const Pose& in_joint);
+
+  void clear();
+  /// Call before and after each substep: ODE's forces refer to the positions at its start.
+  void begin();
+  void end(double step);
+
+  /// Of the child on the parent since clear(), in world axes, about the joint's origin: N s and N m s.
+  const Wrench& impulse() const { return impulse_; }
+  /// In the axes of the sensor's description: mean since clear(), or filtered. Nothing for other sensors.
+  std::optional<Wrench> of_sensor(std::size_t sensor) const;
+
+  void transfer(StateArchive& archive);
+
+ private:
+  struct Report {
+    dJointID joint = nullptr;
+    dJointFeedback feedback{};
+  };
+  struct Signal {
+    explicit Signal(const ForceTorqueDescription& description_)
+        : description(description_), force(description.bandwidth), torque(description.bandwidth) {}
+
+    const ForceTorqueDescription& description;
+    std::size_t sensor = 0;
+    Pose in_child;         // the sensor in the child link's frame
+    SubstepSignal force;   // N
+    SubstepSignal torque;  // N m, about the sensor's origin
+  };
+
+  Quaternion axes_of(ForceTorqueDescription::Frame frame, const Quaternion& sensor) const;
+
+  const Link* parent_;
+  const Link& child_;
+  Pose joint_in_child_;
+  std::deque<Report> reports_;
+  std::vector<Signal> signals_;
+  Wrench impulse_;
+  // At the start of the substep:
+  Pose child_pose_;
+  Quaternion parent_axes_;
+  Vector3 child_centre_;  // of mass, in the world
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adds and removes models.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bubblesim/world_models.hpp"
+#include "check/scene_check.hpp"
+#include "physics/motion/sleep.hpp"
+#include "physics/world/state.hpp"
+#include "scene/described_tree.hpp"
+#include "scene/scene_hash.hpp"
+#include "scene/unit_rotations.hpp"
+
+namespace bubblesim {
+
+void forget_contacts(WorldState& state, ObjectId model) {
+  forget_contacts(state.contacts.memory,
+                  [&](const Collider& shape) { return state.tree().outermost_model_of(shape.link->object) == model; });
+}
+
+ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings) {
+  check_not_diverged(state());
+  std::vector<Problem> problems = check_model(model);
+  for (const ObjectId id : state().tree().models()) {
+    if (state().tree().at(id).name != model.name) continue;
+    problems.push_back({model.source.file, model.source.line, "/" + model.name,
+                        "a model with this name exists already; choose another name, or remove that model first"});
+  }
+  if (!problems.empty()) throw SceneError(std::move(problems));
+  ode::prepare_this_thread();
+  make_rotations_unit(model);
+  const bool is_static = model.is_static;
+  const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
+  prepared->added_hash = hash_of(*prepared->description);
+  SceneTree& tree = changing_tree(state());
+  DescribedTree described(tree);
+  const ObjectId id = described.add(*prepared->description);
+  described.arrange();
+  try {
+    place_model(state(), id, prepared);
+  } catch (...) {
+    tree.remove(id);
+    throw;
+  }
+  if (is_static) gather_statics(state());
+  list_moving(state());
+  ++state().revision;
+  state().has_scene_models = false;
+  return id;
+}
+
+void WorldModels::check_removable(ObjectId model) const {
+  const std::vector<ObjectId>& lost = state().lost_models;
+  if (state().interrupted || std::find(lost.begin(), lost.end(), model) == lost.end()) check_not_diverged(state());
+  const Object& object = state().tree().at(model);
+  if (!object.is_outermost_model()) {
+    throw WrongObject(state().shown(model) + " is a " + std::string(kind_name(object.kind)) +
+                      ": it cannot be removed on its own; remove its model");
+  }
+}
+
+void WorldModels::remove(ObjectId model) {
+  check_removable(model);
+  dJointGroupEmpty(state().ode.contact_joints.get());  // contacts of the last step may refer to the model's bodies
+  state().touches.clear();                             // and these refer to its shapes
+  forget_contacts(state(), model);
+  state().contacts.found.clear();
+  forget_frames(state(), model);
+  state().statics_stale = state().statics_stale || description(model).is_static;
+  const auto is_it = [model](const auto& placed) { return placed->object == model; };
+  state().models.erase(std::find_if(state().models.begin(), state().models.end(), is_it));
+  state().model_at[SceneTree::index_of(model)] = nullptr;
+  changing_tree(state()).remove(model);
+  remove_devices(state(), model);
+  forget_wrenches(state());
+  std::vector<ObjectId>& lost = state().lost_models;
+  lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
+  if (lost.empty()) state().diverged = state().interrupted;
+  list_moving(state());
+  wake(state().moving);
+  ++state().revision;
+  state().has_scene_models = false;
+}
+
+const ModelDescription& WorldModels::description(ObjectId model) const { return state().model_of(model).description; }
+
+const SensorDescription& WorldModels::sensor_description(ObjectId sensor) const {
+  const Object& object = state().tree().at(sensor);
+  if (object.kind != ObjectKind::kSensor) {
+    throw WrongObject(state().shown(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a sensor");
+  }
+  return *state().model_of(sensor).described_sensors[object.index];
+}
+
+}  // namespace bubblesim
