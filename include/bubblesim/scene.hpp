@@ -196,6 +196,7 @@ struct TreePlace {
   int parent = -1;        ///< `id` of the parent, of any kind, in any model of the file; -1: the top of the scene
   int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
   bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
+  std::filesystem::path child_script{};  ///< empty: none
 };
 
 struct SensorDescription {

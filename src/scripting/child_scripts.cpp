@@ -28,6 +28,26 @@ ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
   return scripts;
 }
 
+/// Adds the scripts of the parts of a model that have places of their own in the tree.
+void add_placed(const World& world, ObjectId model, ScriptFiles& scripts) {
+  const SceneTree& tree = world.tree();
+  const ModelDescription& description = world.models().description(model);
+  const auto add = [&](ObjectId id, const std::optional<TreePlace>& place) {
+    if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
+  };
+  std::vector<const SensorDescription*> sensors;  // in the order of Object::index
+  for (const LinkDescription& link : description.links) {
+    for (const SensorDescription& sensor : link.sensors) sensors.push_back(&sensor);
+  }
+  for (const JointDescription& joint : description.joints) {
+    for (const SensorDescription& sensor : joint.sensors) sensors.push_back(&sensor);
+  }
+  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) add(id, description.links[tree.at(id).index].place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) add(id, description.joints[tree.at(id).index].place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kSensor)) add(id, sensors[tree.at(id).index]->place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kFrame)) add(id, description.frames[tree.at(id).index].place);
+}
+
 /// Whether a scene is a file of CoppeliaSim, which has its scripts in itself.
 bool is_foreign(const std::filesystem::path& scene) {
   return scene.extension() == ".ttt" || scene.extension() == ".ttm";
@@ -55,6 +75,13 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   ScriptFiles scripts;
   for (const ModelDescription& model : simulation.scene().models) {
     for (auto& script : scripts_of(model, "/" + model.name)) scripts.push_back(std::move(script));
+  }
+  for (const ObjectId model : tree.models()) add_placed(simulation.world(), model, scripts);
+  const std::vector<FrameDescription>& frames = simulation.scene().frames;
+  for (const ObjectId id : tree.objects()) {
+    if (tree.at(id).kind != ObjectKind::kFrame || tree.outermost_model_of(id) != kNoObject) continue;
+    const std::optional<TreePlace>& place = frames[tree.at(id).index].place;
+    if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
   }
   if (is_foreign(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
   for (const auto& [object, file] : options.replacements) {
@@ -99,7 +126,9 @@ void ChildScripts::after_call() {
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {
-  for (const auto& [path, file] : scripts_of(world.models().description(model), world.tree().path(model))) {
+  ScriptFiles scripts = scripts_of(world.models().description(model), world.tree().path(model));
+  add_placed(world, model, scripts);
+  for (const auto& [path, file] : scripts) {
     with_python([&, &path = path, &file = file] { methods_->self.attr("add_script")(path, file); });
   }
 }

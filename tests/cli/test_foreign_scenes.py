@@ -104,8 +104,27 @@ def test_a_box_falls_on_the_floor(tmp_path: Path) -> None:
 def test_a_joint_starts_at_its_position_in_the_file(tmp_path: Path) -> None:
     simulation = bubblesim.Simulation(str(write(tmp_path / "arm.ttt", arm(0.5, 0, 0))))
     assert simulation.object("/Base/motor").joint_position == pytest.approx(0.5, abs=1e-9)
-    arm_position = simulation.object("/Base/Arm").position
+    arm_position = simulation.object("/Base/motor/Arm").position
     assert arm_position[:2] == pytest.approx((0.5 * math.cos(0.5), 0.5 * math.sin(0.5)), abs=1e-9)
+
+
+WALK = """sim=require'sim'
+function sysCall_init()
+  local own = sim.getObject('.')
+  print(sim.getObjectAlias(own)..' in '..sim.getObjectAlias(sim.getObjectParent(own)))
+  print(own == sim.getObject('/Base/motor/Arm/Tip'), sim.getObject('/Base/motor/Arm/Cover') >= 0)
+end
+"""
+
+
+def test_scripts_see_the_tree_of_the_file(tmp_path: Path) -> None:
+    tip = thing("DMY", 20, 12, "Tip", b"")
+    cover = thing("SHP", 21, 12, "Cover", cuboid((0.1, 0.1, 0.1)))
+    file = write(tmp_path / "tree.ttt", arm(0.5, 0, 0), tip, cover, script(20, WALK))
+    run = run_sim(file, "--no-ros", "--speed", "max", "--until", "0.1")
+    assert run.stderr.count("error") == 0
+    assert "Tip in Arm\n" in run.stdout
+    assert "true\ttrue" in run.stdout or "true true" in run.stdout
 
 
 def test_a_motor_holds_its_target_of_the_file(tmp_path: Path) -> None:

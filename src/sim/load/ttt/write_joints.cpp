@@ -83,7 +83,10 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
       conversion.node(conversion.structure.bodies[static_cast<std::size_t>(connection.child)].shape).world;
   const bool at_zero = joint != nullptr && joint->type != JointType::kSpherical && !site.has_loops;
   put_pose(element, child_in_file.inverse() * (at_zero ? node.moving : node.world));
-  if (name != alias && connection.kind != ConnectionKind::kWeld) put(element, "bubblesim:alias", alias);
+  if (connection.kind == ConnectionKind::kJoint) {
+    if (name != alias) put(element, "bubblesim:alias", alias);
+    write_place(element, connection.object, conversion);
+  }
   if (joint != nullptr && joint->type != JointType::kSpherical) {
     if (joint->lead != 0 && joint->type == JointType::kRevolute) {
       put(element, "screw_thread_pitch", 2 * M_PI * joint->lead);
@@ -93,6 +96,8 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
   if (object.as<ForceSensor>() == nullptr) return;
   pugi::xml_node sensor = named(element, "sensor", conversion.names.take(alias + "_sensor"));
   sensor.append_attribute("type").set_value("force_torque");
+  put(sensor, "bubblesim:alias", alias);
+  write_place(sensor, connection.object, conversion);
 }
 
 }  // namespace bubblesim::ttt

@@ -20,30 +20,30 @@ namespace fs = std::filesystem;
 /// Writes one group as a model.
 class ModelWriter {
  public:
-  ModelWriter(pugi::xml_node world, pugi::xml_node state, const Group& group, const std::map<int, std::string>& scripts,
-              Conversion& conversion)
-      : world_(world), state_(state), group_(group), scripts_(scripts), c_(conversion) {}
+  ModelWriter(pugi::xml_node world, pugi::xml_node state, const Group& group, Conversion& conversion)
+      : world_(world), state_(state), group_(group), c_(conversion) {}
 
   void write() {
     const int leader = group_.leader(c_.structure);
     is_static_ = group_.bodies.empty();
-    if (is_static_ && !is_worth_a_model(leader)) return;
-    const std::string alias = plain_name(c_.object(leader).alias);
-    const std::string name = c_.names.take(alias);
+    if (is_static_ && !has_physics()) return;
+    const std::string name = c_.names.take(c_.object(leader).alias + "_model");
     model_ = named(world_, "model", name);
+    // In the tree are the objects of the file, not what moves together.
+    put(model_, "bubblesim:is_object", "false");
     model_pose_ = is_static_ || group_.fixed != kNone ? c_.node(leader).world : at_zero(group_.bodies.front());
     put_pose(model_, model_pose_);
-    if (name != alias) put(model_, "bubblesim:alias", alias);
     if (is_static_) put(model_, "static", "true");
-    name_links();
-    write_script();
-    if (group_.fixed != kNone) write_fixed_part();
-    for (const int body : group_.bodies) write_body(body);
+    for (const int i : group_.bodies) links_[i] = c_.names.take(c_.object(body(i).shape).alias);
+    if (group_.fixed != kNone) {
+      links_[kWorld] = c_.names.take(c_.object(group_.fixed).alias);
+      write_fixed_part();
+    }
+    for (const int i : group_.bodies) write_body(i);
     write_joints();
     write_state(name);
-    for (const auto& [object, path] : waiting_) {
-      c_.left_out.add("second script of bodies that move as one: not run", c_.object(object).alias);
-    }
+    if (group_.fixed != kNone) write_frames(group_.members, links_.at(kWorld), c_.node(group_.fixed).world);
+    for (const int i : group_.bodies) write_frames(body(i).members, links_.at(i), in_file(i));
   }
 
  private:
@@ -52,67 +52,29 @@ class ModelWriter {
   bool has_loops() const { return group_.at_zero.empty(); }
   const Pose& at_zero(int i) const { return has_loops() ? in_file(i) : group_.at_zero.at(i); }
 
-  /// The editor's cameras and lights, and scripts, are no models; the lights are in the world.
-  bool is_worth_a_model(int leader) const {
-    if (group_.members.size() > 1) {
-      return std::any_of(group_.members.begin(), group_.members.end(), [this](int i) { return is_thing(i); });
-    }
-    return is_thing(leader);
-  }
-  bool is_thing(int i) const {
-    const Object& object = c_.object(i);
-    return object.as<Lamp>() == nullptr && object.tag != "CMA" && object.tag != "SCT" && object.tag != "GRH";
+  /// Whether something of a tree that does not move is seen, felt or measures.
+  bool has_physics() const {
+    return std::any_of(group_.members.begin(), group_.members.end(), [this](int i) {
+      const Object& object = c_.object(i);
+      return object.as<Shape>() != nullptr || object.as<ProximitySensor>() != nullptr ||
+             object.as<VisionSensor>() != nullptr;
+    });
   }
 
-  void name_links() {
-    // The model's own script comes first; those of other bodies get models inside it.
-    for (const auto& [object, path] : scripts_) {
-      const int of = c_.node(object).body;
-      const bool is_here = of == kWorld ? std::count(group_.members.begin(), group_.members.end(), object) > 0
-                                        : std::count(group_.bodies.begin(), group_.bodies.end(), of) > 0;
-      if (is_here) waiting_.emplace(object, path);
-    }
-    const int leader = group_.leader(c_.structure);
-    const int first_body = group_.fixed == kNone ? group_.bodies.front() : kWorld;
-    own_script_ = waiting_.count(leader) > 0 ? leader : kNone;
-    std::map<int, int> inner_scripts;  // object by body
-    for (const auto& [object, path] : waiting_) {
-      const int of = c_.node(object).body;
-      if (object == own_script_) continue;
-      if (of != first_body) {
-        inner_scripts.emplace(of, object);
-      } else if (own_script_ == kNone) {
-        own_script_ = object;
-      }
-    }
-    for (const int i : group_.bodies) {
-      const std::string alias = plain_name(c_.object(body(i).shape).alias);
-      std::string name = c_.names.take(alias);
-      if (const auto script = inner_scripts.find(i); script != inner_scripts.end()) {
-        inner_[i] = {name, script->second};
-        name = c_.names.take(alias + "_link");
-      }
-      links_[i] = name;
-    }
-    if (group_.fixed != kNone) links_[kWorld] = c_.names.take(plain_name(c_.object(group_.fixed).alias) + "_link");
-  }
+  std::string link_name(int i) const { return i == kWorld && group_.fixed == kNone ? "world" : links_.at(i); }
 
-  std::string scoped_link(int i) const {
-    if (i == kWorld) return group_.fixed == kNone ? "world" : links_.at(kWorld);
-    const auto inner = inner_.find(i);
-    return inner == inner_.end() ? links_.at(i) : inner->second.first + "::" + links_.at(i);
-  }
-
-  void write_script() {
-    if (own_script_ == kNone) return;
-    put(model_, "bubblesim:child_script", waiting_.at(own_script_));
-    waiting_.erase(own_script_);
+  pugi::xml_node write_link(int i, int object) {
+    pugi::xml_node link = named(model_, "link", links_.at(i));
+    const std::string alias = plain_name(c_.object(object).alias);
+    if (links_.at(i) != alias) put(link, "bubblesim:alias", alias);
+    if (c_.object(object).as<Shape>() != nullptr) write_place(link, object, c_);
+    return link;
   }
 
   /// What does not move, as a link of its own. It is fixed to the world, so that neighbours of joints pass it.
   void write_fixed_part() {
     const Pose& pose = c_.node(group_.fixed).world;
-    pugi::xml_node link = named(model_, "link", links_.at(kWorld));
+    pugi::xml_node link = write_link(kWorld, group_.fixed);
     put_pose(link, model_pose_.inverse() * pose);
     write_members(link, group_.members, pose, {is_static_, false});
     if (is_static_) return;
@@ -123,23 +85,9 @@ class ModelWriter {
   }
 
   void write_body(int i) {
-    pugi::xml_node parent = model_;
-    Pose frame = model_pose_;
-    const auto inner = inner_.find(i);
-    if (inner != inner_.end()) {
-      parent = named(model_, "model", inner->second.first);
-      put_pose(parent, model_pose_.inverse() * at_zero(i));
-      frame = at_zero(i);
-      const auto script = waiting_.find(inner->second.second);
-      put(parent, "bubblesim:child_script", script->second);
-      waiting_.erase(script);
-    }
-    pugi::xml_node link = named(parent, "link", links_.at(i));
-    put_pose(link, frame.inverse() * at_zero(i));
-    const Object& object = c_.object(body(i).shape);
-    const std::string alias = plain_name(object.alias);
-    if (links_.at(i) != alias) put(link, "bubblesim:alias", alias);
-    write_inertial(link, *object.as<Shape>());
+    pugi::xml_node link = write_link(i, body(i).shape);
+    put_pose(link, model_pose_.inverse() * at_zero(i));
+    write_inertial(link, *c_.object(body(i).shape).as<Shape>());
     write_members(link, body(i).members, in_file(i), {false, is_wheel(i)});
   }
 
@@ -175,9 +123,16 @@ class ModelWriter {
     }
   }
 
+  /// The members that are nothing else.
+  void write_frames(const std::vector<int>& members, const std::string& link, const Pose& link_pose) {
+    for (const int i : members) {
+      if (c_.placed.count(i) == 0) write_frame(model_, i, link, link_pose, c_);
+    }
+  }
+
   void write_joints() {
     JointSite site;
-    site.link = [this](int i) { return scoped_link(i); };
+    site.link = [this](int i) { return link_name(i); };
     site.has_loops = has_loops();
     for (const int i : group_.connections) {
       const Connection& connection = c_.structure.connections[static_cast<std::size_t>(i)];
@@ -198,25 +153,17 @@ class ModelWriter {
     });
     if (!moved) return;
     pugi::xml_node model = named(state_, "model", name);
-    for (const int i : group_.bodies) {
-      const auto inner = inner_.find(i);
-      pugi::xml_node parent = inner == inner_.end() ? model : named(model, "model", inner->second.first);
-      put_pose(named(parent, "link", links_.at(i)), in_file(i));
-    }
+    for (const int i : group_.bodies) put_pose(named(model, "link", links_.at(i)), in_file(i));
   }
 
   pugi::xml_node world_;
   pugi::xml_node state_;
   const Group& group_;
-  const std::map<int, std::string>& scripts_;
   Conversion& c_;
   pugi::xml_node model_;
   Pose model_pose_;
   bool is_static_ = false;
-  int own_script_ = kNone;
-  std::map<int, std::string> waiting_;                // scripts that no model has yet
-  std::map<int, std::string> links_;                  // names by body
-  std::map<int, std::pair<std::string, int>> inner_;  // models inside this one, with the object of their script
+  std::map<int, std::string> links_;  // names by body
 };
 
 /// Whole substeps in a step.
@@ -268,11 +215,14 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
     const bool is_fixed_lamp = conversion.object(i).as<Lamp>() != nullptr && conversion.node(i).body == kWorld;
     if (is_fixed_lamp) write_lamp(world, i, Pose(), conversion);
   }
-  const std::map<int, std::string> scripts = write_scripts(folder, conversion);
+  conversion.scripts = write_scripts(folder, conversion);
   if (!file.is_scene) write_floor(world, conversion);
   pugi::xml_node state = sdf.append_child("state");
   for (const Group& group : groups_of(file, structure)) {
-    ModelWriter(world, state, group, scripts, conversion).write();
+    ModelWriter(world, state, group, conversion).write();
+  }
+  for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
+    if (conversion.placed.count(i) == 0) write_frame(world, i, "", Pose(), conversion);
   }
   if (state.first_child()) {
     state.append_attribute("world_name").set_value(plain_name(name).c_str());

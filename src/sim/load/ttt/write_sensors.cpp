@@ -22,6 +22,7 @@ pugi::xml_node add(pugi::xml_node link, const char* type, int sensor, const Pose
   element.append_attribute("type").set_value(type);
   put_pose(element, looking_along_x(link_pose.inverse() * conversion.node(sensor).world));
   if (alias != name) put(element, "bubblesim:alias", alias);
+  write_place(element, sensor, conversion);
   return element;
 }
 

@@ -191,6 +191,7 @@ const char* const kElementTable = R"TABLE(
   parent integer -1
   order integer 0
   model flag false
+  script text
 
 =object
   @name text
