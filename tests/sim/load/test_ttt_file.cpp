@@ -25,7 +25,7 @@ using namespace bubblesim::ttt;
 using namespace ttt_writer;
 namespace fs = std::filesystem;
 
-std::string complaint(const std::string& bytes) {
+std::string problem(const std::string& bytes) {
   try {
     structure_of(read_scene_file(bytes));
   } catch (const FormatError& error) {
@@ -63,18 +63,18 @@ TEST(TttHuffman, ReportsBitsThatEndEarlyAndTreesThatAreTooLarge) {
 }
 
 TEST(TttContainer, NamesWhatIsNoSuchFile) {
-  EXPECT_TRUE(holds(complaint(""), "empty"));
-  EXPECT_TRUE(holds(complaint("version https://git-lfs.github.com/spec/v1"), "Git LFS"));
-  EXPECT_TRUE(holds(complaint("<sdf/>"), "does not begin with VREP"));
-  EXPECT_TRUE(holds(complaint("VREP"), "cut off"));
-  EXPECT_TRUE(holds(complaint(header(0, 3, 12) + "EOF"), "version 12"));
-  EXPECT_TRUE(holds(complaint(header(9, 3) + "EOF"), "compression 9"));
+  EXPECT_TRUE(holds(problem(""), "empty"));
+  EXPECT_TRUE(holds(problem("version https://git-lfs.github.com/spec/v1"), "Git LFS"));
+  EXPECT_TRUE(holds(problem("<sdf/>"), "does not begin with VREP"));
+  EXPECT_TRUE(holds(problem("VREP"), "cut off"));
+  EXPECT_TRUE(holds(problem(header(0, 3, 12) + "EOF"), "version 12"));
+  EXPECT_TRUE(holds(problem(header(9, 3) + "EOF"), "compression 9"));
 }
 
 TEST(TttContainer, RefusesSizesThatCannotBeBeforeItAllocates) {
-  EXPECT_TRUE(holds(complaint(header(1, 25) + "EOF"), "at byte 13"));  // more than 8 times the payload
-  EXPECT_TRUE(holds(complaint(header(0, 4) + "EOF"), "at byte 13"));
-  EXPECT_TRUE(holds(complaint(header(1, std::size_t{0xffffffff}) + "EOF"), "at byte 13"));
+  EXPECT_TRUE(holds(problem(header(1, 25) + "EOF"), "at byte 13"));  // more than 8 times the payload
+  EXPECT_TRUE(holds(problem(header(0, 4) + "EOF"), "at byte 13"));
+  EXPECT_TRUE(holds(problem(header(1, std::size_t{0xffffffff}) + "EOF"), "at byte 13"));
 }
 
 TEST(TttTagList, SkipsItemsThatItDoesNotKnowAndEndsAtTheMarker) {
@@ -94,8 +94,8 @@ TEST(TttTagList, PrefersDoubles) {
 }
 
 TEST(TttTagList, RefusesLengthsBeyondTheEnclosingItem) {
-  EXPECT_TRUE(holds(complaint(header(0, 10) + "SHP" + ints({100}) + "EOF"), "do not fit"));
-  EXPECT_TRUE(holds(complaint(header(0, 10) + "SHP" + ints({-1}) + "EOF"), "do not fit"));
+  EXPECT_TRUE(holds(problem(header(0, 10) + "SHP" + ints({100}) + "EOF"), "do not fit"));
+  EXPECT_TRUE(holds(problem(header(0, 10) + "SHP" + ints({-1}) + "EOF"), "do not fit"));
 }
 
 TEST(TttFile, ReadsWhatObjectsHaveInCommon) {
@@ -120,12 +120,12 @@ TEST(TttFile, TakesTheAliasFromTheOldName) {
 }
 
 TEST(TttFile, RefusesTwoObjectsWithOneHandle) {
-  EXPECT_TRUE(holds(complaint(file({{"DMY", 1}, {"DMY", 1}})), "handle 1"));
+  EXPECT_TRUE(holds(problem(file({{"DMY", 1}, {"DMY", 1}})), "handle 1"));
 }
 
 TEST(TttFile, RefusesNumbersThatAreNotFiniteAndQuaternionsOfZero) {
-  EXPECT_TRUE(holds(complaint(file({{"DMY", 1, -1, "", {1, 0, 0, 0, NAN, 0, 0}}})), "not finite"));
-  EXPECT_TRUE(holds(complaint(file({{"DMY", 1, -1, "", {0, 0, 0, 0, 0, 0, 0}}})), "quaternion is zero"));
+  EXPECT_TRUE(holds(problem(file({{"DMY", 1, -1, "", {1, 0, 0, 0, NAN, 0, 0}}})), "not finite"));
+  EXPECT_TRUE(holds(problem(file({{"DMY", 1, -1, "", {0, 0, 0, 0, 0, 0, 0}}})), "quaternion is zero"));
 }
 
 TEST(TttFile, ReadsTheMassAndTheInertiaAboutTheCentreOfMass) {
@@ -168,14 +168,14 @@ TEST(TttFile, UnpacksIndicesAsDifferences) {
 TEST(TttFile, RefusesTrianglesBeyondTheVertices) {
   const std::string mesh = item("Ver", floats({0, 0, 0, 1, 0, 0, 0, 1, 0})) + item("Ind", ints({0, 1, 3}));
   const std::string own = item("Ge2", item("Gst", "EOO" + mesh + "EOO") + "EOO");
-  EXPECT_TRUE(holds(complaint(file({{"SHP", 1, -1, "x", {1, 0, 0, 0, 0, 0, 0}, "", own}})), "no vertex"));
+  EXPECT_TRUE(holds(problem(file({{"SHP", 1, -1, "x", {1, 0, 0, 0, 0, 0, 0}, "", own}})), "no vertex"));
 }
 
 TEST(TttFile, RefusesCompoundsThatNestTooDeep) {
   std::string compound = "EOO";
   for (int i = 0; i < 70; ++i) compound = item("Wrp", compound) + "EOO";
   const std::string own = item("Ge2", item("Gsg", compound) + "EOO");
-  EXPECT_TRUE(holds(complaint(file({{"SHP", 1, -1, "x", {1, 0, 0, 0, 0, 0, 0}, "", own}})), "64 deep"));
+  EXPECT_TRUE(holds(problem(file({{"SHP", 1, -1, "x", {1, 0, 0, 0, 0, 0, 0}, "", own}})), "64 deep"));
 }
 
 TEST(TttFile, ReadsJointsOfOldFilesByTheirMotorBits) {
@@ -250,7 +250,7 @@ TEST(TttFile, ReadsAllPublicFiles) {
   if (files.empty()) GTEST_SKIP() << "no public files beside the project";
   for (const fs::path& path : files) {
     const std::string bytes = content(path);
-    EXPECT_TRUE(bytes.empty() || complaint(bytes) == "it is read") << path << complaint(bytes);
+    EXPECT_TRUE(bytes.empty() || problem(bytes) == "it is read") << path << problem(bytes);
   }
 }
 
@@ -264,7 +264,7 @@ TEST(TttFile, SurvivesDamageAnywhere) {
     std::string damaged = whole;
     damaged[1021 + random() % (damaged.size() - 1021)] = static_cast<char>(random() & 0xffU);
     if (i % 3 == 0) damaged.resize(random() % damaged.size());
-    if (complaint(damaged).rfind("at byte", 0) == 0) ++refused;
+    if (problem(damaged).rfind("at byte", 0) == 0) ++refused;
   }
   EXPECT_GT(refused, 1000);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers and texts from a range of bytes, little-endian, never beyond its end.
+// Numbers and strings from a range of bytes, little-endian, never beyond its end.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace bubblesim::ttt {
 
-/// A file cannot be read. The text says what is wrong and at which byte.
+/// A file cannot be read. The message states what is wrong and at which byte.
 struct FormatError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

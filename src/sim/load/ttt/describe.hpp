@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file as a text for people.
+// A file as text for people.
 #pragma once
 
 #include <iosfwd>
@@ -9,7 +9,7 @@
 namespace bubblesim::ttt {
 
 /// Writes the tree with joints and sensors, the scripts, and what does not come over. Control characters of names and
-/// texts are replaced.
+/// strings are replaced.
 void describe(const SceneFile& file, const Structure& structure, std::ostream& out);
 
 }  // namespace bubblesim::ttt

@@ -22,7 +22,7 @@ class LeftOut {
   std::map<std::string, std::vector<std::string>> objects_;
 };
 
-/// What the file itself says; a conversion adds to it what it cannot do.
+/// What the file itself has; a conversion adds to it what it cannot do.
 LeftOut left_out_of(const SceneFile& file, const Structure& structure);
 
 }  // namespace bubblesim::ttt

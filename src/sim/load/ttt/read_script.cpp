@@ -7,7 +7,7 @@
 namespace bubblesim::ttt {
 namespace {
 
-/// Whether a text begins with a line `#python`, after empty lines and other lines that begin with #.
+/// Whether a script begins with a line `#python`, after empty lines and other lines that begin with #.
 bool says_python(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

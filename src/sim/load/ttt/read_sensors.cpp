@@ -41,7 +41,7 @@ ProximitySensor read_proximity_sensor(const TagList& list) {
     sensor.far_radius = n[7];
     sensor.angle = n[8];
   }
-  // Old items count only if a bit says so; the new ones always do.
+  // Old items count only if a bit is set; the new ones always do.
   const bool has_distance = (volume.u8("Par").value_or(0) & 1U) != 0;
   if (const auto distance = volume.number("", "at2")) {
     sensor.min_distance = *distance;

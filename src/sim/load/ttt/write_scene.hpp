@@ -12,7 +12,7 @@ namespace bubblesim::ttt {
 
 /// The name of the scene's file in its folder.
 constexpr const char* kSceneFile = "scene.sdf";
-/// The name of the file that says what does not come over, a line for each.
+/// The name of the file that lists what does not come over, a line for each.
 constexpr const char* kLeftOutFile = "left_out.txt";
 
 /// Writes into an empty folder; returns the lines of what does not come over. A model gets a floor. Throws

@@ -14,7 +14,7 @@ namespace bubblesim::ttt {
 std::string exact(double value);
 /// Separated by spaces.
 std::string exact(std::initializer_list<double> values);
-/// An element with a text.
+/// An element with text.
 void put(pugi::xml_node parent, const char* name, const std::string& text);
 void put(pugi::xml_node parent, const char* name, double value);
 /// A <pose> with a quaternion.
