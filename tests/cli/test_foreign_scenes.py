@@ -2,6 +2,7 @@
 """Files of CoppeliaSim: bubblesim describe, convert, check and run."""
 
 import math
+import os
 import struct
 from pathlib import Path
 
@@ -13,6 +14,12 @@ from node_support import run_sim
 from ros_support import REPOSITORY
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep conversions out of the user's cache."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
 
 
 def item(tag: str, content: bytes) -> bytes:
@@ -178,6 +185,24 @@ def test_other_files_are_refused_with_the_place(tmp_path: Path, content: bytes, 
         assert run.returncode == 2
         assert "at byte" in run.stdout + run.stderr
         assert reported in run.stdout + run.stderr
+
+
+def test_a_conversion_is_kept_in_the_cache_of_the_user(tmp_path: Path) -> None:
+    file = write(tmp_path / "box.ttt", FLOOR, BOX)
+    for _ in range(2):  # the second run takes what the first one made
+        run = run_sim(file, "--no-ros", "--until", "0", env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)})
+        assert run.returncode == 0
+        (folder,) = (tmp_path / "bubblesim" / "converted").iterdir()
+        assert (folder / "scene.sdf").is_file()
+        assert folder.parent.stat().st_mode & 0o077 == 0
+
+
+def test_without_a_home_the_error_names_what_to_set(tmp_path: Path) -> None:
+    file = write(tmp_path / "box.ttt", FLOOR, BOX)
+    home = {name: value for name, value in os.environ.items() if name not in ("HOME", "XDG_CACHE_HOME")}
+    run = run_sim(file, "--no-ros", "--until", "0", env=home)
+    assert run.returncode == 2
+    assert "set HOME or XDG_CACHE_HOME" in run.stderr
 
 
 def test_check_takes_it(tmp_path: Path) -> None:

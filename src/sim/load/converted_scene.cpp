@@ -28,13 +28,14 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kPatience{60};
 
+/// A folder of the user's own: others could put scenes with their scripts into one in /tmp.
 fs::path cache_folder() {
   const char* given = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
-  fs::path base = given != nullptr && *given == '/' ? fs::path(given)
-                  : home != nullptr && *home != 0   ? fs::path(home) / ".cache"
-                                                    : fs::temp_directory_path();
-  return base / "bubblesim" / "converted";
+  const bool has_home = home != nullptr && *home != 0;
+  if (given != nullptr && *given == '/') return fs::path(given) / "bubblesim" / "converted";
+  if (has_home) return fs::path(home) / ".cache" / "bubblesim" / "converted";
+  throw std::runtime_error("there is no folder for the converted scene: set HOME or XDG_CACHE_HOME");
 }
 
 /// Of the content and of the program that converts it: another one may write something else.
