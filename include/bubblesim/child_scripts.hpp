@@ -23,6 +23,8 @@ struct ScriptOptions {
   std::vector<std::string> allowed_programs;
   /// Reloads a script when its file changes.
   bool watch = false;
+  /// Runs the Python scripts of files of CoppeliaSim, too: they may do whatever the user may.
+  bool python_of_foreign_scenes = false;
 };
 
 /// Runs the child scripts of a scene's models. A script that fails is reported on stderr once, with file:line and

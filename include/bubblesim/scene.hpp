@@ -196,6 +196,7 @@ struct TreePlace {
   int parent = -1;        ///< `id` of the parent, of any kind, in any model of the file; -1: the top of the scene
   int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
   bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
+  std::filesystem::path child_script{};  ///< empty: none
 };
 
 struct SensorDescription {
@@ -268,6 +269,7 @@ struct AxisDescription {
   double spring_stiffness = 0;                                    ///< N/m or N m/rad
   double spring_reference = 0;                                    ///< m or rad, rest position of the spring
   MotorMode motor = MotorMode::kNone;
+  double target = 0;                      ///< of the motor at the start: rad or m, rad/s or m/s, N m or N
   std::optional<MimicDescription> mimic;  ///< replaces the motor's targets
 };
 

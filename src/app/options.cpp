@@ -128,6 +128,8 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("--gazebo-compat", options.gazebo_compat, "also provide Gazebo's services and topics in /gazebo");
   app.add_flag("--lua-unsafe", options.lua_unsafe, "allow Lua scripts to use os, io, debug and package");
+  app.add_flag("--allow-python-scripts", options.python_of_foreign_scenes,
+               "run the Python scripts in a file of CoppeliaSim; they may do whatever you may, so read them first");
   app.add_option("--allow-programs", options.allowed_programs,
                  "PROGRAM or folder of programs that Lua scripts may start, besides those of ROS packages "
                  "(repeatable)")

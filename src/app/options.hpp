@@ -36,6 +36,7 @@ struct Options {
   std::vector<std::filesystem::path> script_paths;
   bool gazebo_compat = false;
   bool lua_unsafe = false;
+  bool python_of_foreign_scenes = false;
   std::vector<std::string> allowed_programs;
   bool watch = false;
   std::filesystem::path record;

@@ -149,7 +149,12 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     plugins_ = std::make_unique<GazeboPlugins>(python);
     simulation_->add(*plugins_);
   }
-  ScriptOptions how{{}, options.script_paths, options.lua_unsafe, options.allowed_programs, options.watch};
+  ScriptOptions how{{},
+                    options.script_paths,
+                    options.lua_unsafe,
+                    options.allowed_programs,
+                    options.watch,
+                    options.python_of_foreign_scenes};
   if (is_first) node.first_scene = simulation_->scene().file;
   if (simulation_->scene().file == node.first_scene) how.replacements = options.child_scripts;  // they name its objects
   scripts_ = std::make_unique<ChildScripts>(python, how);

@@ -28,6 +28,47 @@ ScriptFiles scripts_of(const ModelDescription& model, const std::string& path) {
   return scripts;
 }
 
+/// Adds the scripts of the parts of a model that have places of their own in the tree.
+void add_placed(const World& world, ObjectId model, ScriptFiles& scripts) {
+  const SceneTree& tree = world.tree();
+  const ModelDescription& description = world.models().description(model);
+  const auto add = [&](ObjectId id, const std::optional<TreePlace>& place) {
+    if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
+  };
+  std::vector<const SensorDescription*> sensors;  // in the order of Object::index
+  for (const LinkDescription& link : description.links) {
+    for (const SensorDescription& sensor : link.sensors) sensors.push_back(&sensor);
+  }
+  for (const JointDescription& joint : description.joints) {
+    for (const SensorDescription& sensor : joint.sensors) sensors.push_back(&sensor);
+  }
+  for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) add(id, description.links[tree.at(id).index].place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) add(id, description.joints[tree.at(id).index].place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kSensor)) add(id, sensors[tree.at(id).index]->place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kFrame)) add(id, description.frames[tree.at(id).index].place);
+}
+
+/// Whether a scene is a file of CoppeliaSim, which has its scripts in itself.
+bool is_foreign(const std::filesystem::path& scene) {
+  return scene.extension() == ".ttt" || scene.extension() == ".ttm";
+}
+
+/// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is
+/// allowed.
+ScriptFiles trusted_of(const ScriptFiles& scripts, bool with_python) {
+  ScriptFiles trusted;
+  for (const auto& script : scripts) {
+    const auto& [object, file] = script;
+    const bool is_python = file.extension() == ".py";
+    const char* note = !is_python    ? "Lua, in the sandbox"
+                       : with_python ? "Python, which may do whatever you may"
+                                     : "Python, not run: read it, then allow it with --allow-python-scripts";
+    std::fprintf(stderr, "info: script of %s: %s (%s)\n", object.c_str(), file.c_str(), note);
+    if (!is_python || with_python) trusted.push_back(script);
+  }
+  return trusted;
+}
+
 /// Returns the scene's scripts, with the replacements applied.
 ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& options) {
   const SceneTree& tree = simulation.world().tree();
@@ -35,6 +76,14 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   for (const ModelDescription& model : simulation.scene().models) {
     for (auto& script : scripts_of(model, "/" + model.name)) scripts.push_back(std::move(script));
   }
+  for (const ObjectId model : tree.models()) add_placed(simulation.world(), model, scripts);
+  const std::vector<FrameDescription>& frames = simulation.scene().frames;
+  for (const ObjectId id : tree.objects()) {
+    if (tree.at(id).kind != ObjectKind::kFrame || tree.outermost_model_of(id) != kNoObject) continue;
+    const std::optional<TreePlace>& place = frames[tree.at(id).index].place;
+    if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
+  }
+  if (is_foreign(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {
@@ -77,7 +126,9 @@ void ChildScripts::after_call() {
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {
-  for (const auto& [path, file] : scripts_of(world.models().description(model), world.tree().path(model))) {
+  ScriptFiles scripts = scripts_of(world.models().description(model), world.tree().path(model));
+  add_placed(world, model, scripts);
+  for (const auto& [path, file] : scripts) {
     with_python([&, &path = path, &file = file] { methods_->self.attr("add_script")(path, file); });
   }
 }

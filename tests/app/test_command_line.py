@@ -70,7 +70,7 @@ def test_scenes_are_listed() -> None:
         (["/none/such.sdf", "--no-ros"], "/none/such.sdf"),
         (["dd.py", "--no-ros"], "dd.py: is a script, not a scene: give the .sdf file"),
         (["my/robot.lua", "--no-ros"], "my/robot.lua: is a script, not a scene: give the .sdf file"),
-        (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: is a CoppeliaSim file"),
+        (["bubbleRob.ttt", "--no-ros"], "bubbleRob.ttt: file not found"),
         (["a/room.simscene.xml", "--no-ros"], "a/room.simscene.xml: is a CoppeliaSim file"),
     ],
     ids=" ".join,

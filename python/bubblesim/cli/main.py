@@ -10,7 +10,20 @@ from collections.abc import Sequence
 
 from bubblesim.running.processes import RunError
 
-_COMMANDS = ("run", "shell", "scenes", "new-scene", "check", "api", "test", "sweep", "view", "doctor")
+_COMMANDS = (
+    "run",
+    "shell",
+    "scenes",
+    "new-scene",
+    "check",
+    "describe",
+    "convert",
+    "api",
+    "test",
+    "sweep",
+    "view",
+    "doctor",
+)
 _FAILED, _BAD_INPUT = 1, 2
 
 _DESCRIPTION = """\
@@ -21,6 +34,8 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim shell tricycle --no-ros      a Python prompt with `sim`
   bubblesim new-scene mine               create a new scene
   bubblesim check my/robot.sdf           validate a file
+  bubblesim describe scene.ttt           show what a file of CoppeliaSim has
+  bubblesim convert scene.ttt folder     write it as SDFormat
   bubblesim api getObject                show a function for scripts
   bubblesim test test_mine.py            test a controller in the simulator
   bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters

@@ -99,7 +99,8 @@ class RemoteSim(SimApi):
         self._require_changeable_scene("sim.loadScene")
         if not file:
             return self._change_scene(Scene.empty())
-        places = [folder / f"{stem(file)}.sdf" for folder in self._caller.server.folders]
+        folders = self._caller.server.folders
+        places = [folder / f"{stem(file)}{suffix}" for suffix in (".sdf", ".ttt") for folder in folders]
         own = Path(self._simulation.scene_file)
         if stem(file) == own.stem:  # also of another format than .sdf
             places.insert(0, own)

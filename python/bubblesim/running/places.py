@@ -19,6 +19,15 @@ def node_program() -> Path:
     return program
 
 
+def scene_converter() -> Path:
+    """Return the program that reads files of CoppeliaSim, <prefix>/lib/bubblesim/scene_converter."""
+    core = importlib.util.find_spec("bubblesim._core")
+    program = Path((core and core.origin) or "").parents[3] / "bubblesim" / "scene_converter"
+    if not program.is_file():
+        raise RunError(f"the converter of scenes is not built: file not found: {program}; build the workspace")
+    return program
+
+
 def page_folder() -> Path:
     """Return the folder of the page of the window, <prefix>/share/bubblesim/web."""
     core = importlib.util.find_spec("bubblesim._core")

@@ -7,6 +7,7 @@
 
 #include "bubblesim/error.hpp"
 #include "check/scene_check.hpp"
+#include "load/converted_scene.hpp"
 #include "load/find/scene_folders.hpp"
 #include "load/load_context.hpp"
 #include "load/scene_text.hpp"
@@ -150,9 +151,12 @@ SceneDescription read_scene(const std::string& name_or_path, const XacroArgument
   const fs::path file = find_scene(name_or_path);
   check_size(file);
   return with_scene_errors(file.string(), [&] {
-    const SceneText text = scene_text(file, arguments);
-    SceneLoader loader(text, file.parent_path());
+    ConvertedScene source{file, {}};
+    if (is_foreign_scene(file)) source = convert_scene(file);
+    const SceneText text = scene_text(source.file, arguments);
+    SceneLoader loader(text, source.file.parent_path());
     SceneDescription scene = loader.load_scene(file);
+    for (const std::string& line : source.left_out) loader.warnings().push_back({file.string(), 0, "", line});
     append(warnings, loader.warnings());
     return scene;
   });

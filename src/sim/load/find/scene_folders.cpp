@@ -31,10 +31,9 @@ std::string no_scene(const fs::path& path) {
            "--child-script OBJECT=" +
            path.string();
   }
-  for (const char* scene : {".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"}) {
+  for (const char* scene : {".simscene.xml", ".simmodel.xml"}) {
     if (!ends_with(name, scene)) continue;
-    return "is a CoppeliaSim file, which cannot be read: export its robots as URDF, or describe the scene in SDFormat; "
-           "see docs/worlds/README.md";
+    return "is a CoppeliaSim file in XML, which cannot be read: save it as .ttt or .ttm there";
   }
   return {};
 }
@@ -79,7 +78,7 @@ std::vector<std::string> scene_names() {
 fs::path find_scene(const std::string& name_or_path) {
   const fs::path path(name_or_path);
   if (const std::string problem = no_scene(path); !problem.empty()) throw SceneError({{name_or_path, 0, "", problem}});
-  const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro"};
+  const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro", ".ttt", ".ttm"};
   if (path.has_parent_path() || extensions.count(path.extension()) > 0) {
     if (fs::is_regular_file(path)) return fs::absolute(path);
     throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "file not found"}});

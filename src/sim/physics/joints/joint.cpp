@@ -46,7 +46,11 @@ Joint::Joint(std::vector<AxisDescription> axes) {
     if (has_limits(description) && description.lower < description.upper) {
       stopped_.push_back(static_cast<int>(axes_.size()));
     }
-    axes_.emplace_back().description = std::move(description);
+    Axis& axis = axes_.emplace_back();
+    if (description.motor == MotorMode::kPosition) axis.target_position = description.target;
+    if (description.motor == MotorMode::kVelocity) axis.target_velocity = description.target;
+    if (description.motor == MotorMode::kEffort) axis.target_effort = description.target;
+    axis.description = std::move(description);
   }
 }
 

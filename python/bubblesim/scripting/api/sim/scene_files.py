@@ -24,9 +24,9 @@ class SceneFileFunctions(CreatedObjectFunctions):
     def loadScene(self, file: str) -> Any:
         """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
 
-        It is searched as NAME.sdf in the folder of the first scene, the folder in which the node was started, and the
-        folders of scenes. All handles become invalid. If the file has errors, the present scene stays. For remote
-        clients only.
+        It is searched as NAME.sdf, then as NAME.ttt, in the folder of the first scene, the folder in which the node was
+        started, and the folders of scenes. All handles become invalid. If the file has errors, the present scene stays.
+        For remote clients only.
         """
         raise RuntimeError("sim.loadScene needs a running node")
 
@@ -81,6 +81,8 @@ class SceneFileFunctions(CreatedObjectFunctions):
         if self._caller.may_use_files and Path(file).parent != Path():
             given = Path(file)
             searched.insert(0, given if given.suffix in _SCENES else given.with_suffix(".sdf"))
+            if what == "scene" and given.suffix == ".ttt":
+                searched.insert(1, given)
         found = next((place for place in searched if place.is_file()), None)
         if found is None:
             raise LookupError(

@@ -191,6 +191,7 @@ const char* const kElementTable = R"TABLE(
   parent integer -1
   order integer 0
   model flag false
+  script text
 
 =object
   @name text
@@ -331,6 +332,7 @@ const char* const kElementTable = R"TABLE(
     stiffness number 1e8 ~ stops are rigid
     dissipation number 1 ~ stops are rigid
   bubblesim:motor text
+  bubblesim:target number
 
 =joint
   @name text

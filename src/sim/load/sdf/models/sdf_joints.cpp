@@ -163,6 +163,7 @@ class JointReader {
     description.spring_reference = dynamics.number("spring_reference");
     description.mimic = read_mimic(axis, path_, context_);
     if (const auto motor = own_text(axis, "bubblesim:motor")) read_motor(axis, *motor, description);
+    description.target = own_number(axis, "bubblesim:target", path_, context_).value_or(0);
     return description;
   }
 

@@ -32,8 +32,12 @@ FrameKind read_kind(const SdfElement& object, const std::string& path, LoadConte
 std::optional<TreePlace> read_place(const SdfElement& element) {
   if (!element.has(kPlace)) return std::nullopt;
   const SdfElement place = element.child(kPlace);
-  return TreePlace{static_cast<int>(place.number("id")), static_cast<int>(place.number("parent")),
-                   static_cast<int>(place.number("order")), place.flag("model")};
+  TreePlace read{static_cast<int>(place.number("id")), static_cast<int>(place.number("parent")),
+                 static_cast<int>(place.number("order")), place.flag("model")};
+  if (const std::string script = place.text("script"); !script.empty()) {
+    read.child_script = std::filesystem::path(element.source().file).parent_path() / script;
+  }
+  return read;
 }
 
 std::vector<FrameDescription> read_objects(const SdfElement& owner, const std::string& path, LoadContext& context) {

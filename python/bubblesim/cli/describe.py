@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bubblesim describe: show what is in a scene or model of CoppeliaSim, without running anything."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from bubblesim.running.places import scene_converter
+
+_DESCRIPTION = """\
+Prints the objects of a file of CoppeliaSim (.ttt, .ttm), its scripts, and what will be left out or changed when it is
+run. Nothing is run."""
+
+
+def add_parser(commands: Any) -> None:
+    """Add the command's arguments."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "describe", help="show what is in a file of CoppeliaSim", description=_DESCRIPTION, allow_abbrev=False
+    )
+    parser.add_argument("file", metavar="FILE", type=Path, help="a .ttt or .ttm file")
+    parser.set_defaults(command=_describe, parser=parser)
+
+
+def _describe(options: argparse.Namespace) -> int:
+    run = subprocess.run([scene_converter(), "describe", options.file], capture_output=True, check=False)
+    if run.returncode != 0:
+        raise ValueError(f"{options.file}: {run.stderr.decode(errors='replace').strip() or 'the file is damaged'}")
+    sys.stdout.write(run.stdout.decode(errors="replace"))
+    return 0

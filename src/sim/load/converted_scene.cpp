@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/converted_scene.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "bubblesim/error.hpp"
+#include "files/file_text.hpp"
+#include "files/library_folder.hpp"
+#include "load/limited_program.hpp"
+#include "scene/fnv1a.hpp"
+
+namespace bubblesim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds kPatience{60};
+
+/// A folder of the user's own: others could put scenes with their scripts into one in /tmp.
+fs::path cache_folder() {
+  const char* given = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  const bool has_home = home != nullptr && *home != 0;
+  if (given != nullptr && *given == '/') return fs::path(given) / "bubblesim" / "converted";
+  if (has_home) return fs::path(home) / ".cache" / "bubblesim" / "converted";
+  throw std::runtime_error("there is no folder for the converted scene: set HOME or XDG_CACHE_HOME");
+}
+
+/// Of the content and of the program that converts it: another one may write something else.
+std::string key_of(const std::string& content, const fs::path& program) {
+  std::array<char, 64> text{};
+  const auto changed = fs::last_write_time(program).time_since_epoch().count();
+  Fnv1a hash;
+  hash.add(std::string_view(content));
+  std::snprintf(text.data(), text.size(), "%016llx-%zu-%llx", static_cast<unsigned long long>(hash.value()),
+                content.size(), static_cast<unsigned long long>(changed));
+  return text.data();
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// An own empty folder beside the others, removed unless it is kept.
+class NewFolder {
+ public:
+  explicit NewFolder(const fs::path& parent) {
+    fs::create_directories(parent);
+    fs::permissions(parent, fs::perms::owner_all);
+    std::string name = (parent / "new-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error("cannot create a folder in " + parent.string() + ": " + std::strerror(errno));
+    }
+    path_ = name;
+  }
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+  /// Another process may have been faster: then its folder remains.
+  void move_to(const fs::path& target) {
+    std::error_code error;
+    fs::rename(path_, target, error);
+    if (!error) path_.clear();
+  }
+
+ private:
+  fs::path path_;
+};
+
+void run_converter(const fs::path& program, const fs::path& file, const fs::path& folder) {
+  const auto fail = [&file](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
+  const ProgramResult result = run_limited({program.string(), "convert", file.string(), folder.string()}, kPatience);
+  if (!result.in_time) fail("its conversion did not end within 60 s and was stopped: the file is too large or damaged");
+  if (WIFSIGNALED(result.status)) {
+    fail("its conversion was ended by signal " + std::string(::sigabbrev_np(WTERMSIG(result.status))) +
+         ": the file is damaged");
+  }
+  if (WEXITSTATUS(result.status) != 0) fail(result.errors.substr(0, result.errors.find('\n')));
+}
+
+}  // namespace
+
+bool is_foreign_scene(const fs::path& file) { return file.extension() == ".ttt" || file.extension() == ".ttm"; }
+
+ConvertedScene convert_scene(const fs::path& file) {
+  const fs::path program = library_folder() / "bubblesim" / "scene_converter";
+  const fs::path folder = cache_folder() / key_of(read_text(file), program);
+  const fs::path scene = folder / "scene.sdf";
+  if (!fs::is_regular_file(scene)) {
+    NewFolder made(folder.parent_path());
+    run_converter(program, file, made.path());
+    made.move_to(folder);
+  }
+  return {scene, lines_of(folder / "left_out.txt")};
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program scene_converter: reads files of CoppeliaSim for a simulator in a separate process, which may crash or be
+// killed at its limits.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "load/ttt/bytes.hpp"
+#include "load/ttt/describe.hpp"
+#include "load/ttt/write_scene.hpp"
+
+namespace bubblesim::ttt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFailed = 1;
+constexpr int kMisused = 2;
+
+std::string bytes_of(const fs::path& file) {
+  if (!fs::is_regular_file(file)) throw FormatError("file not found");
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream) throw FormatError(fs::file_size(file) == 0 ? "at byte 0: the file is empty" : "cannot be read");
+  return bytes.str();
+}
+
+int run(const std::string& command, const fs::path& file, const fs::path& folder) {
+  try {
+    const SceneFile scene = read_scene_file(bytes_of(file));
+    if (command == "describe") {
+      describe(scene, structure_of(scene), std::cout);
+    } else {
+      for (const std::string& line : write_scene(scene, file.stem().string(), folder)) std::cout << line << "\n";
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return kFailed;
+  }
+}
+
+}  // namespace
+}  // namespace bubblesim::ttt
+
+int main(int count, char** words) {
+  const std::string command = count > 1 ? words[1] : "";
+  if (command == "describe" && count == 3) return bubblesim::ttt::run(command, words[2], {});
+  if (command == "convert" && count == 4) return bubblesim::ttt::run(command, words[2], words[3]);
+  std::cerr << "usage: scene_converter describe FILE | scene_converter convert FILE FOLDER\n";
+  return bubblesim::ttt::kMisused;
+}

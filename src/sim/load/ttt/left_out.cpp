@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/ttt/left_out.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "load/ttt/names.hpp"
+
+namespace bubblesim::ttt {
+namespace {
+
+std::string object_kind(const Object& object) {
+  static const std::map<std::string, std::string> kinds = {
+      {"GRH", "graph: not shown"},
+      {"PAT", "old path: scripts cannot follow it"},
+      {"MIL", "mill: no effect"},
+      {"MIR", "mirror: not shown"},
+      {"OCT", "octree: not shown, nothing collides with it"},
+      {"PTC", "point cloud: not shown, nothing collides with it"},
+      {"MKR", "marker: not shown"},
+      {"CSO", "custom object: no effect"},
+  };
+  const auto found = kinds.find(object.tag);
+  return found == kinds.end() ? "" : found->second;
+}
+
+void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left_out) {
+  std::set<int> simulated;
+  for (const Connection& connection : structure.connections) simulated.insert(connection.object);
+  for (std::size_t i = 0; i < file.objects.size(); ++i) {
+    const Joint* joint = file.objects[i].as<Joint>();
+    if (joint == nullptr) continue;
+    const std::string& alias = file.objects[i].alias;
+    if (simulated.count(static_cast<int>(i)) == 0) {
+      left_out.add("joint that moves no body (kinematic): fixed at its position", alias);
+    } else if (joint->control == JointControl::kCallback) {
+      left_out.add("joint controlled by a callback: it moves freely", alias);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> LeftOut::lines() const {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> lines;
+  for (const auto& [what, objects] : objects_) {
+    std::string line = std::to_string(objects.size()) + " x " + what;
+    for (std::size_t i = 0; i < std::min(objects.size(), kShown); ++i) {
+      if (!objects[i].empty()) line += (i == 0 ? " (" : ", ") + plain_name(objects[i]);
+    }
+    if (!objects.front().empty()) line += objects.size() > kShown ? ", ...)" : ")";
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
+  LeftOut left_out;
+  std::map<int, std::string> aliases;
+  for (const Object& object : file.objects) {
+    aliases.emplace(object.handle, object.alias);
+    if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
+    if (const auto* sensor = object.as<VisionSensor>()) {
+      if (!sensor->is_perspective) left_out.add("orthographic vision sensor: it sees in perspective", object.alias);
+      if (sensor->has_filters) left_out.add("image filters of a vision sensor: not applied", object.alias);
+    }
+    if (const auto* sensor = object.as<ForceSensor>(); sensor != nullptr && sensor->can_break) {
+      left_out.add("force sensor that breaks: it holds", object.alias);
+    }
+  }
+  add_joints(file, structure, left_out);
+  for (const Script& script : file.scripts) {
+    const auto owner = aliases.find(script.object);
+    const std::string alias = owner == aliases.end() ? "" : owner->second;
+    if (script.kind == ScriptKind::kMain && !script.is_default_main) {
+      left_out.add("main script: the default phases run", "");
+    }
+    if (script.kind == ScriptKind::kCustomization) left_out.add("customization script: not run", alias);
+    if (script.kind == ScriptKind::kChild && script.is_disabled)
+      left_out.add("script that is disabled: not run", alias);
+  }
+  for (const auto& [what, count] : file.left_out) {
+    for (int i = 0; i < count; ++i) left_out.add(what + ": left out", "");
+  }
+  return left_out;
+}
+
+}  // namespace bubblesim::ttt

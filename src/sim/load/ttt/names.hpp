@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names that are safe in paths, files and XML, made of names in foreign files.
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace bubblesim::ttt {
+
+/// Letters, digits, _ and - remain, others become _; never empty, at most 100 characters.
+std::string plain_name(const std::string& name);
+
+/// Gives each name once; further ones get _2, _3 ...
+class UniqueNames {
+ public:
+  std::string take(const std::string& name);
+
+ private:
+  std::set<std::string> taken_;
+};
+
+}  // namespace bubblesim::ttt

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sensors, dummies and lights.
+#include <algorithm>
+
+#include "load/ttt/read_objects.hpp"
+
+namespace bubblesim::ttt {
+namespace {
+
+constexpr int kMostPixels = 8192;
+
+VolumeKind volume_of_type(int type) {
+  switch (type) {
+    case 30:
+      return VolumeKind::kPyramid;
+    case 31:
+      return VolumeKind::kCylinder;
+    case 32:
+      return VolumeKind::kDisc;
+    case 33:
+      return VolumeKind::kCone;
+    default:
+      return VolumeKind::kRay;
+  }
+}
+
+}  // namespace
+
+ProximitySensor read_proximity_sensor(const TagList& list) {
+  ProximitySensor sensor;
+  sensor.volume = volume_of_type(list.integer("Snt", 34));
+  sensor.entity = list.integer("Sox", -1);
+  const TagList volume = list.list("Vod");
+  const bool are_doubles = volume.has("_s3");
+  if (auto bytes = volume.item(are_doubles ? "_s3" : "Ss3")) {
+    const auto n = bytes->unset_numbers(9, are_doubles);  // a ray has no radius, a cone no size
+    sensor.offset = n[0];
+    sensor.range = n[1];
+    sensor.far_size = {n[4], n[5], 0};
+    sensor.near_radius = n[6];
+    sensor.far_radius = n[7];
+    sensor.angle = n[8];
+  }
+  // Old items count only if a bit is set; the new ones always do.
+  const bool has_distance = (volume.u8("Par").value_or(0) & 1U) != 0;
+  if (const auto distance = volume.number("", "at2")) {
+    sensor.min_distance = *distance;
+  } else if (has_distance) {
+    sensor.min_distance = volume.number("Wtf", "_tf").value_or(0);
+  }
+  const bool has_angle = (list.u8("Pr4").value_or(0) & 4U) != 0;
+  if (const auto angle = list.number("", "al3")) {
+    sensor.max_normal_angle = *angle;
+  } else if (has_angle) {
+    sensor.max_normal_angle = list.number("Al2", "_l2").value_or(0);
+  }
+  return sensor;
+}
+
+VisionSensor read_vision_sensor(const TagList& list) {
+  VisionSensor sensor;
+  if (const auto n = list.numbers("Ccp", "_cp", 4); !n.empty()) {
+    sensor.width = n[0];
+    sensor.angle = n[1];
+    sensor.near = n[2];
+    sensor.far = n[3];
+  }
+  if (auto bytes = list.item("Res")) {
+    const std::size_t start = bytes->offset();
+    sensor.columns = bytes->i32();
+    sensor.rows = bytes->i32();
+    if (std::min(sensor.columns, sensor.rows) < 1 || std::max(sensor.columns, sensor.rows) > kMostPixels) {
+      fail_at(start, "the resolution of a vision sensor is not from 1 to 8192 pixels");
+    }
+  }
+  sensor.is_perspective = (list.u8("Va3").value_or(list.u8("Var").value_or(1)) & 1U) != 0;
+  sensor.has_filters = list.has("Cfr");
+  return sensor;
+}
+
+ForceSensor read_force_sensor(const TagList& list) { return {(list.u8("Vab").value_or(0) & 3U) != 0}; }
+
+Dummy read_dummy(const TagList& list) { return {list.integer("Lli", -1), list.integer("Dl2", 8)}; }
+
+Lamp read_lamp(const TagList& list) {
+  Lamp lamp;
+  if (auto bytes = list.item(list.has("_p2") ? "_p2" : "Cp2")) {
+    const int kind = bytes->i32();
+    if (kind >= 1 && kind <= 3) lamp.kind = static_cast<LampKind>(kind);
+  }
+  lamp.cutoff = list.number("Cp3", "_p3").value_or(lamp.cutoff);
+  if (const auto n = list.numbers("Caf", "_af", 3); !n.empty()) lamp.attenuation = {n[0], n[1], n[2]};
+  lamp.is_on = (list.u8("Cas").value_or(1) & 1U) != 0;
+  const TagList color = list.list("Cl2");
+  for (const char* tag : {"Cl3", "Cl2"}) {
+    if (const auto n = color.numbers(tag, "", 15); !n.empty()) {
+      lamp.diffuse = {n[3], n[4], n[5]};
+      break;
+    }
+  }
+  return lamp;
+}
+
+}  // namespace bubblesim::ttt

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The top level of a file, and what all objects have in common.
+#include "load/ttt/scene_file.hpp"
+
+#include <set>
+
+#include "load/ttt/container.hpp"
+#include "load/ttt/read_objects.hpp"
+#include "load/ttt/tag_list.hpp"
+
+namespace bubblesim::ttt {
+namespace {
+
+constexpr std::size_t kMostObjects = 200000;
+constexpr std::size_t kMostTriangles = 20'000'000;
+constexpr int kMostTexturePixels = 8192;
+
+const std::map<std::string_view, const char*>& other_items() {
+  static const std::map<std::string_view, const char*> names = {
+      {"IKO", "old IK group"},           {"COL", "old collision object"}, {"DST", "old distance object"},
+      {"PPL", "old path planning task"}, {"BBK", "old user interface"},   {"GRP", "collection"},
+      {"COB", "custom object"},
+  };
+  return names;
+}
+
+Image read_image(const TagList& list) {
+  Image image;
+  auto size = list.item("Ipa");
+  auto pixels = list.item("Img");
+  if (!size || !pixels) return image;
+  const std::size_t start = size->offset();
+  image.id = size->i32();
+  image.width = size->i32();
+  image.height = size->i32();
+  const auto is_side = [](int side) { return side > 0 && side <= kMostTexturePixels; };
+  if (!is_side(image.width) || !is_side(image.height)) fail_at(start, "a texture must have 1 to 8192 pixels a side");
+  const std::size_t channels = (list.u8("Bst").value_or(0) & 1U) != 0 ? 4 : 3;
+  const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::string_view bytes = pixels->take(count * channels);
+  image.rgb.reserve(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) image.rgb.push_back(static_cast<std::uint8_t>(bytes[i * channels + c]));
+  }
+  return image;
+}
+
+Object read_common(const TagList& list, std::string_view tag, std::size_t offset) {
+  Object object;
+  object.tag = tag;
+  auto ids = list.item("Ids");
+  if (!ids) fail_at(offset, "the object has no handle (Ids): the file is damaged");
+  object.handle = ids->i32();
+  object.parent = ids->i32();
+  object.pose = list.rotation_first("Cfq", "_fq").value_or(Pose());
+  object.old_name = list.text("Nme").value_or("");
+  object.alias = list.text("Ali").value_or(object.old_name.substr(0, object.old_name.find('#')));
+  const auto base = list.u8("Va3") ? list.u8("Va3") : list.u8("Va2") ? list.u8("Va2") : list.u8("Var");
+  object.is_model = (base.value_or(0) & 1U) != 0;
+  object.model_flags = static_cast<unsigned>(list.integer("Mpo", 0));
+  if ((object.model_flags & 0xf000U) == 0xf000U) object.is_model = false;
+  object.object_flags = static_cast<unsigned>(list.integer("Omp", 0));
+  object.layers = list.u16("Lar").value_or(0xff);
+  object.order = list.integer("Cor", -1);
+  return object;
+}
+
+class FileReader {
+ public:
+  explicit FileReader(SceneFile& file) : file_(file) {}
+
+  void read(const std::string& content) {
+    Bytes bytes(content);
+    const TagList top(bytes);
+    // Objects refer to what may come after them.
+    for (const Item& item : top.items()) {
+      Bytes inner = item.content;
+      if (item.tag == "VIN") meshes_.add(TagList(inner));
+      if (item.tag == "DMA") add_material(TagList(inner));
+    }
+    for (const Item& item : top.items()) read_item(item);
+    file_.is_scene = top.has("ENV");
+    if (file_.is_scene) {
+      file_.settings = read_settings(top.list("SIM"), top.list("DYN"), top.list("ENV"), top.list("SET"));
+    }
+  }
+
+ private:
+  void add_material(const TagList& list) {
+    if (auto id = list.item("Ipa")) materials_.emplace(id->i32(), list);
+  }
+
+  void read_item(const Item& item) {
+    static const std::set<std::string_view> objects = {"SHP", "JNT", "DMY", "SNR", "RSN", "FSE", "CMA", "LGT", "SCT",
+                                                       "GRH", "PAT", "MIL", "MIR", "OCT", "PTC", "MKR", "CSO"};
+    Bytes bytes = item.content;
+    if (objects.count(item.tag) > 0) {
+      read_object(item.tag, bytes);
+    } else if (item.tag == "LST") {
+      add_script(read_script(TagList(bytes)));
+    } else if (item.tag == "TEX") {
+      if (Image image = read_image(TagList(bytes)); image.width > 0) file_.images.push_back(std::move(image));
+    } else if (const auto other = other_items().find(item.tag); other != other_items().end()) {
+      ++file_.left_out[other->second];
+    }
+  }
+
+  void read_object(std::string_view tag, Bytes bytes) {
+    const std::size_t start = bytes.offset();
+    if (file_.objects.size() == kMostObjects) fail_at(start, "the file has more than 200000 objects");
+    const TagList common(bytes);
+    const TagList own(bytes);
+    Object object = read_common(common, tag, start);
+    object.file_order = file_.objects.size();
+    if (!handles_.insert(object.handle).second) {
+      fail_at(start, "two objects have the handle " + std::to_string(object.handle) + ": the file is damaged");
+    }
+    if (tag == "SHP") {
+      ShapeSources sources{meshes_, materials_, triangles_left_};
+      object.details = read_shape(own, sources);
+      triangles_left_ = sources.triangles_left;
+    }
+    if (tag == "JNT") object.details = read_joint(own);
+    if (tag == "SNR") object.details = read_proximity_sensor(own);
+    if (tag == "RSN") object.details = read_vision_sensor(own);
+    if (tag == "FSE") object.details = read_force_sensor(own);
+    if (tag == "DMY") object.details = read_dummy(own);
+    if (tag == "LGT") object.details = read_lamp(own);
+    if (tag == "SCT") {
+      Script script = read_script(own.list("Soo"));
+      script.object = object.parent;  // a script object acts for its parent
+      add_script(std::move(script));
+    }
+    file_.objects.push_back(std::move(object));
+  }
+
+  void add_script(Script script) { file_.scripts.push_back(std::move(script)); }
+
+  SceneFile& file_;
+  MeshData meshes_;
+  std::map<int, TagList> materials_;
+  std::set<int> handles_;
+  std::size_t triangles_left_ = kMostTriangles;
+};
+
+}  // namespace
+
+SceneFile read_scene_file(std::string_view file) {
+  const Container container = open_container(file);
+  SceneFile scene;
+  scene.serialization = container.serialization;
+  scene.program_version = container.program_version;
+  FileReader(scene).read(container.content);
+  return scene;
+}
+
+}  // namespace bubblesim::ttt

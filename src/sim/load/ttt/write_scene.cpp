@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load/ttt/write_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "load/ttt/groups.hpp"
+#include "load/ttt/script_files.hpp"
+#include "load/ttt/write_joints.hpp"
+#include "load/ttt/write_parts.hpp"
+#include "load/ttt/xml_writer.hpp"
+
+namespace bubblesim::ttt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes one group as a model.
+class ModelWriter {
+ public:
+  ModelWriter(pugi::xml_node world, pugi::xml_node state, const Group& group, Conversion& conversion)
+      : world_(world), state_(state), group_(group), c_(conversion) {}
+
+  void write() {
+    const int leader = group_.leader(c_.structure);
+    is_static_ = group_.bodies.empty();
+    if (is_static_ && !has_physics()) return;
+    const std::string name = c_.names.take(c_.object(leader).alias + "_model");
+    model_ = named(world_, "model", name);
+    // In the tree are the objects of the file, not what moves together.
+    put(model_, "bubblesim:is_object", "false");
+    model_pose_ = is_static_ || group_.fixed != kNone ? c_.node(leader).world : at_zero(group_.bodies.front());
+    put_pose(model_, model_pose_);
+    if (is_static_) put(model_, "static", "true");
+    for (const int i : group_.bodies) links_[i] = c_.names.take(c_.object(body(i).shape).alias);
+    if (group_.fixed != kNone) {
+      links_[kWorld] = c_.names.take(c_.object(group_.fixed).alias);
+      write_fixed_part();
+    }
+    for (const int i : group_.bodies) write_body(i);
+    write_joints();
+    write_state(name);
+    if (group_.fixed != kNone) write_frames(group_.members, links_.at(kWorld), c_.node(group_.fixed).world);
+    for (const int i : group_.bodies) write_frames(body(i).members, links_.at(i), in_file(i));
+  }
+
+ private:
+  const Body& body(int i) const { return c_.structure.bodies[static_cast<std::size_t>(i)]; }
+  const Pose& in_file(int i) const { return c_.node(body(i).shape).world; }
+  bool has_loops() const { return group_.at_zero.empty(); }
+  const Pose& at_zero(int i) const { return has_loops() ? in_file(i) : group_.at_zero.at(i); }
+
+  /// Whether something of a tree that does not move is seen, felt or measures.
+  bool has_physics() const {
+    return std::any_of(group_.members.begin(), group_.members.end(), [this](int i) {
+      const Object& object = c_.object(i);
+      return object.as<Shape>() != nullptr || object.as<ProximitySensor>() != nullptr ||
+             object.as<VisionSensor>() != nullptr;
+    });
+  }
+
+  std::string link_name(int i) const { return i == kWorld && group_.fixed == kNone ? "world" : links_.at(i); }
+
+  pugi::xml_node write_link(int i, int object) {
+    pugi::xml_node link = named(model_, "link", links_.at(i));
+    const std::string alias = plain_name(c_.object(object).alias);
+    if (links_.at(i) != alias) put(link, "bubblesim:alias", alias);
+    if (c_.object(object).as<Shape>() != nullptr) write_place(link, object, c_);
+    return link;
+  }
+
+  /// What does not move, as a link of its own. It is fixed to the world, so that neighbours of joints pass it.
+  void write_fixed_part() {
+    const Pose& pose = c_.node(group_.fixed).world;
+    pugi::xml_node link = write_link(kWorld, group_.fixed);
+    put_pose(link, model_pose_.inverse() * pose);
+    write_members(link, group_.members, pose, {is_static_, false});
+    if (is_static_) return;
+    pugi::xml_node joint = named(model_, "joint", c_.names.take(links_.at(kWorld) + "_held"));
+    joint.append_attribute("type").set_value("fixed");
+    put(joint, "parent", "world");
+    put(joint, "child", links_.at(kWorld));
+  }
+
+  void write_body(int i) {
+    pugi::xml_node link = write_link(i, body(i).shape);
+    put_pose(link, model_pose_.inverse() * at_zero(i));
+    write_inertial(link, *c_.object(body(i).shape).as<Shape>());
+    write_members(link, body(i).members, in_file(i), {false, is_wheel(i)});
+  }
+
+  bool is_wheel(int i) const {
+    return std::any_of(group_.connections.begin(), group_.connections.end(), [&](int index) {
+      const Connection& connection = c_.structure.connections[static_cast<std::size_t>(index)];
+      const Joint* joint = c_.object(connection.object).as<Joint>();
+      return connection.child == i && joint != nullptr && joint->type == JointType::kRevolute &&
+             (joint->is_cyclic || joint->control == JointControl::kVelocity);
+    });
+  }
+
+  static void write_inertial(pugi::xml_node link, const Shape& shape) {
+    pugi::xml_node inertial = link.append_child("inertial");
+    put(inertial, "mass", shape.mass);
+    put_pose(inertial, Pose(shape.centre_of_mass, Quaternion()));
+    pugi::xml_node inertia = inertial.append_child("inertia");
+    const Matrix3 m = shape.mass * shape.inertia;
+    put(inertia, "ixx", m(0, 0));
+    put(inertia, "ixy", m(0, 1));
+    put(inertia, "ixz", m(0, 2));
+    put(inertia, "iyy", m(1, 1));
+    put(inertia, "iyz", m(1, 2));
+    put(inertia, "izz", m(2, 2));
+  }
+
+  void write_members(pugi::xml_node link, const std::vector<int>& members, const Pose& pose, const LinkKind& kind) {
+    for (const int member : members) {
+      if (c_.object(member).as<Shape>() != nullptr) write_shape(link, member, pose, kind, c_);
+      write_sensor(link, member, pose, c_);
+      // Lights that do not move are the world's.
+      if (c_.object(member).as<Lamp>() != nullptr && c_.node(member).body != kWorld) write_lamp(link, member, pose, c_);
+    }
+  }
+
+  /// The members that are nothing else.
+  void write_frames(const std::vector<int>& members, const std::string& link, const Pose& link_pose) {
+    for (const int i : members) {
+      if (c_.placed.count(i) == 0) write_frame(model_, i, link, link_pose, c_);
+    }
+  }
+
+  void write_joints() {
+    JointSite site;
+    site.link = [this](int i) { return link_name(i); };
+    site.has_loops = has_loops();
+    for (const int i : group_.connections) {
+      const Connection& connection = c_.structure.connections[static_cast<std::size_t>(i)];
+      if (connection.kind == ConnectionKind::kWeld) continue;
+      const Object& object = c_.object(connection.object);
+      site.names.emplace(object.handle, c_.names.take(object.alias));
+    }
+    for (const int i : group_.connections) {
+      write_joint(model_, c_.structure.connections[static_cast<std::size_t>(i)], site, c_);
+    }
+  }
+
+  /// The positions of the joints in the file.
+  void write_state(const std::string& name) {
+    const bool moved = std::any_of(group_.bodies.begin(), group_.bodies.end(), [this](int i) {
+      const Pose gap = at_zero(i).inverse() * in_file(i);
+      return gap.position.norm() > 1e-9 || gap.orientation.vec().norm() > 1e-9;
+    });
+    if (!moved) return;
+    pugi::xml_node model = named(state_, "model", name);
+    for (const int i : group_.bodies) put_pose(named(model, "link", links_.at(i)), in_file(i));
+  }
+
+  pugi::xml_node world_;
+  pugi::xml_node state_;
+  const Group& group_;
+  Conversion& c_;
+  pugi::xml_node model_;
+  Pose model_pose_;
+  bool is_static_ = false;
+  std::map<int, std::string> links_;  // names by body
+};
+
+/// Whole substeps in a step.
+double substep_of(const Settings& settings) {
+  const double count = std::max(1.0, std::round(settings.time_step / settings.engine_step));
+  return settings.time_step / count;
+}
+
+void write_settings(pugi::xml_node world, const Settings& settings) {
+  put(world, "bubblesim:axis_convention", "coppeliasim");
+  put(world, "bubblesim:time_step", settings.time_step);
+  put(world, "gravity", exact({settings.gravity.x(), settings.gravity.y(), settings.gravity.z()}));
+  pugi::xml_node physics = named(world, "physics", "engine");
+  physics.append_attribute("type").set_value("ode");
+  put(physics, "max_step_size", substep_of(settings));
+  pugi::xml_node scene = world.append_child("scene");
+  put(scene, "ambient", color_text(settings.ambient));
+  put(scene, "background", color_text(settings.background));
+  put(scene, "shadows", "false");
+}
+
+void write_floor(pugi::xml_node world, Conversion& conversion) {
+  pugi::xml_node model = named(world, "model", conversion.names.take("ground_plane"));
+  put(model, "static", "true");
+  pugi::xml_node link = named(model, "link", "link");
+  for (const char* part : {"collision", "visual"}) {
+    pugi::xml_node element = named(link, part, part);
+    pugi::xml_node plane = element.append_child("geometry").append_child("plane");
+    put(plane, "normal", "0 0 1");
+    put(plane, "size", "10 10");
+    if (std::string(part) == "collision") {
+      put(element.append_child("surface").append_child("contact"), "collide_bitmask", "65535");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> write_scene(const SceneFile& file, const std::string& name, const fs::path& folder) {
+  const Structure structure = structure_of(file);
+  Conversion conversion{file, structure, MeshFiles(folder, file), left_out_of(file, structure), UniqueNames()};
+  pugi::xml_document document;
+  pugi::xml_node sdf = document.append_child("sdf");
+  sdf.append_attribute("version").set_value("1.9");
+  sdf.append_attribute("xmlns:bubblesim").set_value("https://bubblesim");
+  pugi::xml_node world = named(sdf, "world", plain_name(name));
+  write_settings(world, file.settings);
+  for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
+    const bool is_fixed_lamp = conversion.object(i).as<Lamp>() != nullptr && conversion.node(i).body == kWorld;
+    if (is_fixed_lamp) write_lamp(world, i, Pose(), conversion);
+  }
+  conversion.scripts = write_scripts(folder, conversion);
+  if (!file.is_scene) write_floor(world, conversion);
+  pugi::xml_node state = sdf.append_child("state");
+  for (const Group& group : groups_of(file, structure)) {
+    ModelWriter(world, state, group, conversion).write();
+  }
+  for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
+    if (conversion.placed.count(i) == 0) write_frame(world, i, "", Pose(), conversion);
+  }
+  if (state.first_child()) {
+    state.append_attribute("world_name").set_value(plain_name(name).c_str());
+    world.append_move(state);
+  } else {
+    sdf.remove_child(state);
+  }
+  if (!document.save_file((folder / kSceneFile).c_str(), "  ")) {
+    throw std::runtime_error("cannot write " + (folder / kSceneFile).string() + ": is the disk full?");
+  }
+  std::ofstream list(folder / kLeftOutFile);
+  std::vector<std::string> lines = conversion.left_out.lines();
+  for (const std::string& line : lines) list << line << "\n";
+  if (!list.flush()) throw std::runtime_error("cannot write " + (folder / kLeftOutFile).string());
+  return lines;
+}
+
+}  // namespace bubblesim::ttt
