@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "bridges.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
@@ -54,7 +55,7 @@ int run_node(Options& options, int& argc, char** argv) {
   const WebServer web(options);
   watch_stop_signals();  // before this there is nothing to shut down
   Node node(options);
-  if (options.ros) node.bridge = std::make_unique<RosBridge>(argc, argv, ros_options(node));
+  node.bridge = make_bridge(node, argc, argv);
   if (stop_requested()) return kFine;
   node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge = node.bridge] {
     if (bridge) bridge->leave();

@@ -40,7 +40,7 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   if (!is_first) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
   how.ends_at_stop =
-      (!options.ros && !options.has_remote_api()) || options.until;  // nothing can or should start it again
+      (options.ros == Ros::kNone && !options.has_remote_api()) || options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
@@ -79,38 +79,6 @@ int ScriptCounts::failures() const {
 int ScriptCounts::disabled() const {
   const std::lock_guard lock(mutex_);
   return scripts_ != nullptr ? scripts_->disabled() : disabled_;
-}
-
-RosBridgeOptions ros_options(Node& node) {
-  RosBridgeOptions how;
-  how.on_pause = [&node](bool paused) {
-    node.runner.with([paused](Runner& runner) { return paused ? runner.pause() : runner.start(); },
-                     std::future<RunState>());
-  };
-  how.on_step = [&node](std::uint32_t steps) {
-    const auto step = [steps](Runner& runner) -> StepAnswer {
-      try {
-        return {"", runner.step(steps).get()};
-      } catch (const std::exception& error) {
-        return {error.what(), runner.frame()->time};
-      }
-    };
-    return node.runner.with(step, StepAnswer{"another scene is being loaded", 0});
-  };
-  how.on_arrival = [&node] { node.runner.with([](Runner& runner) { return runner.wake(), true; }, false); };
-  how.is_ending = stop_requested;
-  how.replace = node.options.replace;
-  how.on_shutdown = [](const std::string& why) {
-    std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
-    request_stop();
-  };
-  how.take_report = [&node] {
-    RunReport report = node.runner.with([](Runner& runner) { return runner.take_report(); }, RunReport());
-    report.script_errors = node.counts.failures();
-    report.disabled_scripts = node.counts.disabled();
-    return report;
-  };
-  return how;
 }
 
 Session::RunnerUse::~RunnerUse() {

@@ -12,10 +12,10 @@
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/gazebo_plugins.hpp"
+#include "bubblesim/node_bridge.hpp"
 #include "bubblesim/node_services.hpp"
 #include "bubblesim/observers.hpp"
 #include "bubblesim/remote_api_server.hpp"
-#include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_system.hpp"
 #include "bubblesim/runner.hpp"
 #include "bubblesim/simulation.hpp"
@@ -67,14 +67,11 @@ struct Node {
   std::filesystem::path first_scene;  ///< empty until the first session
   ScriptCounts counts;
   CurrentRunner runner;
-  std::unique_ptr<RosBridge> bridge;  ///< null without ROS
+  std::unique_ptr<NodeBridge> bridge;  ///< null without ROS
   std::unique_ptr<StopGuard> guard;
   std::unique_ptr<PythonEngine> python;
   std::unique_ptr<RemoteApiServer> remote_api;  ///< null without remote clients
 };
-
-/// The options for the node's bridge.
-RosBridgeOptions ros_options(Node& node);
 
 /// Runs one scene in a node, which must outlive it. The first session makes the node's missing parts.
 class Session {

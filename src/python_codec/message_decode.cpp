@@ -28,6 +28,7 @@ class Decoder {
   ConversionFailure failure;
 
   Ref message(const MessageType& type) {
+    if (type.fields.empty()) bytes_.skip_empty();
     Ref dict = Ref::steal(PyDict_New());
     if (!dict) return dict;
     for (const Field& field : type.fields) {
@@ -43,7 +44,7 @@ class Decoder {
   }
 
   bool at_end() {
-    return bytes_.left() == 0 || failure.set(std::to_string(bytes_.left()) + " surplus bytes after the last field");
+    return bytes_.surplus() == 0 || failure.set(std::to_string(bytes_.left()) + " surplus bytes after the last field");
   }
 
  private:
@@ -51,12 +52,12 @@ class Decoder {
     if (field.array == ArrayKind::kNone) return element(field);
     std::uint32_t count = field.fixed_length;
     if (field.array == ArrayKind::kVariable) {
-      if (!has(sizeof(count))) return {};
+      if (!next(sizeof(count), sizeof(count))) return {};
       count = bytes_.get<std::uint32_t>();
     }
     // Before allocating: a wrong count may have any value.
-    const std::size_t least_size = default_element_size(field);
-    if (!has(count * least_size)) return {};
+    const std::size_t least_size = minimum_element_size(field);
+    if (!next(count == 0 ? 1 : alignment(field.kind), count * least_size)) return {};
     if (is_number(field.kind)) return Ref::steal(decode_numbers(field.kind, bytes_.take(count * least_size), count));
     if (least_size == 0 && count > kMostEmptyElements) {
       failure.set("an array of " + std::to_string(count) + " empty elements");
@@ -81,7 +82,7 @@ class Decoder {
   Ref element(const Field& field) {
     if (field.kind == FieldKind::kMessage) return message(*field.message);
     if (field.kind == FieldKind::kString) return string();
-    if (!has(wire_size(field.kind))) return {};
+    if (!next(alignment(field.kind), wire_size(field.kind))) return {};
     switch (field.kind) {
       case FieldKind::kBool:
         return Ref::steal(PyBool_FromLong(bytes_.get<std::uint8_t>() != 0 ? 1 : 0));
@@ -106,7 +107,7 @@ class Decoder {
       case FieldKind::kFloat64:
         return Ref::steal(PyFloat_FromDouble(bytes_.get<double>()));
       case FieldKind::kTime:
-        return time<std::uint32_t>();
+        return bytes_.layout() == messages::Layout::kPacked ? time<std::uint32_t>() : time<std::int32_t>();
       case FieldKind::kDuration:
         return time<std::int32_t>();
       default:
@@ -116,11 +117,12 @@ class Decoder {
   }
 
   Ref string() {
-    if (!has(sizeof(std::uint32_t))) return {};
-    const auto size = bytes_.get<std::uint32_t>();
+    if (!next(sizeof(std::uint32_t), sizeof(std::uint32_t))) return {};
+    auto size = bytes_.get<std::uint32_t>();
     if (!has(size)) return {};
     // Surrogates stand for bytes that are not UTF-8; encoding converts them back.
     const auto* letters = reinterpret_cast<const char*>(bytes_.take(size));
+    if (bytes_.layout() == messages::Layout::kCdr && size > 0 && letters[size - 1] == '\0') --size;
     return Ref::steal(PyUnicode_DecodeUTF8(letters, size, "surrogateescape"));
   }
 
@@ -146,6 +148,12 @@ class Decoder {
     return field;
   }
 
+  /// Goes on to a multiple of `boundary` in CDR, and checks that `size` bytes follow.
+  bool next(std::size_t boundary, std::size_t size) {
+    bytes_.align(boundary);
+    return has(size);
+  }
+
   bool has(std::size_t size) {
     return size <= bytes_.left() || failure.set("the message is truncated: expected " + std::to_string(size) +
                                                 " more bytes, found " + std::to_string(bytes_.left()));
@@ -158,6 +166,7 @@ class Decoder {
 }  // namespace
 
 PyObject* decode_message(const MessageType& type, WireView bytes, CodecOptions options) {
+  bytes.begin(layout_of(type.version));
   Decoder decoder(bytes, options);
   Ref message = decoder.message(type);
   if (message && decoder.at_end()) return message.release();

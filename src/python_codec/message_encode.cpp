@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Encodes a dict to wire bytes.
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
+#include "bubblesim/messages/registry.hpp"
 #include "bubblesim/nearest_names.hpp"
 #include "field_names.hpp"
 #include "message_walk.hpp"
@@ -17,6 +18,7 @@ namespace {
 using messages::ArrayKind;
 using messages::Field;
 using messages::FieldKind;
+using messages::Layout;
 using messages::MessageType;
 
 class Encoder {
@@ -29,6 +31,7 @@ class Encoder {
   bool message(const MessageType& type, PyObject* value) {
     if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
     const Ref held = Ref::borrow(value);  // Python code of a value may release it
+    if (type.fields.empty()) out_.put_empty();
     Py_ssize_t used = 0;
     Py_ssize_t position = 0;
     for (const Field& field : type.fields) {
@@ -50,7 +53,7 @@ class Encoder {
         if (failure.truncation_count() != truncated) failure.truncated_inside(truncated, field.name);
       } else {
         if (PyErr_Occurred() != nullptr) return false;
-        put_default(field);
+        put_default(field, out_);
       }
     }
     return used == PyDict_GET_SIZE(value) || unknown_key(type, value);
@@ -109,7 +112,8 @@ class Encoder {
       case FieldKind::kString:
         return string(value);
       case FieldKind::kTime:
-        return time<std::uint32_t>(value);
+        if (out_.layout() == Layout::kPacked) return time<std::uint32_t>(value);
+        return time<std::int32_t>(value);
       case FieldKind::kDuration:
         return time<std::int32_t>(value);
       case FieldKind::kMessage:
@@ -130,11 +134,8 @@ class Encoder {
     std::string_view bytes;
     PyObject* owner = nullptr;
     if (!read_string(value, bytes, owner, failure)) return false;
-    const bool fits = bytes.size() <= std::numeric_limits<std::uint32_t>::max();
-    if (fits) {
-      out_.put(static_cast<std::uint32_t>(bytes.size()));
-      out_.put_bytes(bytes.data(), bytes.size());
-    }
+    const bool fits = bytes.size() < std::numeric_limits<std::uint32_t>::max();
+    if (fits) out_.put_string(bytes);
     Py_XDECREF(owner);
     return fits || failure.set("a string of " + std::to_string(bytes.size()) + " bytes does not fit into a message");
   }
@@ -146,11 +147,6 @@ class Encoder {
     out_.put(parts.secs);
     out_.put(parts.nsecs);
     return true;
-  }
-
-  void put_default(const Field& field) {
-    const std::size_t size = default_size(field);
-    if (size != 0) std::memset(out_.extend(size), 0, size);
   }
 
   bool unknown_key(const MessageType& type, PyObject* dict) {
@@ -169,9 +165,19 @@ class Encoder {
       for (const std::string& name : names) valid += (valid.empty() ? "" : ", ") + name;
       return failure.set(type.name + " has no field '" + letters + "'" + did_you_mean(letters, names) +
                          (did_you_mean(letters, names).empty() ? ";" : "") +
-                         " its fields: " + (valid.empty() ? "none" : valid));
+                         " its fields: " + (valid.empty() ? "none" : valid) + of_other_version(type, letters));
     }
     return true;  // Python code of a value changed the dict: all current entries are known fields
+  }
+
+  /// A hint for scripts that were written for the other version of ROS.
+  static std::string of_other_version(const MessageType& type, std::string_view name) {
+    const bool is_ros2 = type.version == messages::RosVersion::kRos2;
+    const MessageType* other =
+        messages::find_message(type.name, is_ros2 ? messages::RosVersion::kRos1 : messages::RosVersion::kRos2);
+    const auto has = [name](const Field& field) { return field.name == name; };
+    if (other == nullptr || std::none_of(other->fields.begin(), other->fields.end(), has)) return {};
+    return std::string("; in ROS ") + (is_ros2 ? "1" : "2") + " it has '" + std::string(name) + "'";
   }
 
   messages::WireBuffer& out_;
@@ -181,6 +187,7 @@ class Encoder {
 
 bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
                     std::vector<Truncation>* truncations) {
+  out.begin(layout_of(type.version));
   Encoder encoder(out);
   if (encoder.message(type, message)) {
     if (truncations != nullptr) *truncations = encoder.failure.take_truncations();

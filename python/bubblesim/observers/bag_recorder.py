@@ -118,5 +118,5 @@ class BagRecorder:
     def _definition(self, message_type: str) -> _Definition:
         if message_type not in self._definitions:
             text = _core.messages.definition(message_type)
-            self._definitions[message_type] = _Definition(_core.messages.md5(message_type), text)
+            self._definitions[message_type] = _Definition(_core.messages.type_hash(message_type), text)
         return self._definitions[message_type]

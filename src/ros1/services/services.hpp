@@ -15,7 +15,7 @@
 #include "master/deadline.hpp"
 #include "services/request_queue.hpp"
 #include "services/service_server.hpp"
-#include "topics/endpoint_table.hpp"
+#include "endpoint_table.hpp"
 
 namespace bubblesim {
 

@@ -25,6 +25,10 @@ class RosContext:
         self._caller = caller
         self._warned: set[object] = set()
 
+    @property
+    def _is_ros2(self) -> bool:
+        return bool(self._bridge.version == _core.messages.RosVersion.ROS2)
+
     def _warn(self, text: str) -> None:
         """Warn once for the script."""
         if text not in self._warned:

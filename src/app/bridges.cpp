@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bridges.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <future>
+#include <string>
+#include <utility>
+
+#include "bubblesim/ros_bridge.hpp"
+#include "session.hpp"
+#include "stop_signal.hpp"
+
+namespace bubblesim::app {
+namespace {
+
+/// What both versions of ROS take.
+NodeBridgeOptions common_options(Node& node) {
+  NodeBridgeOptions how;
+  how.on_pause = [&node](bool paused) {
+    node.runner.with([paused](Runner& runner) { return paused ? runner.pause() : runner.start(); },
+                     std::future<RunState>());
+  };
+  how.on_step = [&node](std::uint32_t steps) {
+    const auto step = [steps](Runner& runner) -> StepAnswer {
+      try {
+        return {"", runner.step(steps).get()};
+      } catch (const std::exception& error) {
+        return {error.what(), runner.frame()->time};
+      }
+    };
+    return node.runner.with(step, StepAnswer{"another scene is being loaded", 0});
+  };
+  how.on_arrival = [&node] { node.runner.with([](Runner& runner) { return runner.wake(), true; }, false); };
+  how.is_ending = stop_requested;
+  how.take_report = [&node] {
+    RunReport report = node.runner.with([](Runner& runner) { return runner.take_report(); }, RunReport());
+    report.script_errors = node.counts.failures();
+    report.disabled_scripts = node.counts.disabled();
+    return report;
+  };
+  return how;
+}
+
+RosBridgeOptions ros1_options(Node& node) {
+  RosBridgeOptions how;
+  static_cast<NodeBridgeOptions&>(how) = common_options(node);
+  how.replace = node.options.replace;
+  how.on_shutdown = [](const std::string& why) {
+    std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
+    request_stop();
+  };
+  return how;
+}
+
+}  // namespace
+
+std::unique_ptr<NodeBridge> make_bridge(Node& node, int& argc, char** argv) {
+  switch (node.options.ros) {
+    case Ros::kNone:
+      return nullptr;
+    case Ros::kRos1:
+      return std::make_unique<RosBridge>(argc, argv, ros1_options(node));
+    case Ros::kRos2:
+      return make_ros2_bridge(argc, argv, common_options(node));
+  }
+  return nullptr;
+}
+
+}  // namespace bubblesim::app

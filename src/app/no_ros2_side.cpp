@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For builds without ROS 2.
+#include <stdexcept>
+
+#include "bridges.hpp"
+
+namespace bubblesim::app {
+
+std::unique_ptr<NodeBridge> make_ros2_bridge(int&, char**, NodeBridgeOptions) {
+  throw std::invalid_argument("--ros=2: this build has no ROS 2; build it with: scripts/setup --with ros2");
+}
+
+}  // namespace bubblesim::app

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bubblesim/ros2_bridge.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/messages/registry.hpp"
+#include "dds/environment.hpp"
+#include "dds/participant.hpp"
+#include "graph/log_line.hpp"
+#include "graph/names.hpp"
+#include "graph/node_announcement.hpp"
+#include "node_parameters.hpp"
+#include "services/services.hpp"
+#include "services/step_service.hpp"
+#include "topics/topics.hpp"
+
+namespace bubblesim {
+namespace {
+
+using messages::BridgeTime;
+using messages::EndpointId;
+using messages::MessageType;
+using messages::ServiceType;
+using messages::WireBuffer;
+
+constexpr const char* kUsualName = "sim_ros2_interface";  // that of CoppeliaSim's plugin
+constexpr const char* kClock = "/clock";
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+BridgeTime to_bridge_time(std::int64_t nanoseconds) {
+  return {static_cast<std::uint32_t>(nanoseconds / kNanosecondsPerSecond),
+          static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
+}
+
+/// A type that this node itself uses.
+template <class Type>
+const Type& listed(const Type* type, const char* name) {
+  if (type != nullptr) return *type;
+  throw std::runtime_error(std::string(name) + " is not among the types of this build: list it in meta/");
+}
+
+}  // namespace
+
+struct Ros2Bridge::Impl {
+  Impl(int& argc, char** argv, NodeBridgeOptions bridge_options);
+
+  void offer_pause_service(const char* name, bool paused);
+  void offer_step_service();
+
+  const NodeBridgeOptions options;
+  const ros2::Environment environment = ros2::read_environment();
+  const ros2::Names names;
+  ros2::Arrivals arrivals{options.on_arrival};
+  CallbackGuard guard;
+  bool processing_input = false;
+
+  EndpointId next_id = 1;
+  EndpointId first_of_scenes = 1;  // those before are the bridge's own
+  std::int64_t sim_time = 0;       // ns
+
+  ros2::Participant participant{environment};
+  ros2::NodeAnnouncement announcement{participant, names.node_namespace(), names.node(), environment.gid_size};
+  ros2::NodeParameters parameters{names.full_node(), names.parameters()};
+  ros2::Inbox inbox{arrivals};
+  ros2::Topics topics{participant, inbox};
+  std::unique_ptr<ros2::StepService> step_service;  // before the services, which use its queue
+  ros2::Services services{participant, guard, arrivals, options.is_ending};
+  EndpointId clock = 0;
+
+  mutable std::mutex urgent_mutex;  // guards urgent
+  std::vector<std::function<bool()>> urgent;
+};
+
+Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
+    : options(std::move(bridge_options)),
+      names(argc, argv, options.node_name.empty() ? kUsualName : options.node_name) {
+  clock = next_id++;
+  topics.advertise(clock, kClock, listed(messages::find_message("rosgraph_msgs/Clock", messages::RosVersion::kRos2),
+                                         "rosgraph_msgs/Clock"),
+                   messages::Qos());
+  topics.yield_topic(clock);
+  if (options.on_pause) {
+    offer_pause_service("~/pause", true);
+    offer_pause_service("~/unpause", false);
+  }
+  if (options.on_step) offer_step_service();
+  first_of_scenes = next_id;
+  announcement.update();
+  ros2::log_line("load succeeded: node " + names.full_node() + " in domain " + std::to_string(environment.domain));
+}
+
+void Ros2Bridge::Impl::offer_pause_service(const char* name, bool paused) {
+  const ServiceType* type = messages::find_service("std_srvs/Empty", messages::RosVersion::kRos2);
+  const auto answer = [this, paused, type](messages::WireView) {
+    options.on_pause(paused);
+    WireBuffer response;
+    response.begin(messages::Layout::kCdr);
+    put_default(*type->response, response);
+    return response;
+  };
+  services.add_server(next_id++, names.resolve(name, "service"), listed(type, "std_srvs/Empty"), answer);
+}
+
+void Ros2Bridge::Impl::offer_step_service() {
+  const ServiceType* type = messages::find_service("bubblesim_msgs/Step", messages::RosVersion::kRos2);
+  if (type == nullptr) return;  // it was taken off meta/services.txt
+  step_service = std::make_unique<ros2::StepService>(options.on_step);
+  services.add_server(
+      next_id++, names.resolve("~/step", "service"), *type,
+      [service = step_service.get()](messages::WireView request) { return service->answer(request); },
+      &step_service->queue());
+}
+
+Ros2Bridge::Ros2Bridge(int& argc, char** argv, NodeBridgeOptions options)
+    : impl_(std::make_unique<Impl>(argc, argv, std::move(options))) {}
+
+Ros2Bridge::~Ros2Bridge() {
+  impl_->arrivals.silence();
+  if (impl_->step_service) impl_->step_service->stop();
+}
+
+EndpointId Ros2Bridge::advertise(const std::string& topic, const MessageType& type, const messages::Qos& qos) {
+  impl_->topics.advertise(impl_->next_id, impl_->names.resolve(topic, "topic"), type, qos);
+  return impl_->next_id++;
+}
+
+EndpointId Ros2Bridge::subscribe(const std::string& topic, const MessageType& type, const messages::Qos& qos,
+                                 messages::MessageCallback callback) {
+  impl_->topics.subscribe(impl_->next_id, impl_->names.resolve(topic, "topic"), type, qos, std::move(callback));
+  return impl_->next_id++;
+}
+
+void Ros2Bridge::set_priority(EndpointId endpoint) {
+  std::function<bool()> waits;
+  if (impl_->topics.has_subscriber(endpoint)) {
+    waits = [inbox = &impl_->inbox, mailbox = impl_->topics.subscriber(endpoint).mailbox()] {
+      return inbox->has(*mailbox);
+    };
+  } else {
+    waits = [waiting = impl_->services.waiting(endpoint)] { return *waiting > 0; };
+  }
+  const std::lock_guard lock(impl_->urgent_mutex);
+  impl_->urgent.push_back(std::move(waits));
+}
+
+bool Ros2Bridge::urgent_waits() const {
+  const std::lock_guard lock(impl_->urgent_mutex);
+  return std::any_of(impl_->urgent.begin(), impl_->urgent.end(), [](const auto& waits) { return waits(); });
+}
+
+void Ros2Bridge::yield_topic(EndpointId endpoint) { impl_->topics.yield_topic(endpoint); }
+
+bool Ros2Bridge::wants_messages(EndpointId publisher) const {
+  return impl_->topics.publisher(publisher).wants_messages();
+}
+
+bool Ros2Bridge::has_publisher(EndpointId subscriber) const {
+  return impl_->topics.subscriber(subscriber).has_publisher();
+}
+
+const MessageType& Ros2Bridge::message_type(EndpointId endpoint) const { return impl_->topics.type(endpoint); }
+
+void Ros2Bridge::publish(EndpointId publisher, WireBuffer message) {
+  impl_->topics.publish(publisher, std::move(message));
+}
+
+void Ros2Bridge::shutdown_publisher(EndpointId publisher) { impl_->topics.shutdown_publisher(publisher); }
+
+void Ros2Bridge::shutdown_subscriber(EndpointId subscriber) { impl_->topics.shutdown_subscriber(subscriber); }
+
+EndpointId Ros2Bridge::advertise_service(const std::string& name, const ServiceType& type,
+                                         messages::ServiceCallback callback) {
+  impl_->services.add_server(impl_->next_id, impl_->names.resolve(name, "service"), type, std::move(callback));
+  return impl_->next_id++;
+}
+
+EndpointId Ros2Bridge::service_client(const std::string& name, const ServiceType& type) {
+  impl_->services.add_client(impl_->next_id, impl_->names.resolve(name, "service"), type);
+  return impl_->next_id++;
+}
+
+const ServiceType& Ros2Bridge::service_type(EndpointId server_or_client) const {
+  return impl_->services.type(server_or_client);
+}
+
+WireBuffer Ros2Bridge::call(EndpointId client, WireBuffer request, double timeout) {
+  impl_->announcement.update();
+  return impl_->services.call(client, std::move(request), timeout);
+}
+
+bool Ros2Bridge::wait_for_service(const std::string& name, double timeout) {
+  return impl_->services.wait_for(impl_->names.resolve(name, "service"), timeout);
+}
+
+void Ros2Bridge::shutdown_service_server(EndpointId server) { impl_->services.remove_server(server); }
+
+void Ros2Bridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
+
+std::optional<messages::ParameterValue> Ros2Bridge::get_parameter(const std::string& name) {
+  return impl_->parameters.get(name);
+}
+
+void Ros2Bridge::set_parameter(const std::string& name, const messages::ParameterValue& value) {
+  impl_->parameters.set(name, value);
+}
+
+void Ros2Bridge::delete_parameter(const std::string& name) { impl_->parameters.remove(name); }
+
+std::optional<std::string> Ros2Bridge::search_parameter(const std::string& name) {
+  return impl_->parameters.search(name);
+}
+
+void Ros2Bridge::process_input() {
+  if (impl_->processing_input) return;  // called by a message's callback: the outer call processes the rest
+  impl_->announcement.update();
+  impl_->processing_input = true;
+  impl_->inbox.deliver(impl_->guard);
+  impl_->processing_input = false;
+  impl_->services.serve();
+  impl_->guard.rethrow();
+}
+
+BridgeTime Ros2Bridge::now() const {
+  const std::optional<messages::ParameterValue> use_sim_time = impl_->parameters.get("use_sim_time");
+  const bool* simulated = use_sim_time ? std::get_if<bool>(&*use_sim_time) : nullptr;
+  if (simulated != nullptr && *simulated) return to_bridge_time(impl_->sim_time);
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
+}
+
+bool Ros2Bridge::clock_reaches_others() const {
+  const std::optional<messages::ParameterValue> use_sim_time = impl_->parameters.get("use_sim_time");
+  const bool* simulated = use_sim_time ? std::get_if<bool>(&*use_sim_time) : nullptr;
+  return simulated == nullptr || !*simulated || impl_->topics.publisher(impl_->clock).wants_messages();
+}
+
+void Ros2Bridge::publish_clock(double sim_time) {
+  impl_->sim_time = std::max<std::int64_t>(0, std::llround(sim_time * kNanosecondsPerSecond));
+  if (!wants_messages(impl_->clock)) return;
+  const BridgeTime time = to_bridge_time(impl_->sim_time);
+  WireBuffer message;
+  message.begin(messages::Layout::kCdr);
+  message.put(time.sec);
+  message.put(time.nanosec);
+  publish(impl_->clock, std::move(message));
+}
+
+void Ros2Bridge::shutdown_endpoints() {
+  {
+    const std::lock_guard lock(impl_->urgent_mutex);
+    impl_->urgent.clear();
+  }
+  impl_->topics.shutdown_from(impl_->first_of_scenes);
+  impl_->services.remove_from(impl_->first_of_scenes);
+}
+
+std::string Ros2Bridge::node_name() const { return impl_->names.full_node(); }
+
+}  // namespace bubblesim

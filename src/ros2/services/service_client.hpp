@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bubblesim/messages/bridge.hpp"
+#include "dds/participant.hpp"
+#include "services/request_queue.hpp"
+
+namespace bubblesim::ros2 {
+
+/// A client of a service. `queue` is woken when the service appears and when a reply arrives.
+class ServiceClient {
+ public:
+  ServiceClient(Participant& participant, std::string name, const messages::ServiceType& type, RequestQueue& queue);
+  ~ServiceClient();
+  ServiceClient(const ServiceClient&) = delete;
+  ServiceClient& operator=(const ServiceClient&) = delete;
+
+  const std::string& name() const { return name_; }
+  const messages::ServiceType& type() const { return type_; }
+  /// Whether a server gets requests and its replies arrive.
+  bool is_ready() const { return servers_ > 0 && repliers_ > 0; }
+  /// Sends a request and returns its number, or nothing if it could not be sent.
+  std::optional<std::int64_t> send(messages::WireBuffer request);
+  /// Returns the reply to a request, once.
+  std::optional<std::vector<std::uint8_t>> take_reply(std::int64_t number);
+  /// The reply to this request is not wanted any more.
+  void forget(std::int64_t number);
+
+ private:
+  class RequestListener;
+  class ReplyListener;
+
+  void receive(const dds::SampleInfo& info, std::vector<std::uint8_t> message);
+
+  const std::string name_;
+  const messages::ServiceType& type_;
+  RequestQueue& queue_;
+  std::atomic<int> servers_{0};
+  std::atomic<int> cyclone_servers_{0};
+  std::atomic<int> repliers_{0};
+  std::mutex mutex_;
+  std::map<std::int64_t, std::optional<std::vector<std::uint8_t>>> calls_;  // guarded; empty until the reply arrives
+  std::int64_t cyclone_number_ = 0;                                        // the last one
+  std::unique_ptr<RequestListener> request_listener_;
+  std::unique_ptr<ReplyListener> reply_listener_;
+  std::unique_ptr<Reader> replies_;
+  std::unique_ptr<Writer> requests_;
+};
+
+}  // namespace bubblesim::ros2

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "bubblesim/messages/bridge.hpp"
+#include "callback_guard.hpp"
+#include "dds/participant.hpp"
+#include "services/reply_writer.hpp"
+#include "services/request_queue.hpp"
+
+namespace bubblesim::ros2 {
+
+/// A service of this node. Answers requests when `queue` is served.
+class ServiceServer {
+ public:
+  ServiceServer(Participant& participant, std::string name, const messages::ServiceType& type,
+                messages::ServiceCallback callback, RequestQueue& queue, CallbackGuard& guard, LateReplies& late);
+  ~ServiceServer();
+  ServiceServer(const ServiceServer&) = delete;
+  ServiceServer& operator=(const ServiceServer&) = delete;
+
+  const std::string& name() const { return name_; }
+  const messages::ServiceType& type() const { return type_; }
+  /// Answers a call of this node itself. Throws ServiceError.
+  messages::WireBuffer answer(messages::WireView request) { return responder_->answer(request); }
+  /// Number of requests that wait. Thread-safe.
+  const std::shared_ptr<std::atomic<int>>& waiting() const { return responder_->waiting; }
+  /// Destroys the callback, at once or when a running call returns.
+  void silence() { responder_->callback = nullptr; }
+
+ private:
+  /// Kept by requests that wait in the queue.
+  struct Responder {
+    messages::WireBuffer answer(messages::WireView request);
+    void reply(const RequestId& id, messages::WireView request);
+
+    std::string name;
+    const messages::ServiceType& type;
+    CallbackGuard& guard;
+    std::shared_ptr<messages::ServiceCallback> callback;  // null: shut down
+    std::shared_ptr<ReplyWriter> replies;
+    std::shared_ptr<std::atomic<int>> waiting = std::make_shared<std::atomic<int>>(0);
+  };
+  class Listener;
+
+  const std::string name_;
+  const messages::ServiceType& type_;
+  const std::shared_ptr<Responder> responder_;
+  std::unique_ptr<Listener> listener_;
+  std::unique_ptr<Reader> requests_;
+};
+
+}  // namespace bubblesim::ros2
