@@ -10,12 +10,12 @@
 
 namespace bubblesim {
 
-/// There is no master: nodes find each other in the domain ROS_DOMAIN_ID, here on this machine. Messages arrive on threads
-/// of Fast DDS and wait for process_input(). All calls come from the simulation's thread.
+/// There is no master: nodes find each other in the domain ROS_DOMAIN_ID, here on this machine. Messages arrive on
+/// threads of Fast DDS and wait for process_input(). All calls come from the simulation's thread.
 class Ros2Bridge final : public NodeBridge {
  public:
-  /// Takes the arguments for a ROS node (`a:=b`, `__name:=`, `__ns:=`, `_parameter:=`) off the command line. The usual name
-  /// of the node is sim_ros2_interface. Throws std::invalid_argument for an invalid name or environment, and
+  /// Takes the arguments for a ROS node (`a:=b`, `__name:=`, `__ns:=`, `_parameter:=`) off the command line. The usual
+  /// name of the node is sim_ros2_interface. Throws std::invalid_argument for an invalid name or environment, and
   /// std::runtime_error without a network.
   Ros2Bridge(int& argc, char** argv, NodeBridgeOptions options = {});
   ~Ros2Bridge() override;

@@ -39,8 +39,8 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   if (options.remote_port && !options.start && !options.paused) how.initial = RunState::kStopped;
   if (!is_first) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
-  how.ends_at_stop =
-      (options.ros == Ros::kNone && !options.has_remote_api()) || options.until;  // nothing can or should start it again
+  how.ends_at_stop = (options.ros == Ros::kNone && !options.has_remote_api()) ||
+                     options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());

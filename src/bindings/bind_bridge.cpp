@@ -184,15 +184,16 @@ void bind_qos(py::module_& core) {
       .def_readonly("tcp_no_delay", &Qos::tcp_no_delay)
       .def_readonly("lifespan", &Qos::lifespan)
       .def_readonly("deadline", &Qos::deadline)
-      .def("__eq__",
-           [](const Qos& left, const Qos& right) {
-             const auto values = [](const Qos& qos) {
-               return std::tie(qos.depth, qos.transient_local, qos.reliable, qos.tcp_no_delay, qos.lifespan,
-                               qos.deadline);
-             };
-             return values(left) == values(right);
-           },
-           py::is_operator());
+      .def(
+          "__eq__",
+          [](const Qos& left, const Qos& right) {
+            const auto values = [](const Qos& qos) {
+              return std::tie(qos.depth, qos.transient_local, qos.reliable, qos.tcp_no_delay, qos.lifespan,
+                              qos.deadline);
+            };
+            return values(left) == values(right);
+          },
+          py::is_operator());
   py::implicitly_convertible<std::uint32_t, Qos>();
 }
 
@@ -245,7 +246,8 @@ void bind_bridge(py::module_& core) {
       .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
       .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
       .def("get_parameter", &get_parameter, py::arg("name"), without_gil,
-           "Return (exists, value) of a parameter; None for lists and dictionaries. Raise NoParameterServer if ROS 1 has no "
+           "Return (exists, value) of a parameter; None for lists and dictionaries. Raise NoParameterServer if ROS 1 "
+           "has no "
            "master.")
       .def("set_parameter", &Bridge::set_parameter, py::arg("name"), py::arg("value"), without_gil)
       .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)

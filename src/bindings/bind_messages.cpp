@@ -96,8 +96,7 @@ void bind_messages(py::module_& core) {
         "Like encode(), but return None, or [(field, value)] of the floats that lost more than a thousandth in integer "
         "fields.");
   m.def("decode", &decode_buffer, py::arg("type_name"), py::arg("data"), py::arg("time_form") = TimeForm::kSecsNsecs,
-        version,
-        "Decode wire bytes to a dict. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
+        version, "Decode wire bytes to a dict. Arrays of numbers become numpy arrays, uint8[] becomes bytes.");
   m.def(
       "default",
       [](const std::string& name, TimeForm time, RosVersion of) {
@@ -125,7 +124,8 @@ void bind_messages(py::module_& core) {
   m.def(
       "definition", [](const std::string& name, RosVersion of) { return text_of(listed_message(name, of).definition); },
       py::arg("type_name"), version, "Return the .msg text, followed by those of nested types.");
-  m.def("fields", &fields, py::arg("type_name"), version, "Return a dict of field name -> type, in the order of the message.");
+  m.def("fields", &fields, py::arg("type_name"), version,
+        "Return a dict of field name -> type, in the order of the message.");
   m.def("constants", &constants, py::arg("type_name"), version, "Return a dict of constant name -> value.");
   bind_added_types(m);
 }

@@ -17,6 +17,7 @@
 #include "callbacks/arrivals.hpp"
 #include "callbacks/counting_queue.hpp"
 #include "console/log_line.hpp"
+#include "endpoint_table.hpp"
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
 #include "master/names.hpp"
@@ -32,7 +33,6 @@
 #include "services/services.hpp"
 #include "services/step_service.hpp"
 #include "status/diagnostics.hpp"
-#include "endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 #include "topics/topics.hpp"
 

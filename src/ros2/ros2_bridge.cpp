@@ -13,10 +13,11 @@
 #include "bubblesim/messages/registry.hpp"
 #include "dds/environment.hpp"
 #include "dds/participant.hpp"
-#include "graph/log_line.hpp"
 #include "graph/names.hpp"
 #include "graph/node_announcement.hpp"
-#include "node_parameters.hpp"
+#include "graph/rosout.hpp"
+#include "parameters/node_parameters.hpp"
+#include "parameters/parameter_services.hpp"
 #include "services/services.hpp"
 #include "services/step_service.hpp"
 #include "topics/topics.hpp"
@@ -39,11 +40,18 @@ BridgeTime to_bridge_time(std::int64_t nanoseconds) {
           static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond)};
 }
 
-/// A type that this node itself uses.
-template <class Type>
-const Type& listed(const Type* type, const char* name) {
-  if (type != nullptr) return *type;
-  throw std::runtime_error(std::string(name) + " is not among the types of this build: list it in meta/");
+const MessageType& own_message(const char* name) {
+  return ros2::listed(messages::find_message(name, messages::RosVersion::kRos2), name);
+}
+
+const ServiceType& own_service(const char* name) {
+  return ros2::listed(messages::find_service(name, messages::RosVersion::kRos2), name);
+}
+
+messages::Qos parameter_qos() {
+  messages::Qos qos;
+  qos.depth = 1000;  // as rcl's
+  return qos;
 }
 
 }  // namespace
@@ -53,6 +61,8 @@ struct Ros2Bridge::Impl {
 
   void offer_pause_service(const char* name, bool paused);
   void offer_step_service();
+  void offer_parameters();
+  BridgeTime now() const;
 
   const NodeBridgeOptions options;
   const ros2::Environment environment = ros2::read_environment();
@@ -67,12 +77,14 @@ struct Ros2Bridge::Impl {
 
   ros2::Participant participant{environment};
   ros2::NodeAnnouncement announcement{participant, names.node_namespace(), names.node(), environment.gid_size};
+  ros2::Rosout rosout{participant, names.node()};
   ros2::NodeParameters parameters{names.full_node(), names.parameters()};
   ros2::Inbox inbox{arrivals};
   ros2::Topics topics{participant, inbox};
   std::unique_ptr<ros2::StepService> step_service;  // before the services, which use its queue
-  ros2::Services services{participant, guard, arrivals, options.is_ending};
+  ros2::Services services{participant, guard, arrivals, rosout, options.is_ending};
   EndpointId clock = 0;
+  EndpointId parameter_events = 0;
 
   mutable std::mutex urgent_mutex;  // guards urgent
   std::vector<std::function<bool()>> urgent;
@@ -82,30 +94,51 @@ Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
     : options(std::move(bridge_options)),
       names(argc, argv, options.node_name.empty() ? kUsualName : options.node_name) {
   clock = next_id++;
-  topics.advertise(clock, kClock, listed(messages::find_message("rosgraph_msgs/Clock", messages::RosVersion::kRos2),
-                                         "rosgraph_msgs/Clock"),
-                   messages::Qos());
+  topics.advertise(clock, kClock, own_message("rosgraph_msgs/Clock"), messages::Qos());
   topics.yield_topic(clock);
   if (options.on_pause) {
     offer_pause_service("~/pause", true);
     offer_pause_service("~/unpause", false);
   }
   if (options.on_step) offer_step_service();
+  offer_parameters();
   first_of_scenes = next_id;
   announcement.update();
-  ros2::log_line("load succeeded: node " + names.full_node() + " in domain " + std::to_string(environment.domain));
+  rosout.log(ros2::Rosout::Level::kInfo,
+             "load succeeded: node " + names.full_node() + " in domain " + std::to_string(environment.domain));
 }
 
 void Ros2Bridge::Impl::offer_pause_service(const char* name, bool paused) {
-  const ServiceType* type = messages::find_service("std_srvs/Empty", messages::RosVersion::kRos2);
-  const auto answer = [this, paused, type](messages::WireView) {
+  const ServiceType& type = own_service("std_srvs/Empty");
+  const auto answer = [this, paused, &type](messages::WireView) {
     options.on_pause(paused);
     WireBuffer response;
     response.begin(messages::Layout::kCdr);
-    put_default(*type->response, response);
+    put_default(*type.response, response);
     return response;
   };
-  services.add_server(next_id++, names.resolve(name, "service"), listed(type, "std_srvs/Empty"), answer);
+  services.add_server(next_id++, names.resolve(name, "service"), type, answer);
+}
+
+void Ros2Bridge::Impl::offer_parameters() {
+  parameter_events = next_id++;
+  topics.advertise(parameter_events, "/parameter_events", own_message("rcl_interfaces/ParameterEvent"),
+                   parameter_qos());
+  parameters.on_change = [this](ros2::NodeParameters::Change change, const std::string& name,
+                                const ros2::Value& value) {
+    if (!topics.publisher(parameter_events).wants_messages()) return;
+    topics.publish(parameter_events, ros2::parameter_event(now(), names.full_node(), change, name, value));
+  };
+  ros2::add_parameter_services(
+      parameters, [this](const std::string& name, const std::string& type, messages::ServiceCallback answer) {
+        services.add_server(next_id++, names.full_node() + "/" + name, own_service(type.c_str()), std::move(answer));
+      });
+}
+
+BridgeTime Ros2Bridge::Impl::now() const {
+  if (parameters.use_sim_time()) return to_bridge_time(sim_time);
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
 }
 
 void Ros2Bridge::Impl::offer_step_service() {
@@ -204,14 +237,16 @@ void Ros2Bridge::shutdown_service_server(EndpointId server) { impl_->services.re
 void Ros2Bridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
 
 std::optional<messages::ParameterValue> Ros2Bridge::get_parameter(const std::string& name) {
-  return impl_->parameters.get(name);
+  const std::optional<ros2::Value> value = impl_->parameters.get(name);
+  if (!value) return std::nullopt;
+  return ros2::for_script(*value);
 }
 
 void Ros2Bridge::set_parameter(const std::string& name, const messages::ParameterValue& value) {
-  impl_->parameters.set(name, value);
+  impl_->parameters.set(name, ros2::from_script(value));
 }
 
-void Ros2Bridge::delete_parameter(const std::string& name) { impl_->parameters.remove(name); }
+void Ros2Bridge::delete_parameter(const std::string& name) { impl_->parameters.set(name, std::monostate()); }
 
 std::optional<std::string> Ros2Bridge::search_parameter(const std::string& name) {
   return impl_->parameters.search(name);
@@ -227,18 +262,10 @@ void Ros2Bridge::process_input() {
   impl_->guard.rethrow();
 }
 
-BridgeTime Ros2Bridge::now() const {
-  const std::optional<messages::ParameterValue> use_sim_time = impl_->parameters.get("use_sim_time");
-  const bool* simulated = use_sim_time ? std::get_if<bool>(&*use_sim_time) : nullptr;
-  if (simulated != nullptr && *simulated) return to_bridge_time(impl_->sim_time);
-  const auto wall = std::chrono::system_clock::now().time_since_epoch();
-  return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
-}
+BridgeTime Ros2Bridge::now() const { return impl_->now(); }
 
 bool Ros2Bridge::clock_reaches_others() const {
-  const std::optional<messages::ParameterValue> use_sim_time = impl_->parameters.get("use_sim_time");
-  const bool* simulated = use_sim_time ? std::get_if<bool>(&*use_sim_time) : nullptr;
-  return simulated == nullptr || !*simulated || impl_->topics.publisher(impl_->clock).wants_messages();
+  return !impl_->parameters.use_sim_time() || impl_->topics.publisher(impl_->clock).wants_messages();
 }
 
 void Ros2Bridge::publish_clock(double sim_time) {

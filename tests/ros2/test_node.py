@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The node in the graph of ROS 2, its clock, and its scenes."""
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -32,9 +33,7 @@ def test_node_and_types_are_known_by_name(ros2_domain: Domain, ros2_peer: Ros2Pe
     assert graph["topics"]["/clock"]["types"] == ["rosgraph_msgs/msg/Clock"]
 
 
-def test_the_tricycle_of_the_tutorial_drives_by_ros2(
-    ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path
-) -> None:
+def test_the_tricycle_of_the_tutorial_drives_by_ros2(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     with Node(ros2_domain.env(), tmp_path / "log", "tricycle", "--ros=2", "--speed=2"):
         start = ros2_peer.next("/odom", "nav_msgs/msg/Odometry")["pose"]["pose"]["position"]["x"]
         ros2_peer.say("/speed", "std_msgs/msg/Float32", {"data": 5.0})
@@ -52,8 +51,11 @@ def test_the_clock_is_simulation_time(ros2_domain: Domain, ros2_peer: Ros2Peer, 
     with Node(ros2_domain.env(), tmp_path / "log", "ball", "--ros=2"):
         ros2_peer.received("/clock", "rosgraph_msgs/msg/Clock", best_effort=True)
         wait_until(lambda: len(ros2_peer.received("/clock")) > 20, "20 times")
-    times = [message["clock"]["sec"] * 1000 + message["clock"]["nanosec"] // 1_000_000 for message in ros2_peer.received("/clock")]
-    steps = {later - earlier for earlier, later in zip(times, times[1:], strict=False)}
+    times = [
+        message["clock"]["sec"] * 1000 + message["clock"]["nanosec"] // 1_000_000
+        for message in ros2_peer.received("/clock")
+    ]
+    steps = {later - earlier for earlier, later in itertools.pairwise(times)}
     assert steps <= {0, 50}
     assert 50 in steps
 
@@ -68,9 +70,7 @@ STAMPS = """
 
 
 @pytest.mark.parametrize("simulated", [False, True])
-def test_stamps_follow_use_sim_time(
-    ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path, simulated: bool
-) -> None:
+def test_stamps_follow_use_sim_time(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path, simulated: bool) -> None:
     file = write(tmp_path / "script.py", STAMPS)
     options = ["--ros=2", "--child-script", f"/Ball={file}", *(["_use_sim_time:=true"] if simulated else [])]
     with Node(ros2_domain.env(), tmp_path / "log", "ball", *options):
@@ -90,11 +90,11 @@ def test_two_simulators_of_a_domain_see_each_other(ros2_domain: Domain, tmp_path
         def sysCall_sensing():
             simROS2.publish(self.out, {{'data': '{own}'}})
     """
-    scripts = {
-        name: write(tmp_path / f"{name}.py", say.format(own=name, other=other)) for name, other in ("ab", "ba")
-    }
+    scripts = {name: write(tmp_path / f"{name}.py", say.format(own=name, other=other)) for name, other in ("ab", "ba")}
     nodes = {
-        name: Node(ros2_domain.env(), tmp_path / name, "ball", "--ros=2", f"__name:={name}", "--child-script", f"/Ball={file}")
+        name: Node(
+            ros2_domain.env(), tmp_path / name, "ball", "--ros=2", f"__name:={name}", "--child-script", f"/Ball={file}"
+        )
         for name, file in scripts.items()
     }
     with nodes["a"], nodes["b"]:
@@ -122,7 +122,7 @@ def test_ctrl_c_ends_the_node(ros2_domain: Domain, tmp_path: Path) -> None:
     ("options", "env", "reported"),
     [
         (["--ros=3"], {}, "--ros: 3 not in {1,2}"),
-        (["--ros=2", "--no-ros"], {}, "--no-ros excludes --ros"),
+        (["--ros=2", "--no-ros"], {}, "--ros excludes --no-ros"),
         (["--ros=2", "--record=a.bag"], {}, "--record: needs ROS 1"),
         (["--ros=2", "--replace"], {}, "--replace: needs ROS 1"),
         (["--ros=2", "__name:=a/b"], {}, "invalid name for the ROS node: 'a/b' has a '/'"),
@@ -133,5 +133,5 @@ def test_what_is_not_possible_is_refused(
     ros2_domain: Domain, options: list[str], env: dict[str, str], reported: str
 ) -> None:
     run = run_sim("ball", "--until=0.1", *options, env=ros2_domain.env() | env)
-    assert (run.returncode, reported in run.stderr) == (2, True) or run.stderr == ""
     assert reported in run.stderr
+    assert run.returncode == 2

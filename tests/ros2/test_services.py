@@ -84,6 +84,9 @@ def test_services_that_are_not_there_or_of_another_type_say_so(
 
 def test_the_services_of_the_node_control_it(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     script = """
+        def sysCall_init():
+            pass
+
         def sysCall_suspend():
             print('paused', flush=True)
 
@@ -91,7 +94,7 @@ def test_the_services_of_the_node_control_it(ros2_domain: Domain, ros2_peer: Ros
             print('goes on', flush=True)
     """
     with node_with(ros2_domain, tmp_path, script) as node:
-        assert ros2_peer.call("/sim_ros2_interface/pause", EMPTY) == {"structure_needs_at_least_one_member": 0} or True
+        ros2_peer.call("/sim_ros2_interface/pause", EMPTY)
         node.wait_for_output("paused")
         ros2_peer.call("/sim_ros2_interface/unpause", EMPTY)
         node.wait_for_output("goes on")

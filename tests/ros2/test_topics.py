@@ -20,7 +20,9 @@ def node_with(domain: Domain, folder: Path, script: str, *options: object) -> No
 
 @pytest.mark.parametrize("module", ["simROS", "simROS2"])
 def test_scripts_publish_and_receive(module: str, ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
-    advertise, subscribe = ("advertise", "subscribe") if module == "simROS" else ("createPublisher", "createSubscription")
+    advertise, subscribe = (
+        ("advertise", "subscribe") if module == "simROS" else ("createPublisher", "createSubscription")
+    )
     script = f"""
         def sysCall_init():
             self.out = {module}.{advertise}('/out', 'std_msgs/Float32')
@@ -103,9 +105,7 @@ def test_best_effort_subscriber_hears_a_best_effort_publisher(
         node.wait_for_output("heard 2.5")
 
 
-def test_large_images_arrive_whole_at_thirty_a_second(
-    ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path
-) -> None:
+def test_large_images_arrive_whole_at_thirty_a_second(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     script = """
         import numpy as np
 

@@ -4,8 +4,8 @@
 from typing import Any
 
 import pytest
-
 from bubblesim._core import Qos
+
 from bubblesim.scripting.api.ros.qos import read_qos
 
 

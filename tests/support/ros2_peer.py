@@ -33,11 +33,11 @@ class Domain:
 
     def __init__(self) -> None:
         for number in itertools.islice(itertools.cycle(range(1, 102)), os.getpid() % 101, None):
-            self._lock = Path("/tmp", f"bubblesim_tests_{os.getuid()}_domain_{number}").open("w")
+            self._lock = os.open(f"/tmp/bubblesim_tests_{os.getuid()}_domain_{number}", os.O_CREAT | os.O_RDWR)
             try:
                 fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                self._lock.close()
+                os.close(self._lock)
                 continue
             self.number = number
             return
@@ -47,7 +47,7 @@ class Domain:
         return clean_environment(ROS_DOMAIN_ID=str(self.number), PYTHONUNBUFFERED="1", **changes)
 
     def release(self) -> None:
-        self._lock.close()
+        os.close(self._lock)
 
 
 @pytest.fixture

@@ -5,8 +5,10 @@ It runs in the environment of rclpy, which knows nothing of bubblesim and of ROS
 """
 
 import base64
+import contextlib
 import importlib
 import json
+import os
 import re
 import sys
 import threading
@@ -36,8 +38,8 @@ def plain(value: Any) -> Any:
         types = value.get_fields_and_field_types()
         values = {name: getattr(value, name) for name in types}
         return {name: each[0] if types[name] == "octet" else plain(each) for name, each in values.items()}
-    if isinstance(value, bytes):
-        return {"base64": base64.b64encode(value).decode()}
+    if isinstance(value, bytes) or getattr(value, "typecode", "") == "B":
+        return {"base64": base64.b64encode(bytes(value)).decode()}
     if isinstance(value, np.ndarray) or hasattr(value, "tolist"):
         return [plain(item) for item in value.tolist()]
     if isinstance(value, list | tuple):
@@ -151,16 +153,17 @@ def main() -> None:
     executor.add_node(node)
 
     def spin() -> None:
-        try:
+        with contextlib.suppress(ExternalShutdownException):
             executor.spin()
-        except ExternalShutdownException:
-            pass
 
     threading.Thread(target=spin, daemon=True).start()
     report("ready", True)
-    for line in sys.stdin:
-        command = json.loads(line)
-        getattr(peer, command.pop("do"))(**command)
+    with contextlib.suppress(KeyboardInterrupt):
+        for line in sys.stdin:
+            command = json.loads(line)
+            getattr(peer, command.pop("do"))(**command)
+    sys.stdout.flush()
+    os._exit(0)  # rclpy's threads do not end before the interpreter, which aborts then
 
 
 if __name__ == "__main__":

@@ -16,9 +16,7 @@ namespace bubblesim::messages {
 /// The version of ROS whose names, fields and bytes a type has. Most types exist in both, some with other fields.
 enum class RosVersion : std::uint8_t { kRos1 = 1, kRos2 = 2 };
 
-constexpr Layout layout_of(RosVersion version) {
-  return version == RosVersion::kRos2 ? Layout::kCdr : Layout::kPacked;
-}
+constexpr Layout layout_of(RosVersion version) { return version == RosVersion::kRos2 ? Layout::kCdr : Layout::kPacked; }
 
 /// Wire format of one value of a field (http://wiki.ros.org/msg, "Field Types").
 enum class FieldKind : std::uint8_t {
@@ -65,8 +63,8 @@ struct Constant {
 
 /// A message, or the request or response of a service. Once returned by the registry, it lives as long as the process.
 struct MessageType {
-  std::string name;         ///< `geometry_msgs/Twist`; of a service: `std_srvs/SetBoolRequest` (ROS 2: `SetBool_Request`)
-  std::string type_hash;    ///< the MD5 of ROS 1, or `RIHS01_...` of ROS 2; peers compare it
+  std::string name;       ///< `geometry_msgs/Twist`; of a service: `std_srvs/SetBoolRequest` (ROS 2: `SetBool_Request`)
+  std::string type_hash;  ///< the MD5 of ROS 1, or `RIHS01_...` of ROS 2; peers compare it
   std::string definition;   ///< full text with nested types, as bags store it
   bool has_header = false;  ///< first field is std_msgs/Header: roscpp writes its sequence number
   std::vector<Field> fields;

@@ -20,9 +20,9 @@ struct Qos {
   /// packet. If a node has several subscribers of a topic, the value of the first one applies.
   bool tcp_no_delay = true;
   /// Of ROS 2 alone, s: messages that are older are not delivered.
-  std::optional<double> lifespan;
+  std::optional<double> lifespan = std::nullopt;
   /// Of ROS 2 alone, s: the longest time between two messages that a publisher offers or a subscriber asks for.
-  std::optional<double> deadline;
+  std::optional<double> deadline = std::nullopt;
 };
 
 }  // namespace bubblesim::messages

@@ -12,8 +12,8 @@
 
 namespace bubblesim::messages {
 
-/// Returns the type of that name (`pkg/Type`, also `pkg/msg/Type`) in a version of ROS, or nullptr if it is unknown there.
-/// Also finds the requests and responses of services (`std_srvs/SetBoolRequest`). Thread-safe.
+/// Returns the type of that name (`pkg/Type`, also `pkg/msg/Type`) in a version of ROS, or nullptr if it is unknown
+/// there. Also finds the requests and responses of services (`std_srvs/SetBoolRequest`). Thread-safe.
 const MessageType* find_message(std::string_view name, RosVersion version = RosVersion::kRos1);
 
 /// Returns the service of that name (`pkg/Type`, also `pkg/srv/Type`), or nullptr if it is unknown. Thread-safe.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Buffers for writing (WireBuffer) and reading (WireView) wire bytes, in the layout of ROS 1 (http://wiki.ros.org/msg) or
-// of ROS 2 (CDR: OMG's DDS-XTypes, "PLAIN_CDR"). Little-endian; the code requires a little-endian machine.
+// Buffers for writing (WireBuffer) and reading (WireView) wire bytes, in the layout of ROS 1 (http://wiki.ros.org/msg)
+// or of ROS 2 (CDR: OMG's DDS-XTypes, "PLAIN_CDR"). Little-endian; the code requires a little-endian machine.
 #pragma once
 
 #include <cstddef>
@@ -123,12 +123,11 @@ class WireView {
     if (cdr_ && left() > 0) ++at_;
   }
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
-  /// Bytes after the last value that belong to no field: peers pad CDR to a multiple of 4.
-  std::size_t surplus() const { return cdr_ && left() < kMostPadding ? 0 : left(); }
+  /// Bytes after the last value that are an error. In CDR there is none: peers pad messages, and those of a newer
+  /// version of ROS 2 may have more fields at the end.
+  std::size_t surplus() const { return cdr_ ? 0 : left(); }
 
  private:
-  static constexpr std::size_t kMostPadding = 4;
-
   [[noreturn]] void throw_truncated(std::size_t wanted) const;
 
   const std::uint8_t* begin_;

@@ -65,7 +65,9 @@ def _add_of_ros2(specs: Ros2Specs, name: str, kind: str) -> None:
         version = _core.messages.RosVersion.ROS2
         names = _core.messages.message_names if kind == "msg" else _core.messages.service_names
         hint = did_you_mean(nearest_names(name, sorted({*names(version), *specs.index.names(kind)})))
-        raise _core.MessageError(f"{name} is not a {what} type of ROS 2 in this build, and no definition was found{hint}")
+        raise _core.MessageError(
+            f"{name} is not a {what} type of ROS 2 in this build, and no definition was found{hint}"
+        )
     try:
         file = specs.load(name, kind)
     except SpecError as error:

@@ -84,7 +84,8 @@ void check_header(const std::string& service, ros::Header& header, const Service
   if (header.getValue("error", text)) throw ServiceError("service '" + service + "' refused the call: " + text);
   std::string name = "?";
   header.getValue("type", name);
-  if (header.getValue("md5sum", text) && text != type.type_hash && text != "*") throw other_type(service, name, text, type);
+  if (header.getValue("md5sum", text) && text != type.type_hash && text != "*")
+    throw other_type(service, name, text, type);
 }
 
 WireBuffer read_response(TimedSocket& socket, const std::string& service) {

@@ -10,8 +10,8 @@
 
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
-#include "peers/publisher_check.hpp"
 #include "endpoint_table.hpp"
+#include "peers/publisher_check.hpp"
 #include "topics/endpoints.hpp"
 
 namespace bubblesim {

@@ -8,6 +8,7 @@ namespace bubblesim::ros2 {
 namespace {
 
 constexpr std::uint32_t kMostBlocking = 10'000'000;  // ns that a subscriber that is stopped may hold up write()
+constexpr std::int32_t kLeastKept = 10;              // messages of which lost parts can be sent again
 constexpr std::int32_t kUsualLimit = 5000;           // messages in the history of an endpoint
 
 Duration duration(double seconds) {
@@ -37,6 +38,9 @@ EndpointQos common(EndpointQos wanted, const messages::Qos& qos) {
 dds::DataWriterQos writer_qos(const messages::Qos& qos) {
   dds::DataWriterQos wanted = common(dds::DATAWRITER_QOS_DEFAULT, qos);
   wanted.reliability().max_blocking_time = {0, kMostBlocking};
+  if (qos.reliable && !qos.transient_local && qos.depth != 0) {
+    wanted.history().depth = std::max(wanted.history().depth, kLeastKept);
+  }
   wanted.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;  // a third of the time of the asynchronous one
   return wanted;
 }

@@ -96,7 +96,7 @@ class BytesType final : public dds::TopicDataType {
 #endif
 
  private:
-  static constexpr std::uint32_t kUsualSize = 256;  // larger messages get more memory when they come
+  static constexpr std::uint32_t kUsualSize = 256;          // larger messages get more memory when they come
   static constexpr std::uint8_t kHeader[4] = {0, 1, 0, 0};  // plain CDR, little-endian, no options
 
   static std::uint32_t size_of(const void* sample) {
@@ -150,22 +150,26 @@ class DiscoveryListener final : public dds::DomainParticipantListener {
 #if defined(FASTDDS_VERSION_MAJOR) && FASTDDS_VERSION_MAJOR >= 3
   void on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
                                 const dds::SubscriptionBuiltinTopicData& data, bool&) override {
-    if (on_reader) on_reader({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
-                              status == rtps::ReaderDiscoveryStatus::REMOVED_READER});
+    if (on_reader)
+      on_reader({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
+                 status == rtps::ReaderDiscoveryStatus::REMOVED_READER});
   }
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
                                 const dds::PublicationBuiltinTopicData& data, bool&) override {
-    if (on_writer) on_writer({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
-                              status == rtps::WriterDiscoveryStatus::REMOVED_WRITER});
+    if (on_writer)
+      on_writer({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
+                 status == rtps::WriterDiscoveryStatus::REMOVED_WRITER});
   }
 #else
   void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) override {
-    if (on_reader) on_reader({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
-                              found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER});
+    if (on_reader)
+      on_reader({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
+                 found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER});
   }
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
-    if (on_writer) on_writer({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
-                              found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER});
+    if (on_writer)
+      on_writer({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
+                 found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER});
   }
 #endif
 };

@@ -14,20 +14,56 @@ namespace {
 constexpr std::uint32_t kMostLocalPeers = 32;      // participants of a machine that are looked for
 constexpr std::uint32_t kFirstAnnouncements = 20;  // in the first two seconds; the default of 5 makes peers late
 constexpr std::int32_t kAnnouncementPeriod = 1;    // s
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr const char* kAnyAddress = "0.0.0.0";
+constexpr const char* kMulticast = "239.255.0.1";  // of RTPS, as are the ports
+constexpr std::uint32_t kFirstPort = 7400;
+constexpr std::uint32_t kPortsOfDomain = 250;
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-rtps::Locator_t loopback() {
-  rtps::Locator_t locator;
-  locator.kind = LOCATOR_KIND_UDPv4;
-  locator.port = 0;  // Fast DDS chooses it
-  IpLocator::setIPv4(locator, 127, 0, 0, 1);
-  return locator;
+/// `port` 0: Fast DDS chooses it; of a peer, it tries those of kMostLocalPeers participants.
+rtps::Locator_t locator(const std::string& address, std::uint32_t port = 0) {
+  rtps::Locator_t place;
+  place.kind = LOCATOR_KIND_UDPv4;
+  place.port = port;
+  IpLocator::setIPv4(place, address);
+  return place;
 }
 
-/// Without a whitelist of interfaces: peers that are limited to this machine still name its other addresses, and listen
-/// on all. Our sockets are bound to all addresses as well, but only announced on loopback.
-dds::DomainParticipantQos participant_qos() {
+/// The IPv4 addresses of a host. Throws std::invalid_argument if it has none.
+std::vector<std::string> addresses_of(const std::string& host) {
+  const auto [v4, v6] = IpLocator::resolveNameDNS(host);
+  std::vector<std::string> addresses(v4.begin(), v4.end());
+  if (addresses.empty()) throw std::invalid_argument("ROS_STATIC_PEERS: '" + host + "' has no IPv4 address");
+  return addresses;
+}
+
+/// Who is looked for, and where this participant is found.
+template <class Protocol>
+void set_range(Protocol& protocol, const Environment& environment) {
+  auto& builtin = protocol.builtin;
+  if (environment.range == Range::kOff) builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol::NONE;
+  for (const std::string& host : environment.peers) {
+    for (const std::string& address : addresses_of(host)) builtin.initialPeersList.push_back(locator(address));
+  }
+  if (environment.range == Range::kSubnet) {
+    if (!environment.peers.empty()) {  // without peers it is the default
+      const auto domain = static_cast<std::uint32_t>(environment.domain);
+      builtin.initialPeersList.push_back(locator(kMulticast, kFirstPort + kPortsOfDomain * domain));
+    }
+    return;
+  }
+  // No whitelist of interfaces: peers that are limited to this machine still name its other addresses, and listen on
+  // all. Our sockets are bound to all addresses as well, but only announced on loopback, unless others know of us.
+  const rtps::Locator_t place = locator(environment.peers.empty() ? kLoopback : kAnyAddress);
+  builtin.metatrafficMulticastLocatorList.clear();
+  builtin.metatrafficUnicastLocatorList.push_back(place);
+  builtin.initialPeersList.push_back(locator(kLoopback));
+  if (environment.peers.empty()) protocol.default_unicast_locator_list.push_back(place);
+}
+
+dds::DomainParticipantQos participant_qos(const Environment& environment) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name("bubblesim");
   qos.user_data().setValue(bytes_of("enclave=/;"));  // without it, ROS 2's middlewares do not see the participant
@@ -35,14 +71,10 @@ dds::DomainParticipantQos participant_qos() {
   const auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = kMostLocalPeers;
   qos.transport().user_transports.push_back(udp);
-  auto& protocol = qos.wire_protocol();
-  protocol.builtin.metatrafficMulticastLocatorList.clear();
-  protocol.builtin.metatrafficUnicastLocatorList.push_back(loopback());
-  protocol.builtin.initialPeersList.push_back(loopback());
-  protocol.default_unicast_locator_list.push_back(loopback());
-  auto& discovery = protocol.builtin.discovery_config;
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration_announcementperiod = {kAnnouncementPeriod, 0};
   discovery.initial_announcements.count = kFirstAnnouncements;
+  set_range(qos.wire_protocol(), environment);
   return qos;
 }
 
@@ -65,8 +97,7 @@ void log_to_stderr() {
 class Participant::Topic {
  public:
   Topic(dds::DomainParticipant& participant, const TopicName& name)
-      : participant_(participant),
-        topic_(participant.create_topic(name.topic, name.type, dds::TOPIC_QOS_DEFAULT)) {
+      : participant_(participant), topic_(participant.create_topic(name.topic, name.type, dds::TOPIC_QOS_DEFAULT)) {
     if (topic_ == nullptr) throw_refused(name);
   }
   ~Topic() { participant_.delete_topic(topic_); }
@@ -85,7 +116,8 @@ Participant::Participant(const Environment& environment) {
   listener_.on_reader = [this](const DiscoveredEndpoint& reader) { note(reader); };
   const SignalsBlocked blocked;
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<dds::DomainId_t>(environment.domain), participant_qos(), &listener_, dds::StatusMask::none());
+      static_cast<dds::DomainId_t>(environment.domain), participant_qos(environment), &listener_,
+      dds::StatusMask::none());
   if (participant_ == nullptr) {
     throw std::runtime_error("ROS 2 cannot be used: Fast DDS opens no UDP socket in domain " +
                              std::to_string(environment.domain));

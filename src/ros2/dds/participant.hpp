@@ -27,7 +27,8 @@ struct NodeEndpoints {
   int revision = 0;
 };
 
-/// This process in a domain, reached over UDP by peers on this machine. Endpoints must be destroyed before it. Thread-safe.
+/// This process in a domain, reached over UDP by peers on this machine. Endpoints must be destroyed before it.
+/// Thread-safe.
 ///
 /// Not by shared memory: Fast DDS 2.9 aborts when a peer with a newer one uses it.
 class Participant {
@@ -65,8 +66,8 @@ class Participant {
 /// A DataWriter of the participant, which must outlive it. The listener too.
 class Writer {
  public:
-  /// Throws std::runtime_error if Fast DDS refuses it, such as a second type on a topic. `of_node`: it is announced as the
-  /// node's.
+  /// Throws std::runtime_error if Fast DDS refuses it, such as a second type on a topic. `of_node`: it is announced as
+  /// the node's.
   Writer(Participant& participant, const TopicName& name, const messages::Qos& qos, dds::DataWriterListener* listener,
          bool of_node = true);
   ~Writer();

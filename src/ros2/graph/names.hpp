@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "bubblesim/messages/message_type.hpp"
@@ -17,8 +18,8 @@ class Names {
   /// the command line. Throws std::invalid_argument for an invalid name.
   Names(int& argc, char** argv, const std::string& default_name);
 
-  const std::string& node() const { return node_; }              ///< `sim_ros2_interface`
-  const std::string& node_namespace() const { return space_; }   ///< `/`, `/robots`
+  const std::string& node() const { return node_; }               ///< `sim_ros2_interface`
+  const std::string& node_namespace() const { return space_; }    ///< `/`, `/robots`
   std::string full_node() const { return below(space_, node_); }  ///< `/robots/sim_ros2_interface`
   /// Values that the command line gives to parameters, as texts.
   const std::map<std::string, std::string>& parameters() const { return parameters_; }
@@ -36,6 +37,13 @@ class Names {
   std::map<std::string, std::string> replacements_;
   std::map<std::string, std::string> parameters_;
 };
+
+/// A type that this node itself uses, from the registry. Throws std::runtime_error with its name if it is not there.
+template <class Type>
+const Type& listed(const Type* type, const char* name) {
+  if (type != nullptr) return *type;
+  throw std::runtime_error(std::string(name) + " is not among the types of this build");
+}
 
 /// `/speed`, std_msgs/Float32: `rt/speed`, `std_msgs::msg::dds_::Float32_`.
 TopicName message_topic(const std::string& topic, const messages::MessageType& type);

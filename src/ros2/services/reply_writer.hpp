@@ -16,8 +16,8 @@ namespace bubblesim::ros2 {
 
 class LateReplies;
 
-/// Sends the replies of a service. A client may ask before its reader of replies is known here: such a reply waits for it,
-/// on another thread. Thread-safe.
+/// Sends the replies of a service. A client may ask before its reader of replies is known here: such a reply waits for
+/// it, on another thread. Thread-safe.
 class ReplyWriter : public std::enable_shared_from_this<ReplyWriter> {
  public:
   ReplyWriter(Participant& participant, const TopicName& name, const messages::Qos& qos, LateReplies& late);

@@ -23,10 +23,12 @@ struct RequestId {
 };
 
 /// Whether a reader or writer is one of Cyclone DDS, by the vendor in its id (OMG's list of DDS vendor ids).
-inline bool is_of_cyclone(const Guid& guid) { return guid.guidPrefix.value[0] == 1 && guid.guidPrefix.value[1] == 0x10; }
+inline bool is_of_cyclone(const Guid& guid) {
+  return guid.guidPrefix.value[0] == 1 && guid.guidPrefix.value[1] == 0x10;
+}
 
-/// Reads the id of a request, and takes a header of Cyclone DDS off the message. Returns false for a message that is too
-/// short for it.
+/// Reads the id of a request, and takes a header of Cyclone DDS off the message. Returns false for a message that is
+/// too short for it.
 inline bool read_request_id(const dds::SampleInfo& info, std::vector<std::uint8_t>& message, RequestId& id) {
   id.client = info.sample_identity.writer_guid();
   id.number = info.sample_identity.sequence_number();

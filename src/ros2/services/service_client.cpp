@@ -52,11 +52,9 @@ ServiceClient::ServiceClient(Participant& participant, std::string name, const m
       queue_(queue),
       request_listener_(std::make_unique<RequestListener>(*this)),
       reply_listener_(std::make_unique<ReplyListener>(*this)),
-      replies_(
-          std::make_unique<Reader>(participant, reply_topic(name_, type), messages::Qos(), reply_listener_.get())),
-      requests_(
-          std::make_unique<Writer>(participant, request_topic(name_, type), messages::Qos(), request_listener_.get())) {
-}
+      replies_(std::make_unique<Reader>(participant, reply_topic(name_, type), messages::Qos(), reply_listener_.get())),
+      requests_(std::make_unique<Writer>(participant, request_topic(name_, type), messages::Qos(),
+                                         request_listener_.get())) {}
 
 ServiceClient::~ServiceClient() = default;
 

@@ -49,7 +49,7 @@ class ServiceClient {
   std::atomic<int> repliers_{0};
   std::mutex mutex_;
   std::map<std::int64_t, std::optional<std::vector<std::uint8_t>>> calls_;  // guarded; empty until the reply arrives
-  std::int64_t cyclone_number_ = 0;                                        // the last one
+  std::int64_t cyclone_number_ = 0;                                         // the last one
   std::unique_ptr<RequestListener> request_listener_;
   std::unique_ptr<ReplyListener> reply_listener_;
   std::unique_ptr<Reader> replies_;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bubblesim/messages/fields.hpp"
-#include "graph/log_line.hpp"
 #include "graph/names.hpp"
 
 namespace bubblesim::ros2 {
@@ -66,11 +65,11 @@ class ServiceServer::Listener final : public dds::DataReaderListener {
 
 ServiceServer::ServiceServer(Participant& participant, std::string name, const messages::ServiceType& type,
                              messages::ServiceCallback callback, RequestQueue& queue, CallbackGuard& guard,
-                             LateReplies& late)
+                             LateReplies& late, Rosout& log)
     : name_(std::move(name)),
       type_(type),
       responder_(std::make_shared<Responder>(
-          Responder{name_, type, guard, std::make_shared<messages::ServiceCallback>(std::move(callback)),
+          Responder{name_, type, guard, log, std::make_shared<messages::ServiceCallback>(std::move(callback)),
                     std::make_shared<ReplyWriter>(participant, reply_topic(name_, type), messages::Qos(), late)})),
       listener_(std::make_unique<Listener>(queue, responder_)),
       requests_(std::make_unique<Reader>(participant, request_topic(name_, type), messages::Qos(), listener_.get())) {}
@@ -100,12 +99,12 @@ WireBuffer ServiceServer::Responder::answer(WireView request) {
 }
 
 void ServiceServer::Responder::reply(const RequestId& id, WireView request) {
+  if (!callback) return;  // shut down since the request arrived
   WireBuffer response;
   try {
     response = answer(request);
   } catch (const ServiceError& error) {
-    if (!callback) return;
-    log_line("service '" + name + "' failed: " + error.what());
+    log.log(Rosout::Level::kError, "service '" + name + "' failed: " + error.what());
     response = WireBuffer();
     response.begin(messages::Layout::kCdr);
     if (Failure::fits(*type.response)) {

@@ -8,6 +8,7 @@
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
 #include "dds/participant.hpp"
+#include "graph/rosout.hpp"
 #include "services/reply_writer.hpp"
 #include "services/request_queue.hpp"
 
@@ -17,7 +18,8 @@ namespace bubblesim::ros2 {
 class ServiceServer {
  public:
   ServiceServer(Participant& participant, std::string name, const messages::ServiceType& type,
-                messages::ServiceCallback callback, RequestQueue& queue, CallbackGuard& guard, LateReplies& late);
+                messages::ServiceCallback callback, RequestQueue& queue, CallbackGuard& guard, LateReplies& late,
+                Rosout& log);
   ~ServiceServer();
   ServiceServer(const ServiceServer&) = delete;
   ServiceServer& operator=(const ServiceServer&) = delete;
@@ -40,6 +42,7 @@ class ServiceServer {
     std::string name;
     const messages::ServiceType& type;
     CallbackGuard& guard;
+    Rosout& log;
     std::shared_ptr<messages::ServiceCallback> callback;  // null: shut down
     std::shared_ptr<ReplyWriter> replies;
     std::shared_ptr<std::atomic<int>> waiting = std::make_shared<std::atomic<int>>(0);

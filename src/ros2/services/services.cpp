@@ -35,15 +35,15 @@ std::string seconds_text(double seconds) {
 
 }  // namespace
 
-Services::Services(Participant& participant, CallbackGuard& guard, Arrivals& arrivals,
+Services::Services(Participant& participant, CallbackGuard& guard, Arrivals& arrivals, Rosout& log,
                    std::function<bool()> interrupted)
-    : participant_(participant), guard_(guard), interrupted_(std::move(interrupted)), queue_(&arrivals) {}
+    : participant_(participant), guard_(guard), log_(log), interrupted_(std::move(interrupted)), queue_(&arrivals) {}
 
 void Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
                           messages::ServiceCallback callback, RequestQueue* queue) {
   if (find_own(name) != nullptr) throw std::invalid_argument("service '" + name + "' is already advertised here");
   servers_.emplace(id, std::make_shared<ServiceServer>(participant_, name, type, std::move(callback),
-                                                       queue != nullptr ? *queue : queue_, guard_, late_));
+                                                       queue != nullptr ? *queue : queue_, guard_, late_, log_));
   if (queue != nullptr) answered_elsewhere_.insert(id);
 }
 
@@ -121,7 +121,8 @@ WireBuffer Services::call(EndpointId id, WireBuffer request, double timeout) {
   for (const auto& [server_id, server] : servers_) {
     if (server->name() != name) continue;
     if (answered_elsewhere_.count(server_id) > 0) {
-      throw ServiceError("service '" + name + "' is for other nodes: its answer would wait for the step of this script");
+      throw ServiceError("service '" + name +
+                         "' is for other nodes: its answer would wait for the step of this script");
     }
     if (server->type().type_hash != client->type().type_hash) {
       throw ServiceError("service '" + name + "' is of type " + server->type().name + ", not " + client->type().name);

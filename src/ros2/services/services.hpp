@@ -19,7 +19,8 @@ namespace bubblesim::ros2 {
 class Services {
  public:
   /// `interrupted` may be empty; when it returns true, waiting calls are cancelled.
-  Services(Participant& participant, CallbackGuard& guard, Arrivals& arrivals, std::function<bool()> interrupted);
+  Services(Participant& participant, CallbackGuard& guard, Arrivals& arrivals, Rosout& log,
+           std::function<bool()> interrupted);
 
   /// Throws std::invalid_argument for a name that is already advertised. `queue`: of another thread that answers the
   /// requests; scripts cannot call such a service. nullptr: they are answered by serve().
@@ -44,6 +45,7 @@ class Services {
 
   Participant& participant_;
   CallbackGuard& guard_;
+  Rosout& log_;
   const std::function<bool()> interrupted_;
   RequestQueue queue_;
   LateReplies late_;

@@ -36,9 +36,9 @@ class Arrivals {
 
 /// The messages of one subscriber that wait for the simulation's thread.
 struct Mailbox {
-  std::size_t depth = 0;                           ///< 0: no limit
-  std::deque<std::vector<std::uint8_t>> messages;  ///< guarded by the inbox
-  bool aside = false;                              ///< of the simulation's thread: deliver nothing
+  std::size_t depth = 0;                                ///< 0: no limit
+  std::deque<std::vector<std::uint8_t>> messages;       ///< guarded by the inbox
+  bool aside = false;                                   ///< of the simulation's thread: deliver nothing
   std::shared_ptr<messages::MessageCallback> callback;  ///< of the simulation's thread; null: shut down
 };
 

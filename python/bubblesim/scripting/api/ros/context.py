@@ -25,6 +25,10 @@ class RosContext:
         self._caller = caller
         self._warned: set[object] = set()
 
+    def rosVersion(self) -> int:
+        """Return the version of ROS that the module speaks, 1 or 2: some messages have other fields in the other one."""
+        return 2 if self._is_ros2 else 1
+
     @property
     def _is_ros2(self) -> bool:
         return bool(self._bridge.version == _core.messages.RosVersion.ROS2)
