@@ -26,7 +26,7 @@ class RosContext:
         self._warned: set[object] = set()
 
     def rosVersion(self) -> int:
-        """Return the version of ROS that the module speaks, 1 or 2: some messages have other fields in the other one."""
+        """Return the version of ROS that the module speaks, 1 or 2; some messages have other fields in each."""
         return 2 if self._is_ros2 else 1
 
     @property
