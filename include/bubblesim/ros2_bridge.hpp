@@ -6,13 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "bubblesim/messages/later_services.hpp"
 #include "bubblesim/node_bridge.hpp"
 
 namespace bubblesim {
 
 /// There is no master: nodes find each other in the domain ROS_DOMAIN_ID, here on this machine. Messages arrive on
 /// threads of Fast DDS and wait for process_input(). All calls come from the simulation's thread.
-class Ros2Bridge final : public NodeBridge {
+class Ros2Bridge final : public NodeBridge, public messages::LaterServices {
  public:
   /// Takes the arguments for a ROS node (`a:=b`, `__name:=`, `__ns:=`, `_parameter:=`) off the command line. The usual
   /// name of the node is sim_ros2_interface. Throws std::invalid_argument for an invalid name or environment, and
@@ -44,6 +45,13 @@ class Ros2Bridge final : public NodeBridge {
   bool wait_for_service(const std::string& name, double timeout) override;
   void shutdown_service_server(messages::EndpointId server) override;
   void shutdown_service_client(messages::EndpointId client) override;
+  messages::LaterServices* later_services() override { return this; }
+  messages::EndpointId advertise_service_later(const std::string& name, const messages::ServiceType& type,
+                                               messages::RequestCallback on_request) override;
+  void reply(messages::EndpointId server, messages::RequestNumber request, messages::WireBuffer response) override;
+  bool service_is_ready(messages::EndpointId client) const override;
+  void call_later(messages::EndpointId client, messages::WireBuffer request,
+                  messages::MessageCallback on_response) override;
   std::optional<messages::ParameterValue> get_parameter(const std::string& name) override;
   void set_parameter(const std::string& name, const messages::ParameterValue& value) override;
   void delete_parameter(const std::string& name) override;

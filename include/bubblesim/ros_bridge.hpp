@@ -12,6 +12,8 @@
 namespace bubblesim {
 
 struct RosBridgeOptions : NodeBridgeOptions {
+  /// What else the user can do without a master, besides to start one: it is added to the line that says so.
+  std::string without_master;
   /// If another node on the master has the same name, take over the name, which ends that node. If false, such a name
   /// is an error.
   bool replace = false;

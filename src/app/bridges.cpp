@@ -6,6 +6,7 @@
 #include <future>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bubblesim/ros_bridge.hpp"
 #include "session.hpp"
@@ -46,6 +47,7 @@ RosBridgeOptions ros1_options(Node& node) {
   RosBridgeOptions how;
   static_cast<NodeBridgeOptions&>(how) = common_options(node);
   how.replace = node.options.replace;
+  if (node.options.ros == Ros::kRos1 && has_ros2()) how.without_master = ", or use ROS 2, which needs none: --ros 2";
   how.on_shutdown = [](const std::string& why) {
     std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
     request_stop();
@@ -55,16 +57,23 @@ RosBridgeOptions ros1_options(Node& node) {
 
 }  // namespace
 
-std::unique_ptr<NodeBridge> make_bridge(Node& node, int& argc, char** argv) {
-  switch (node.options.ros) {
-    case Ros::kNone:
-      return nullptr;
-    case Ros::kRos1:
-      return std::make_unique<RosBridge>(argc, argv, ros1_options(node));
-    case Ros::kRos2:
-      return make_ros2_bridge(argc, argv, common_options(node));
+std::vector<std::unique_ptr<NodeBridge>> make_bridges(Node& node, int& argc, char** argv) {
+  const Ros ros = node.options.ros;
+  std::vector<char*> arguments;  // a copy, because both sides take the same ones off
+  for (int i = 0; i < argc; ++i) {
+    // roslaunch names the node as its launch file does; this usual name is that of ROS 1.
+    if (std::string(argv[i]) != "__name:=sim_ros_interface") arguments.push_back(argv[i]);
   }
-  return nullptr;
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  std::vector<std::unique_ptr<NodeBridge>> bridges;
+  if (ros == Ros::kRos1 || ros == Ros::kBoth) {
+    bridges.push_back(std::make_unique<RosBridge>(argc, argv, ros1_options(node)));
+  }
+  if (ros == Ros::kRos2 || ros == Ros::kBoth) {
+    bridges.push_back(make_ros2_bridge(count, arguments.data(), common_options(node)));
+  }
+  return bridges;
 }
 
 }  // namespace bubblesim::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "bubblesim/node_bridge.hpp"
 #include "options.hpp"
@@ -11,9 +12,12 @@ namespace bubblesim::app {
 
 struct Node;
 
-/// Makes the bridge that the options ask for, null for none. Takes ROS's arguments off the command line. Throws
-/// std::invalid_argument if this build does not have it.
-std::unique_ptr<NodeBridge> make_bridge(Node& node, int& argc, char** argv);
+/// Makes the bridges that the options ask for. Takes ROS's arguments off the command line. Throws std::invalid_argument
+/// if this build does not have them.
+std::vector<std::unique_ptr<NodeBridge>> make_bridges(Node& node, int& argc, char** argv);
+
+/// Whether this build has the bridge to ROS 2.
+bool has_ros2();
 
 /// The bridge to ROS 2, in a file of its own because a build may leave it out: then it throws std::invalid_argument.
 std::unique_ptr<NodeBridge> make_ros2_bridge(int& argc, char** argv, NodeBridgeOptions options);

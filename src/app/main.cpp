@@ -55,10 +55,10 @@ int run_node(Options& options, int& argc, char** argv) {
   const WebServer web(options);
   watch_stop_signals();  // before this there is nothing to shut down
   Node node(options);
-  node.bridge = make_bridge(node, argc, argv);
+  node.bridges = make_bridges(node, argc, argv);
   if (stop_requested()) return kFine;
-  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge = node.bridge] {
-    if (bridge) bridge->leave();
+  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridges = node.bridges] {
+    for (const auto& bridge : bridges) bridge->leave();
   });
   auto session = std::make_unique<Session>(node, std::move(simulation), true);
   while (const std::shared_ptr<const Scene> next = session->run()) {

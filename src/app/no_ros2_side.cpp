@@ -6,8 +6,10 @@
 
 namespace bubblesim::app {
 
+bool has_ros2() { return false; }
+
 std::unique_ptr<NodeBridge> make_ros2_bridge(int&, char**, NodeBridgeOptions) {
-  throw std::invalid_argument("--ros=2: this build has no ROS 2; build it with: scripts/setup --with ros2");
+  throw std::invalid_argument("--ros: this build has no ROS 2; build it with: scripts/setup --with ros2");
 }
 
 }  // namespace bubblesim::app

@@ -122,8 +122,9 @@ ParsedOptions parse_options(int argc, char** argv) {
   });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
-  CLI::Option* ros_option = app.add_option("--ros", ros, "version of ROS that the node speaks: 1 or 2 (default 1)")
-                                ->check(CLI::IsMember({"1", "2"}));
+  CLI::Option* ros_option =
+      app.add_option("--ros", ros, "version of ROS that the node speaks: 1, 2 or both (default 1)")
+          ->check(CLI::IsMember({"1", "2", "both"}));
   app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts")->excludes(ros_option);
   app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
       ->allow_extra_args(false);
@@ -185,7 +186,7 @@ ParsedOptions parse_options(int argc, char** argv) {
     options.web = static_cast<bool>(*web);
     if (web_port != 0) options.web_port = web_port;
     options.speed = parse_speed(speed);
-    options.ros = no_ros ? Ros::kNone : ros == "2" ? Ros::kRos2 : Ros::kRos1;
+    options.ros = no_ros ? Ros::kNone : ros == "both" ? Ros::kBoth : ros == "2" ? Ros::kRos2 : Ros::kRos1;
     if (*remote && !options.web_edit && options.remote_token.empty()) {
       throw CLI::ValidationError("--web-edit=false",
                                  "with --remote it needs --remote-token: without one, whoever may "

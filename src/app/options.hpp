@@ -20,8 +20,8 @@ enum ExitCode {
   kDiverged = 4,
 };
 
-/// The version of ROS that the node speaks.
-enum class Ros { kNone, kRos1, kRos2 };
+/// The versions of ROS that the node speaks.
+enum class Ros { kNone, kRos1, kRos2, kBoth };
 
 struct Options {
   std::string scene;

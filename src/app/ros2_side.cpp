@@ -7,6 +7,8 @@
 
 namespace bubblesim::app {
 
+bool has_ros2() { return true; }
+
 std::unique_ptr<NodeBridge> make_ros2_bridge(int& argc, char** argv, NodeBridgeOptions options) {
   return std::make_unique<Ros2Bridge>(argc, argv, std::move(options));
 }

@@ -83,7 +83,7 @@ int ScriptCounts::disabled() const {
 
 Session::RunnerUse::~RunnerUse() {
   if (node.python) node.python->end();
-  if (node.bridge) node.bridge->shutdown_endpoints();
+  for (const auto& bridge : node.bridges) bridge->shutdown_endpoints();
   runner.finish();  // it runs in no background, so this does not throw; the bridge's threads wait for commands
   node.runner.set(nullptr);
 }
@@ -103,17 +103,20 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
       runner_use_(node, runner_) {
   const Options& options = node.options;
   node.runner.set(&runner_);
-  if (node.bridge) {
-    ros_ = std::make_unique<RosSystem>(*node.bridge, *simulation_);
-    simulation_->add(*ros_);
+  const bool with_ros = !node.bridges.empty();
+  std::vector<messages::Bridge*> bridges;
+  for (const auto& bridge : node.bridges) {
+    ros_.push_back(std::make_unique<RosSystem>(*bridge, *simulation_));
+    simulation_->add(*ros_.back());
+    bridges.push_back(bridge.get());
   }
   if (!node.python) node.python = std::make_unique<PythonEngine>();
   PythonEngine& python = *node.python;
-  python.begin(runner_, node.bridge.get());
-  if (node.bridge && (!options.record.empty() || !options.lockstep.empty())) {
+  python.begin(runner_, bridges);
+  if (with_ros && (!options.record.empty() || !options.lockstep.empty())) {
     observers_ = std::make_unique<Observers>(python, ObserverOptions{options.record, options.lockstep});
   }
-  if (node.bridge || has_plugins(simulation_->scene())) {  // without ROS, the skipped plugins are reported
+  if (with_ros || has_plugins(simulation_->scene())) {  // without ROS, the skipped plugins are reported
     plugins_ = std::make_unique<GazeboPlugins>(python);
     simulation_->add(*plugins_);
   }
@@ -122,7 +125,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
   if (simulation_->scene().file == node.first_scene) how.replacements = options.child_scripts;  // they name its objects
   scripts_ = std::make_unique<ChildScripts>(python, how);
   simulation_->add(*scripts_);
-  if (node.bridge) {
+  if (with_ros) {
     services_ = std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat);
     simulation_->add(*services_);
   }
@@ -145,7 +148,7 @@ std::shared_ptr<const Scene> Session::run() {
     runner_.run();
   } catch (const Diverged& error) {
     runner_.report_failure(error.what());
-    if (node_.bridge) node_.bridge->publish_diagnostics();
+    for (const auto& bridge : node_.bridges) bridge->publish_diagnostics();
     summarize(runner_);
     throw;
   }

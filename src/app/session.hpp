@@ -9,6 +9,7 @@
 #include <shared_mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/gazebo_plugins.hpp"
@@ -67,7 +68,7 @@ struct Node {
   std::filesystem::path first_scene;  ///< empty until the first session
   ScriptCounts counts;
   CurrentRunner runner;
-  std::unique_ptr<NodeBridge> bridge;  ///< null without ROS
+  std::vector<std::unique_ptr<NodeBridge>> bridges;  ///< none without ROS; of two, the first is that to ROS 1
   std::unique_ptr<StopGuard> guard;
   std::unique_ptr<PythonEngine> python;
   std::unique_ptr<RemoteApiServer> remote_api;  ///< null without remote clients
@@ -124,7 +125,7 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   Runner runner_;
   RunnerUse runner_use_;
-  std::unique_ptr<RosSystem> ros_;
+  std::vector<std::unique_ptr<RosSystem>> ros_;
   std::unique_ptr<Observers> observers_;
   std::unique_ptr<GazeboPlugins> plugins_;
   std::unique_ptr<ChildScripts> scripts_;

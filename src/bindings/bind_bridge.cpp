@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 
 #include "bindings.hpp"
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/messages/later_services.hpp"
 #include "bubblesim/messages/number_fields.hpp"
 #include "message_codec.hpp"
 #include "message_lookup.hpp"
@@ -169,6 +171,49 @@ py::object call(Bridge& bridge, EndpointId client, const py::object& request, do
   return decode(*type.response, messages::WireView(response.data(), response.size()), {time});
 }
 
+messages::LaterServices& later_services(Bridge& bridge) {
+  if (messages::LaterServices* services = bridge.later_services()) return *services;
+  throw std::invalid_argument("ROS 1 has no services that answer later");
+}
+
+EndpointId advertise_service_later(Bridge& bridge, const std::string& name, const std::string& type,
+                                   py::function callback, TimeForm time) {
+  const messages::ServiceType& listed = listed_service(type, bridge.version());
+  auto on_request = [&listed, name, time, function = share(std::move(callback))](messages::RequestNumber number,
+                                                                                 messages::WireView bytes) {
+    const py::gil_scoped_acquire gil;
+    py::object request;
+    try {
+      request = decode(*listed.request, bytes, {time});
+    } catch (const py::error_already_set& error) {
+      warn_of_dropped(name, error.what());
+      return;
+    }
+    (*function)(number, request);
+  };
+  const py::gil_scoped_release release;
+  return later_services(bridge).advertise_service_later(name, listed, std::move(on_request));
+}
+
+void reply(Bridge& bridge, EndpointId server, messages::RequestNumber number, const py::object& response) {
+  messages::WireBuffer bytes;
+  encode(*bridge.service_type(server).response, response.ptr(), bytes);
+  const py::gil_scoped_release release;
+  later_services(bridge).reply(server, number, std::move(bytes));
+}
+
+void call_later(Bridge& bridge, EndpointId client, const py::object& request, py::function callback, TimeForm time) {
+  const messages::ServiceType& type = bridge.service_type(client);
+  messages::WireBuffer bytes;
+  encode(*type.request, request.ptr(), bytes);
+  auto on_response = [&type, time, function = share(std::move(callback))](messages::WireView response) {
+    const py::gil_scoped_acquire gil;
+    (*function)(decode(*type.response, response, {time}));
+  };
+  const py::gil_scoped_release release;
+  later_services(bridge).call_later(client, std::move(bytes), std::move(on_response));
+}
+
 void bind_qos(py::module_& core) {
   py::class_<Qos>(core, "Qos", "Quality of service of a topic.")
       .def(py::init([](std::uint32_t depth, bool transient_local, bool reliable, bool tcp_no_delay,
@@ -243,6 +288,16 @@ void bind_bridge(py::module_& core) {
            "fails or times out.")
       .def("wait_for_service", &Bridge::wait_for_service, py::arg("name"), py::arg("timeout"), without_gil,
            "Wait at most `timeout` seconds for a service and return whether it exists; check once if `timeout` is 0.")
+      .def("advertise_service_later", &advertise_service_later, py::arg("name"), py::arg("service_type"),
+           py::arg("callback"), py::arg("time"),
+           "Advertise a service of ROS 2; `callback` gets each request as (number, dict), and reply() answers it.")
+      .def("reply", &reply, py::arg("server"), py::arg("number"), py::arg("response"), "Answer a request with a dict.")
+      .def(
+          "service_is_ready",
+          [](Bridge& bridge, EndpointId client) { return later_services(bridge).service_is_ready(client); },
+          py::arg("client"), "Return whether a server of ROS 2 gets the requests of a client.")
+      .def("call_later", &call_later, py::arg("client"), py::arg("request"), py::arg("callback"), py::arg("time"),
+           "Send a request to a service of ROS 2; `callback` gets the response as a dict when it has arrived.")
       .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
       .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
       .def("get_parameter", &get_parameter, py::arg("name"), without_gil,

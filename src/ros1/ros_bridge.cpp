@@ -94,9 +94,10 @@ struct RosBridge::Impl {
 RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     : options(std::move(bridge_options)),
       master({[this] { return watch.check(); }, [this] { return refusal(); },
-              [] {
+              [this] {
                 log_line("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
-                         "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
+                         "; start one with 'roscore'" + options.without_master +
+                         " -- the simulation continues without ROS and connects as soon "
                          "as a master appears");
               },
               [](bool had_master) {

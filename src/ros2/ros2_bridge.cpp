@@ -236,6 +236,22 @@ void Ros2Bridge::shutdown_service_server(EndpointId server) { impl_->services.re
 
 void Ros2Bridge::shutdown_service_client(EndpointId client) { impl_->services.remove_client(client); }
 
+EndpointId Ros2Bridge::advertise_service_later(const std::string& name, const ServiceType& type,
+                                               messages::RequestCallback on_request) {
+  impl_->services.add_server_later(impl_->next_id, impl_->names.resolve(name, "service"), type, std::move(on_request));
+  return impl_->next_id++;
+}
+
+void Ros2Bridge::reply(EndpointId server, messages::RequestNumber request, WireBuffer response) {
+  impl_->services.reply(server, request, std::move(response));
+}
+
+bool Ros2Bridge::service_is_ready(EndpointId client) const { return impl_->services.is_ready(client); }
+
+void Ros2Bridge::call_later(EndpointId client, WireBuffer request, messages::MessageCallback on_response) {
+  impl_->services.call_later(client, std::move(request), std::move(on_response));
+}
+
 std::optional<messages::ParameterValue> Ros2Bridge::get_parameter(const std::string& name) {
   const std::optional<ros2::Value> value = impl_->parameters.get(name);
   if (!value) return std::nullopt;

@@ -173,7 +173,7 @@ def on_time(message):
     int argc = 1;
     std::string name = "test_session";
     std::vector<char*> argv{name.data(), nullptr};
-    if (!node_.bridge) node_.bridge = make_bridge(node_, argc, argv.data());
+    if (node_.bridges.empty()) node_.bridges = make_bridges(node_, argc, argv.data());
   }
 
   /// Loads all modules and starts the threads that stay.

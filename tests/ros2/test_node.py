@@ -111,6 +111,12 @@ def test_a_node_that_was_killed_is_found_again(ros2_domain: Domain, ros2_peer: R
             node.process.kill()
 
 
+def test_the_line_about_the_missing_master_names_ros2(ros2_domain: Domain) -> None:
+    nowhere = ros2_domain.env(ROS_MASTER_URI="http://localhost:1", ROS_HOSTNAME="localhost")
+    run = run_sim("ball", "--until=0.1", env=nowhere)
+    assert "start one with 'roscore', or use ROS 2, which needs none: --ros 2 -- the simulation continues" in run.stderr
+
+
 def test_ctrl_c_ends_the_node(ros2_domain: Domain, tmp_path: Path) -> None:
     with Node(ros2_domain.env(), tmp_path / "log", "ball", "--ros=2") as node:
         node.wait_for_output("load succeeded: node /sim_ros2_interface in domain ")
@@ -121,7 +127,7 @@ def test_ctrl_c_ends_the_node(ros2_domain: Domain, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "env", "reported"),
     [
-        (["--ros=3"], {}, "--ros: 3 not in {1,2}"),
+        (["--ros=3"], {}, "--ros: 3 not in {1,2,both}"),
         (["--ros=2", "--no-ros"], {}, "--ros excludes --no-ros"),
         (["--ros=2", "--record=a.bag"], {}, "--record: needs ROS 1"),
         (["--ros=2", "--replace"], {}, "--replace: needs ROS 1"),

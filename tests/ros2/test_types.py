@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from bubblesim import _core
+from bubblesim.messages.packages import PackageIndex
 from bubblesim.messages.ros2_definitions import read_parts
 from bubblesim.messages.ros2_hashes import message_hash, service_hash
+from bubblesim.messages.ros2_specs import Ros2Specs
 from ros2_peer import PEERS, Ros2Peer, has_ros2
 
 codec = _core.messages
@@ -63,6 +65,20 @@ def test_the_types_of_this_build_have_ros2s_hashes(golden: dict[str, str]) -> No
     compared = (messages | services).keys() & golden.keys()
     assert len(compared) > 100
     assert {name for name in compared if (messages | services)[name] != golden[name]} == set()
+
+
+@pytest.mark.parametrize("action", ["test_msgs/Fibonacci", "test_msgs/NestedMessage"])
+def test_the_parts_of_actions_have_ros2s_hashes(golden: dict[str, str], action: str) -> None:
+    index = PackageIndex()
+    index.add_share(SHARE)
+    specs = Ros2Specs(index)
+    base = specs.load_action(action)
+    messages = {message.full_name: specs.message_hash(message) for message in specs.messages.values()}
+    services = {name: specs.service_hash(name) for name in specs.services}
+    halves = {half.full_name: specs.message_hash(half) for parts in specs.services.values() for half in parts}
+    found = {name: value for name, value in (messages | services | halves).items() if name.startswith(base)}
+    assert len(found) == 10
+    assert {name for name in found if found[name] != golden[name]} == set()
 
 
 def test_ros2_lacks_what_is_ros1s_alone() -> None:

@@ -116,6 +116,30 @@ class Ros2Peer:
         """Answer each request of a service with this response; `requests` returns them."""
         self._send(do="serve", service=service, type=service_type, response=response)
 
+    def send_goal(self, action: str, action_type: str, **goal: Any) -> bool:
+        """Send a goal once the server is there; return whether it was accepted."""
+        answer = self._ask("goal", do="send_goal", action=action, type=action_type, goal=goal)
+        accepted: bool = answer["accepted"]
+        return accepted
+
+    def cancel_goal(self) -> Message:
+        """Cancel the last goal; return the code of the answer and the number of goals that it cancels."""
+        return self._ask("cancel", do="cancel")
+
+    def result(self) -> Message:
+        """Return status and result of the last goal, when it has ended."""
+        self._wait_for("result", 1)
+        return self._received["result"].pop()
+
+    def act(self, action: str) -> None:
+        """Serve test_msgs/action/Fibonacci."""
+        self._send(do="act", action=action)
+
+    def reported(self, label: str) -> list[Message]:
+        """Return what was received on a topic or of "feedback" so far."""
+        self._take_in()
+        return self._received.setdefault(label, [])
+
     def requests(self, service: str) -> list[Message]:
         self._take_in()
         return self._received.setdefault(service, [])

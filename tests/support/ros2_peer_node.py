@@ -17,7 +17,9 @@ from typing import Any
 
 import numpy as np
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message, serialize_message
@@ -87,6 +89,7 @@ class Peer:
         self.node = node
         self.publishers: dict[str, Any] = {}
         self.kept: list[Any] = []
+        self.goal: Any = None
 
     def subscribe(self, topic: str, type: str, qos: dict[str, Any]) -> None:  # noqa: A002
         def received(message: Any) -> None:
@@ -116,6 +119,61 @@ class Peer:
             return fill(answered, response)
 
         self.kept.append(self.node.create_service(type_of(type), service, answer))
+
+    def send_goal(self, action: str, type: str, goal: dict[str, Any]) -> None:  # noqa: A002
+        kind = type_of(type)
+        client = ActionClient(self.node, kind, action)
+        client.wait_for_server()
+
+        def ended(future: Any) -> None:
+            report("result", {"status": future.result().status, "result": plain(future.result().result)})
+
+        def answered(future: Any) -> None:
+            self.goal = future.result()
+            report("goal", {"accepted": self.goal.accepted})
+            if self.goal.accepted:
+                self.goal.get_result_async().add_done_callback(ended)
+
+        def heard(message: Any) -> None:
+            report("feedback", plain(message.feedback))
+
+        self.kept.append(client)
+        client.send_goal_async(fill(kind.Goal(), goal), feedback_callback=heard).add_done_callback(answered)
+
+    def cancel(self) -> None:
+        def answered(future: Any) -> None:
+            report("cancel", {"code": future.result().return_code, "goals": len(future.result().goals_canceling)})
+
+        self.goal.cancel_goal_async().add_done_callback(answered)
+
+    def act(self, action: str) -> None:
+        """Serve test_msgs/action/Fibonacci: a negative order is rejected, one above 100 runs until it is cancelled."""
+        kind = type_of("test_msgs/action/Fibonacci")
+
+        def execute(handle: Any) -> Any:
+            sequence = [0, 1]
+            while len(sequence) < handle.request.order:
+                if handle.is_cancel_requested:
+                    handle.canceled()
+                    return kind.Result(sequence=sequence)
+                if len(sequence) < 40:
+                    sequence.append(sequence[-1] + sequence[-2])
+                handle.publish_feedback(kind.Feedback(sequence=sequence))
+                time.sleep(0.05)
+            handle.succeed()
+            return kind.Result(sequence=sequence)
+
+        self.kept.append(
+            ActionServer(
+                self.node,
+                kind,
+                action,
+                execute,
+                goal_callback=lambda goal: GoalResponse.ACCEPT if goal.order >= 0 else GoalResponse.REJECT,
+                cancel_callback=lambda _goal: CancelResponse.ACCEPT,
+                callback_group=ReentrantCallbackGroup(),
+            )
+        )
 
     def graph(self) -> None:
         topics = {
@@ -149,7 +207,7 @@ def main() -> None:
     rclpy.init()
     node = Node("peer")
     peer = Peer(node)
-    executor = SingleThreadedExecutor()
+    executor = MultiThreadedExecutor(4)
     executor.add_node(node)
 
     def spin() -> None:

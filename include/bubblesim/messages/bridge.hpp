@@ -41,6 +41,8 @@ struct NoParameterServer : std::runtime_error {
 /// std::monostate stands for lists and dictionaries, which scripts do not read.
 using ParameterValue = std::variant<std::monostate, bool, std::int32_t, double, std::string>;
 
+class LaterServices;
+
 struct BridgeTime {
   std::uint32_t sec = 0;
   std::uint32_t nanosec = 0;
@@ -90,6 +92,8 @@ class Bridge {
   virtual bool wait_for_service(const std::string& name, double timeout) = 0;
   virtual void shutdown_service_server(EndpointId server) = 0;
   virtual void shutdown_service_client(EndpointId client) = 0;
+  /// Null for a bridge without them.
+  virtual LaterServices* later_services() { return nullptr; }
 
   /// Parameters: in ROS 1 those of all nodes, which the master keeps; in ROS 2 those of this node, `~a` or `a`. Reading
   /// waits for the answer, and throws NoParameterServer when the master has not answered for a second. Writing does not

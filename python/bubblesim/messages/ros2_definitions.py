@@ -60,7 +60,10 @@ class FieldType:
 
 @dataclass
 class Ros2Message:
-    """A message, or a part of a service or action: `std_srvs/SetBool_Request`, whose folder is "srv"."""
+    """A message, or a part of a service or action: `std_srvs/SetBool_Request`, whose folder is "srv".
+
+    Parts of actions have the folder "action" in their names: `test_msgs/action/Fibonacci_Goal`.
+    """
 
     name: str
     folder: str = "msg"
@@ -71,7 +74,7 @@ class Ros2Message:
     def full_name(self) -> str:
         """Return the name in ROS 2's spelling, `geometry_msgs/msg/Twist`."""
         package, _, short = self.name.partition("/")
-        return f"{package}/{self.folder}/{short}"
+        return self.name if "/" in short else f"{package}/{self.folder}/{short}"
 
     @property
     def text(self) -> str:
@@ -85,7 +88,7 @@ class DefinitionError(ValueError):
 
 
 def read_parts(text: str, name: str, folder: str) -> list[Ros2Message]:
-    """Read a .msg, .srv or .action file: one message, two or three parts; name: `package/Type`."""
+    """Read a .msg, .srv or .action file: one message, two or three parts; name: theirs without their endings."""
     endings = {"msg": [""], "srv": ["_Request", "_Response"], "action": ["_Goal", "_Result", "_Feedback"]}[folder]
     parts = [Ros2Message(name + ending, folder) for ending in endings]
     at = 0

@@ -56,7 +56,7 @@ def service_hash(name: str, request: Ros2Message, response: Ros2Message, find: F
     """Return the hash of a service `package/Type`."""
     event = Ros2Message(
         f"{name}_Event",
-        "srv",
+        request.folder,
         [
             ("info", FieldType(_EVENT_INFO.name)),
             ("request", FieldType(request.name, is_array=True, length=1, is_bounded=True)),
@@ -69,7 +69,7 @@ def service_hash(name: str, request: Ros2Message, response: Ros2Message, find: F
         return parts.get(wanted) or find(wanted)
 
     fields = [(f"{label}_message", FieldType(part.name)) for label, part in _labelled(request, response, event)]
-    service = Ros2Message(name, "srv", fields)
+    service = Ros2Message(name, request.folder, fields)
     return _hash(_description(service, find_part), _nested(fields, find_part))
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from bubblesim.messages.packages import Definition, PackageIndex
-from bubblesim.messages.ros2_definitions import DefinitionError, Ros2Message, read_parts
+from bubblesim.messages.ros2_definitions import DefinitionError, FieldType, Ros2Message, read_parts
 from bubblesim.messages.ros2_hashes import message_hash, service_hash
 from bubblesim.messages.specs import SpecError
 
@@ -72,6 +72,52 @@ class Ros2Specs:
                 self.services[name] = (parts[0], parts[1])
             self.files.add(definition.file)
         return definition.file
+
+    def load_action(self, name: str) -> str:
+        """Load the parts of an action `package/Type`; return the beginning of their names, `package/action/Type`."""
+        base = name.replace("/", "/action/")
+        goal, result, feedback = parts = self._parts_of_action(name, base)
+        for part in parts:
+            self.messages[part.name] = part
+        for needed in ("unique_identifier_msgs/UUID", "builtin_interfaces/Time"):
+            self.load(needed, "msg")
+        goal_id = ("goal_id", FieldType("unique_identifier_msgs/UUID"))
+        stamp = ("stamp", FieldType("builtin_interfaces/Time"))
+
+        def made(ending: str, *fields: tuple[str, FieldType]) -> Ros2Message:
+            return Ros2Message(f"{base}_{ending}", "action", list(fields))
+
+        message = made("FeedbackMessage", goal_id, ("feedback", FieldType(feedback.name)))
+        self.messages[message.name] = message
+        self.services[f"{base}_SendGoal"] = (
+            made("SendGoal_Request", goal_id, ("goal", FieldType(goal.name))),
+            made("SendGoal_Response", ("accepted", FieldType("bool")), stamp),
+        )
+        self.services[f"{base}_GetResult"] = (
+            made("GetResult_Request", goal_id),
+            made("GetResult_Response", ("status", FieldType("int8")), ("result", FieldType(result.name))),
+        )
+        return base
+
+    def _parts_of_action(self, name: str, base: str) -> list[Ros2Message]:
+        """Return goal, result and feedback, from the .action file or from the messages that ROS 1 makes of it."""
+        definition = self.index.find(name, "action")
+        if definition is not None:
+            parts = _read(definition, base, "action")
+            for part in parts:
+                self._load_nested(part, definition, (name,))
+            self.files.add(definition.file)
+            return parts
+        parts = []
+        for ending in ("Goal", "Result", "Feedback"):
+            found = self.index.find(f"{name}{ending}", "msg")
+            if found is None:
+                raise SpecError(f"{name} has no definition: expected package/Name such as test_msgs/Fibonacci")
+            (message,) = _read(found, f"{name}{ending}", "msg")
+            part = Ros2Message(f"{base}_{ending}", "action", message.fields, message.constants)
+            self._load_nested(part, found, (name,))
+            parts.append(part)
+        return parts
 
     def message_hash(self, message: Ros2Message) -> str:
         """Return the hash of a loaded message, or of a half of a service."""

@@ -34,6 +34,28 @@ def add_service(name: str, version: _core.messages.RosVersion) -> None:
     _add(name, "srv", version)
 
 
+def add_action(given_name: str) -> str:
+    """Add the parts of an action of ROS 2; return the beginning of their names, `package/action/Type`.
+
+    Raise MessageError if that fails.
+    """
+    name = type_name(given_name.replace("/action/", "/"))
+    if name is None:
+        raise _core.MessageError(
+            f"'{given_name}' is not a type name, expected package/Name such as test_msgs/Fibonacci"
+        )
+    specs = Ros2Specs(machine_index())
+    try:
+        base = specs.load_action(name)
+    except SpecError as error:
+        actions = {each.removesuffix("Goal") for each in specs.index.names("msg") if each.endswith("ActionGoal")}
+        known = sorted({*specs.index.names("action"), *(each.removesuffix("Action") for each in actions)})
+        raise _core.MessageError(f"{error}{did_you_mean(nearest_names(name, known))}") from error
+    with _lock:
+        _register_ros2(specs)
+    return base
+
+
 def _add(given_name: str, kind: str, version: _core.messages.RosVersion) -> None:
     specs = Specs(machine_index())
     name = type_name(given_name)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from bubblesim.both_bridges import BothBridges
 from bubblesim.observers.bag_recorder import BagRecorder
 from bubblesim.observers.lock_step import LockStep
 from bubblesim.observers.observed_bridge import ObservedBridge, Observer
@@ -20,13 +21,16 @@ class Observers:
         :param record: file of the bag to write, empty for none.
         :param lockstep: topics that each step waits for; see LockStep.
         """
+        both = bridge if isinstance(bridge, BothBridges) else None
+        bridge = both.ros1 if both else bridge  # bags and lockstep are of ROS 1 then
         self._observers: list[Observer] = []
         if record:
             self._observers.append(BagRecorder(Path(record), bridge))
         lock_step = LockStep(lockstep, bridge, runner) if lockstep else None
         if lock_step:
             self._observers.append(lock_step)
-        self.bridge = ObservedBridge(bridge, self._observers, keeps_all=bool(record), lockstep=lock_step)
+        observed = ObservedBridge(bridge, self._observers, keeps_all=bool(record), lockstep=lock_step)
+        self.bridge: Any = BothBridges(observed, both.ros2) if both else observed
 
     def process_input(self) -> None:
         """Notify the observers after input was processed."""

@@ -47,8 +47,10 @@ std::string with_slash(const std::string& name) {
 }
 
 std::string dds_type(const std::string& type, const std::string& folder, const std::string& ending) {
-  const std::size_t slash = type.find('/');
-  return type.substr(0, slash) + "::" + folder + "::dds_::" + type.substr(slash + 1) + ending + "_";
+  const std::size_t first = type.find('/');
+  const std::size_t last = type.rfind('/');  // parts of actions have their folder in the name: `pkg/action/Type_Goal`
+  const std::string place = first == last ? folder : type.substr(first + 1, last - first - 1);
+  return type.substr(0, first) + "::" + place + "::dds_::" + type.substr(last + 1) + ending + "_";
 }
 
 }  // namespace

@@ -91,6 +91,15 @@ void LateReplies::add(std::shared_ptr<ReplyWriter> writer, const RequestId& id, 
   changed_.notify_all();
 }
 
+void LateReplies::keep(std::shared_ptr<ReplyWriter> writer) {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_.push_back({std::move(writer), Clock::now() + kMostWaiting});
+    ++wakes_;
+  }
+  changed_.notify_all();
+}
+
 void LateReplies::wake() {
   {
     const std::lock_guard lock(mutex_);
@@ -104,8 +113,14 @@ void LateReplies::run() {
   while (!ending_) {
     const int seen = wakes_;
     std::deque<Reply> waiting = std::exchange(replies_, {});
-    lock.unlock();  // to write takes locks of Fast DDS, which calls wake() under them
     const auto now = Clock::now();
+    std::vector<std::shared_ptr<ReplyWriter>> gone;
+    while (!ended_.empty() && ended_.front().until <= now) {
+      gone.push_back(std::move(ended_.front().writer));
+      ended_.pop_front();
+    }
+    lock.unlock();  // to write takes locks of Fast DDS, which calls wake() under them
+    gone.clear();
     const auto left = std::remove_if(waiting.begin(), waiting.end(), [now](Reply& reply) {
       if (!reply.writer->reaches(reply.id)) return reply.deadline <= now;
       reply.writer->send_now(reply.id, reply.message);
@@ -115,10 +130,13 @@ void LateReplies::run() {
     lock.lock();
     std::move(waiting.begin(), waiting.end(), std::back_inserter(replies_));
     const auto woken = [&] { return ending_ || wakes_ != seen; };
-    if (replies_.empty()) {
+    auto next = Clock::time_point::max();
+    if (!replies_.empty()) next = replies_.front().deadline;
+    if (!ended_.empty()) next = std::min(next, ended_.front().until);
+    if (next == Clock::time_point::max()) {
       changed_.wait(lock, woken);
     } else {
-      changed_.wait_until(lock, replies_.front().deadline, woken);
+      changed_.wait_until(lock, next, woken);
     }
   }
 }

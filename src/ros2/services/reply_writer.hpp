@@ -49,11 +49,17 @@ class LateReplies {
   LateReplies& operator=(const LateReplies&) = delete;
 
   void add(std::shared_ptr<ReplyWriter> writer, const RequestId& id, messages::WireBuffer reply);
+  /// Keeps the writer of a service that ends for a second: clients may have to ask for lost replies.
+  void keep(std::shared_ptr<ReplyWriter> writer);
   /// To be called when a reader has appeared.
   void wake();
 
  private:
   using Clock = std::chrono::steady_clock;
+  struct Ended {
+    std::shared_ptr<ReplyWriter> writer;
+    Clock::time_point until;
+  };
   struct Reply {
     std::shared_ptr<ReplyWriter> writer;
     RequestId id;
@@ -66,6 +72,7 @@ class LateReplies {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Reply> replies_;  // guarded, like what follows
+  std::deque<Ended> ended_;
   bool ending_ = false;
   int wakes_ = 0;
   std::thread thread_;

@@ -46,10 +46,11 @@ class ServiceClient::ReplyListener final : public dds::DataReaderListener {
 };
 
 ServiceClient::ServiceClient(Participant& participant, std::string name, const messages::ServiceType& type,
-                             RequestQueue& queue)
+                             RequestQueue& queue, CallbackGuard& guard)
     : name_(std::move(name)),
       type_(type),
       queue_(queue),
+      guard_(guard),
       request_listener_(std::make_unique<RequestListener>(*this)),
       reply_listener_(std::make_unique<ReplyListener>(*this)),
       replies_(std::make_unique<Reader>(participant, reply_topic(name_, type), messages::Qos(), reply_listener_.get())),
@@ -58,7 +59,13 @@ ServiceClient::ServiceClient(Participant& participant, std::string name, const m
 
 ServiceClient::~ServiceClient() = default;
 
-std::optional<std::int64_t> ServiceClient::send(messages::WireBuffer request) {
+std::optional<std::int64_t> ServiceClient::send(messages::WireBuffer request) { return send(std::move(request), {}); }
+
+void ServiceClient::call_later(messages::WireBuffer request, messages::MessageCallback on_response) {
+  send(std::move(request), {{}, std::make_shared<messages::MessageCallback>(std::move(on_response))});
+}
+
+std::optional<std::int64_t> ServiceClient::send(messages::WireBuffer request, Call call) {
   // A server with Cyclone DDS takes the number from the header, one with Fast DDS that of the sample: they count alike.
   const std::lock_guard lock(mutex_);  // so that no reply comes before its number is known
   rtps::WriteParams parameters;
@@ -72,12 +79,12 @@ std::optional<std::int64_t> ServiceClient::send(messages::WireBuffer request) {
     std::memcpy(header.data() + 8, &number, sizeof(number));
     messages::WireBuffer whole = with_header(header, request);
     if (!write(**requests_, whole, parameters)) return std::nullopt;
-    calls_[-number];
+    calls_[-number] = std::move(call);
     return -number;
   }
   if (!write(**requests_, request, parameters)) return std::nullopt;
   const auto number = static_cast<std::int64_t>(parameters.sample_identity().sequence_number().to64long());
-  calls_[number];
+  calls_[number] = std::move(call);
   return number;
 }
 
@@ -100,15 +107,24 @@ void ServiceClient::receive(const dds::SampleInfo& info, std::vector<std::uint8_
   }
   const auto call = calls_.find(number);
   if (call == calls_.end()) return;
-  call->second = std::move(message);
-  queue_.wake();
+  if (!call->second.on_response) {
+    call->second.reply = std::move(message);
+    queue_.wake();
+    return;
+  }
+  queue_.add([&guard = guard_, open = std::weak_ptr<bool>(open_), on_response = std::move(call->second.on_response),
+              reply = std::move(message)] {
+    if (open.expired()) return;
+    guard.run([&] { (*on_response)(messages::WireView(reply.data(), reply.size())); });
+  });
+  calls_.erase(call);
 }
 
 std::optional<std::vector<std::uint8_t>> ServiceClient::take_reply(std::int64_t number) {
   const std::lock_guard lock(mutex_);
   const auto call = calls_.find(number);
-  if (call == calls_.end() || !call->second) return std::nullopt;
-  std::vector<std::uint8_t> reply = std::move(*call->second);
+  if (call == calls_.end() || !call->second.reply) return std::nullopt;
+  std::vector<std::uint8_t> reply = std::move(*call->second.reply);
   calls_.erase(call);
   return reply;
 }

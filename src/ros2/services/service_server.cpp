@@ -66,15 +66,40 @@ class ServiceServer::Listener final : public dds::DataReaderListener {
 ServiceServer::ServiceServer(Participant& participant, std::string name, const messages::ServiceType& type,
                              messages::ServiceCallback callback, RequestQueue& queue, CallbackGuard& guard,
                              LateReplies& late, Rosout& log)
-    : name_(std::move(name)),
-      type_(type),
-      responder_(std::make_shared<Responder>(
-          Responder{name_, type, guard, log, std::make_shared<messages::ServiceCallback>(std::move(callback)),
-                    std::make_shared<ReplyWriter>(participant, reply_topic(name_, type), messages::Qos(), late)})),
-      listener_(std::make_unique<Listener>(queue, responder_)),
-      requests_(std::make_unique<Reader>(participant, request_topic(name_, type), messages::Qos(), listener_.get())) {}
+    : ServiceServer(participant, std::make_shared<Responder>(participant, std::move(name), type, guard, late, log),
+                    queue) {
+  responder_->callback = std::make_shared<messages::ServiceCallback>(std::move(callback));
+}
 
-ServiceServer::~ServiceServer() = default;
+ServiceServer::ServiceServer(Participant& participant, std::string name, const messages::ServiceType& type,
+                             messages::RequestCallback on_request, RequestQueue& queue, CallbackGuard& guard,
+                             LateReplies& late, Rosout& log)
+    : ServiceServer(participant, std::make_shared<Responder>(participant, std::move(name), type, guard, late, log),
+                    queue) {
+  responder_->on_request = std::make_shared<messages::RequestCallback>(std::move(on_request));
+}
+
+ServiceServer::ServiceServer(Participant& participant, std::shared_ptr<Responder> responder, RequestQueue& queue)
+    : name_(responder->name),
+      type_(responder->type),
+      responder_(std::move(responder)),
+      listener_(std::make_unique<Listener>(queue, responder_)),
+      requests_(std::make_unique<Reader>(participant, request_topic(name_, type_), messages::Qos(), listener_.get())) {}
+
+ServiceServer::Responder::Responder(Participant& participant, std::string service,
+                                    const messages::ServiceType& its_type, CallbackGuard& its_guard,
+                                    LateReplies& its_late, Rosout& its_log)
+    : name(std::move(service)),
+      type(its_type),
+      guard(its_guard),
+      late(its_late),
+      log(its_log),
+      replies(std::make_shared<ReplyWriter>(participant, reply_topic(name, type), messages::Qos(), its_late)) {}
+
+ServiceServer::~ServiceServer() {
+  requests_.reset();
+  responder_->late.keep(responder_->replies);
+}
 
 WireBuffer ServiceServer::Responder::answer(WireView request) {
   const auto called = callback;  // the callback may shut down the service
@@ -99,6 +124,12 @@ WireBuffer ServiceServer::Responder::answer(WireView request) {
 }
 
 void ServiceServer::Responder::reply(const RequestId& id, WireView request) {
+  if (on_request) {
+    const auto called = on_request;  // the callback may shut down the service
+    unanswered.emplace(++last_number, id);
+    guard.run([&] { (*called)(last_number, request); });
+    return;
+  }
   if (!callback) return;  // shut down since the request arrived
   WireBuffer response;
   try {
@@ -114,6 +145,13 @@ void ServiceServer::Responder::reply(const RequestId& id, WireView request) {
     }
   }
   replies->send(id, std::move(response));
+}
+
+void ServiceServer::reply(messages::RequestNumber number, WireBuffer response) {
+  const auto request = responder_->unanswered.find(number);
+  if (request == responder_->unanswered.end()) return;
+  responder_->replies->send(request->second, std::move(response));
+  responder_->unanswered.erase(request);
 }
 
 }  // namespace bubblesim::ros2

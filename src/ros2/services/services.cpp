@@ -41,14 +41,38 @@ Services::Services(Participant& participant, CallbackGuard& guard, Arrivals& arr
 
 void Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
                           messages::ServiceCallback callback, RequestQueue* queue) {
-  if (find_own(name) != nullptr) throw std::invalid_argument("service '" + name + "' is already advertised here");
+  check_free(name);
   servers_.emplace(id, std::make_shared<ServiceServer>(participant_, name, type, std::move(callback),
                                                        queue != nullptr ? *queue : queue_, guard_, late_, log_));
   if (queue != nullptr) answered_elsewhere_.insert(id);
 }
 
+void Services::add_server_later(EndpointId id, const std::string& name, const ServiceType& type,
+                                messages::RequestCallback on_request) {
+  check_free(name);
+  servers_.emplace(id, std::make_shared<ServiceServer>(participant_, name, type, std::move(on_request), queue_, guard_,
+                                                       late_, log_));
+  answered_elsewhere_.insert(id);
+}
+
+void Services::check_free(const std::string& name) const {
+  if (find_own(name) != nullptr) throw std::invalid_argument("service '" + name + "' is already advertised here");
+}
+
+void Services::reply(EndpointId server, messages::RequestNumber request, WireBuffer response) {
+  find_endpoint(servers_, server, "service server")->second->reply(request, std::move(response));
+}
+
+bool Services::is_ready(EndpointId client) const {
+  return find_endpoint(clients_, client, "service client")->second->is_ready();
+}
+
+void Services::call_later(EndpointId client, WireBuffer request, messages::MessageCallback on_response) {
+  find_endpoint(clients_, client, "service client")->second->call_later(std::move(request), std::move(on_response));
+}
+
 void Services::add_client(EndpointId id, const std::string& name, const ServiceType& type) {
-  clients_.emplace(id, std::make_shared<ServiceClient>(participant_, name, type, queue_));
+  clients_.emplace(id, std::make_shared<ServiceClient>(participant_, name, type, queue_, guard_));
 }
 
 void Services::remove_server(EndpointId id) {

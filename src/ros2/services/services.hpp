@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/messages/later_services.hpp"
 #include "endpoint_table.hpp"
 #include "services/reply_writer.hpp"
 #include "services/request_queue.hpp"
@@ -26,6 +27,11 @@ class Services {
   /// requests; scripts cannot call such a service. nullptr: they are answered by serve().
   void add_server(messages::EndpointId id, const std::string& name, const messages::ServiceType& type,
                   messages::ServiceCallback callback, RequestQueue* queue = nullptr);
+  void add_server_later(messages::EndpointId id, const std::string& name, const messages::ServiceType& type,
+                        messages::RequestCallback on_request);
+  void reply(messages::EndpointId server, messages::RequestNumber request, messages::WireBuffer response);
+  bool is_ready(messages::EndpointId client) const;
+  void call_later(messages::EndpointId client, messages::WireBuffer request, messages::MessageCallback on_response);
   void add_client(messages::EndpointId id, const std::string& name, const messages::ServiceType& type);
   void remove_server(messages::EndpointId id);
   void remove_client(messages::EndpointId id);
@@ -40,6 +46,7 @@ class Services {
 
  private:
   ServiceServer* find_own(const std::string& name) const;
+  void check_free(const std::string& name) const;
   bool wait_until(const std::function<bool()>& done, RequestQueue::Clock::time_point deadline);
   messages::ServiceError not_there(const ServiceClient& client, double timeout) const;
 
