@@ -30,7 +30,7 @@ try:
 
     import rules
     from bubblesim.messages.kinds import has_header
-    from bubblesim.messages.lists import Entry, read_list
+    from bubblesim.messages.lists import Entry, read_interfaces, read_list
     from bubblesim.messages.names import split_name
     from bubblesim.messages.packages import build_index
     from bubblesim.messages.ros2_definitions import Ros2Message
@@ -175,6 +175,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="generate.py", description=__doc__.partition("\n")[0])
     parser.add_argument("--messages", type=Path, default=HERE / "messages.txt", help="list of message types")
     parser.add_argument("--services", type=Path, default=HERE / "services.txt", help="list of service types")
+    parser.add_argument(
+        "--interfaces", type=Path, default=HERE / "interfaces.txt", help="list of both, such as std_msgs/msg/String"
+    )
     parser.add_argument("--ros2", action="store_true", help="also write the tables of ROS 2's types")
     parser.add_argument("--output", type=Path, required=True, help="folder for the generated files")
     parser.add_argument("--project", type=Path, default=HERE.parent, help="root of this project in the build")
@@ -205,6 +208,8 @@ def main(arguments: list[str]) -> int:
     specs = Specs(index)
     messages = read_list(options.messages, shown_path(options.messages), problems, warnings)
     services = read_list(options.services, shown_path(options.services), problems, warnings)
+    more = read_interfaces(options.interfaces, shown_path(options.interfaces), problems, warnings)
+    messages, services = united(messages, more[0]), united(services, more[1])
     specs.load_list(messages, "msg", problems)
     specs.load_list(services, "srv", problems)
     ros2 = Ros2Specs(index)
@@ -214,11 +219,18 @@ def main(arguments: list[str]) -> int:
         print(text, file=sys.stderr)
     if problems:
         return 1
-    own = [options.messages, options.services, *HERE.glob("*.py"), *HERE.glob("templates/*.em")]
+    own = [options.messages, options.services, *([options.interfaces] if options.interfaces.is_file() else [])]
+    own += [*HERE.glob("*.py"), *HERE.glob("templates/*.em")]
     own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]
     inputs = {path.absolute() for path in [*own, *specs.files, *ros2.files, *index.watched]}
     write_tables(all_tables(specs), all_ros2_tables(ros2), sorted(inputs), options.output)
     return 0
+
+
+def united(entries: list[Entry], more: list[Entry]) -> list[Entry]:
+    """Return the entries of both lists, without repetitions."""
+    names = {entry.name for entry in entries}
+    return [*entries, *(entry for entry in more if entry.name not in names)]
 
 
 def load_ros2(specs: Ros2Specs, messages: list[Entry], services: list[Entry], problems: list[str]) -> None:

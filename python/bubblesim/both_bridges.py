@@ -17,7 +17,7 @@ class BothBridges:
     """Has the functions of ``bubblesim._core.Bridge``. Scripts use a side of it: see ``bridge_of``."""
 
     def __init__(self, ros1: Any, ros2: Any) -> None:
-        """Join two bridges; ``ros1`` may be an ObservedBridge."""
+        """Join two bridges; they may be ObservedBridges."""
         self.ros1 = ros1
         self.ros2 = ros2
         self._handles: dict[int, Handles] = {}
@@ -26,7 +26,7 @@ class BothBridges:
     @property
     def keeps_all(self) -> bool:
         """Return whether an observer uses all messages, also those without subscribers."""
-        return bool(getattr(self.ros1, "keeps_all", False))
+        return any(getattr(side, "keeps_all", False) for side in (self.ros1, self.ros2))
 
     def advertise(self, topic: str, message_type: str, qos: Any) -> int:
         """Advertise a topic on both sides."""

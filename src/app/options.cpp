@@ -137,7 +137,8 @@ ParsedOptions parse_options(int argc, char** argv) {
                  "(repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--watch", options.watch, "reload a script when its file changes");
-  app.add_option("--record", options.record, "FILE: record the messages that scripts publish and receive in a bag");
+  app.add_option("--record", options.record,
+                 "FILE: record the messages that scripts publish and receive in a bag, with ROS 2 in FILE.mcap");
   app.add_option("--lockstep", options.lockstep, "TOPIC: in each step, wait for one message on it (repeatable)")
       ->allow_extra_args(false);
   CLI::Option* remote = app.add_option("--remote", remote_port,
@@ -193,9 +194,11 @@ ParsedOptions parse_options(int argc, char** argv) {
                                  "only look could connect there and change the simulation");
     }
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");
-    if (options.ros == Ros::kRos2 && !options.record.empty()) {
-      throw CLI::ValidationError("--record", "needs ROS 1, whose bags it writes: --ros=1");
+    const bool mcap = options.record.extension() == ".mcap";
+    if (options.ros == Ros::kRos2 && !options.record.empty() && !mcap) {
+      throw CLI::ValidationError("--record", "the files of ROS 2 are named FILE.mcap");
     }
+    if (options.ros == Ros::kRos1 && mcap) throw CLI::ValidationError("--record", ".mcap is of ROS 2: --ros=2");
     if (options.ros == Ros::kRos2 && options.replace) {
       throw CLI::ValidationError("--replace", "needs ROS 1: nodes of ROS 2 may have the same name");
     }

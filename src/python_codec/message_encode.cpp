@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Encodes a dict to wire bytes.
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -21,9 +22,11 @@ using messages::FieldKind;
 using messages::Layout;
 using messages::MessageType;
 
+/// The layout is known here, so that the packed one of ROS 1 spends nothing on alignment.
+template <Layout layout>
 class Encoder {
  public:
-  explicit Encoder(messages::WireBuffer& out) : out_(out) {}
+  explicit Encoder(messages::WireBuffer& out) : out_(out) { out_.begin(layout); }
 
   /// All functions return false if `failure` has the reason or a Python exception is set.
   ConversionFailure failure;
@@ -31,7 +34,7 @@ class Encoder {
   bool message(const MessageType& type, PyObject* value) {
     if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
     const Ref held = Ref::borrow(value);  // Python code of a value may release it
-    if (type.fields.empty()) out_.put_empty();
+    if (kIsCdr && type.fields.empty()) out_.put_empty();
     Py_ssize_t used = 0;
     Py_ssize_t position = 0;
     for (const Field& field : type.fields) {
@@ -60,6 +63,8 @@ class Encoder {
   }
 
  private:
+  static constexpr bool kIsCdr = layout == Layout::kCdr;
+
   bool field(const Field& field, PyObject* value) {
     if (field.array == ArrayKind::kNone) return element(field, value);
     if (is_number(field.kind)) return encode_numbers(field, value, out_, failure);
@@ -112,8 +117,7 @@ class Encoder {
       case FieldKind::kString:
         return string(value);
       case FieldKind::kTime:
-        if (out_.layout() == Layout::kPacked) return time<std::uint32_t>(value);
-        return time<std::int32_t>(value);
+        return kIsCdr ? time<std::int32_t>(value) : time<std::uint32_t>(value);
       case FieldKind::kDuration:
         return time<std::int32_t>(value);
       case FieldKind::kMessage:
@@ -123,10 +127,16 @@ class Encoder {
   }
 
   template <class T>
+  void put(T number) {
+    if constexpr (kIsCdr) out_.align(sizeof(T));
+    std::memcpy(out_.extend(sizeof(T)), &number, sizeof(T));
+  }
+
+  template <class T>
   bool number(PyObject* value) {
     T number{};
     if (!read_number(value, number, failure)) return false;
-    out_.put(number);
+    put(number);
     return true;
   }
 
@@ -144,8 +154,8 @@ class Encoder {
   bool time(PyObject* value) {
     TimeParts<T> parts;
     if (!read_time(value, parts, failure)) return false;
-    out_.put(parts.secs);
-    out_.put(parts.nsecs);
+    put(parts.secs);
+    put(parts.nsecs);
     return true;
   }
 
@@ -183,18 +193,24 @@ class Encoder {
   messages::WireBuffer& out_;
 };
 
-}  // namespace
-
-bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
-                    std::vector<Truncation>* truncations) {
-  out.begin(layout_of(type.version));
-  Encoder encoder(out);
+template <Layout layout>
+bool encode_as(const MessageType& type, PyObject* message, messages::WireBuffer& out,
+               std::vector<Truncation>* truncations) {
+  Encoder<layout> encoder(out);
   if (encoder.message(type, message)) {
     if (truncations != nullptr) *truncations = encoder.failure.take_truncations();
     return true;
   }
   encoder.failure.raise(type.name);
   return false;
+}
+
+}  // namespace
+
+bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
+                    std::vector<Truncation>* truncations) {
+  return layout_of(type.version) == Layout::kCdr ? encode_as<Layout::kCdr>(type, message, out, truncations)
+                                                 : encode_as<Layout::kPacked>(type, message, out, truncations);
 }
 
 }  // namespace bubblesim::bindings

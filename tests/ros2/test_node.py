@@ -129,7 +129,8 @@ def test_ctrl_c_ends_the_node(ros2_domain: Domain, tmp_path: Path) -> None:
     [
         (["--ros=3"], {}, "--ros: 3 not in {1,2,both}"),
         (["--ros=2", "--no-ros"], {}, "--ros excludes --no-ros"),
-        (["--ros=2", "--record=a.bag"], {}, "--record: needs ROS 1"),
+        (["--ros=2", "--record=a.bag"], {}, "--record: the files of ROS 2 are named FILE.mcap"),
+        (["--record=a.mcap"], {}, "--record: .mcap is of ROS 2: --ros=2"),
         (["--ros=2", "--replace"], {}, "--replace: needs ROS 1"),
         (["--ros=2", "__name:=a/b"], {}, "invalid name for the ROS node: 'a/b' has a '/'"),
         (["--ros=2"], {"ROS_DOMAIN_ID": "300"}, "ROS_DOMAIN_ID must be 0 to 232, found '300'"),

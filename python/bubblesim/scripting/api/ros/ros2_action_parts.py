@@ -104,11 +104,11 @@ class Ros2ActionParts:
 
     def check_goal(self, goal: Message) -> None:
         """Raise the MessageError of a goal that cannot be sent."""
-        _core.messages.encode(f"{self._type}_Goal", goal, _ROS2)
+        _core.messages.encode_ros2(f"{self._type}_Goal", goal)
 
     def check_result(self, result: Message) -> None:
         """Raise the MessageError of a result that cannot be sent."""
-        _core.messages.encode(f"{self._type}_Result", result, _ROS2)
+        _core.messages.encode_ros2(f"{self._type}_Result", result)
 
     def default_result(self) -> dict[str, Any]:
         """Return a result with all fields at their defaults."""
