@@ -10,6 +10,7 @@ import fcntl
 import itertools
 import json
 import os
+import signal
 import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -88,6 +89,18 @@ class Ros2Peer:
     def say(self, topic: str, message_type: str, message: Message, **qos: Any) -> None:
         """Publish once the topic has a subscriber."""
         self._send(do="say", topic=topic, type=message_type, message=message, qos=qos)
+
+    def say_bytes(self, topic: str, message_type: str, data: list[bytes]) -> None:
+        """Publish serialized messages once the topic has a subscriber."""
+        encoded = [base64.b64encode(each).decode() for each in data]
+        self._send(do="say_bytes", topic=topic, type=message_type, data=encoded)
+
+    def stop(self) -> None:
+        """Stop the process, as a debugger does."""
+        os.kill(self._process.pid, signal.SIGSTOP)
+
+    def go_on(self) -> None:
+        os.kill(self._process.pid, signal.SIGCONT)
 
     def received(self, topic: str, message_type: str = "", **qos: Any) -> list[Message]:
         """Return all messages since the first call for the topic, which must give its type."""

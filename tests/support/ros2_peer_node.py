@@ -104,6 +104,15 @@ class Peer:
             time.sleep(0.01)
         self.publishers[topic].publish(fill(type_of(type)(), message))
 
+    def say_bytes(self, topic: str, type: str, data: list[str]) -> None:  # noqa: A002
+        publisher = self.node.create_publisher(type_of(type), topic, 100)
+        while publisher.get_subscription_count() == 0:
+            time.sleep(0.01)
+        for each in data:
+            publisher.publish(base64.b64decode(each))
+            time.sleep(0.002)  # the subscriber keeps a few only
+        self.kept.append(publisher)
+
     def call(self, service: str, type: str, request: dict[str, Any]) -> None:  # noqa: A002
         kind = type_of(type)
         client = self.node.create_client(kind, service)
