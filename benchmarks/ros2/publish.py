@@ -53,7 +53,8 @@ def sysCall_sensing():
             module.publish(publishers[kind], message)
             self.times.setdefault(name + ' ' + kind, []).append(time.perf_counter() - begin)
     if len(self.times['ROS 1 std_msgs/Float32']) == {rounds}:
-        print('times', json.dumps({{name: 1e6 * float(np.median(each)) for name, each in self.times.items()}}), flush=True)
+        medians = {{name: 1e6 * float(np.median(each)) for name, each in self.times.items()}}
+        print('times', json.dumps(medians), flush=True)
         sim.stopSimulation()
 """
 

@@ -8,6 +8,12 @@
 #include "services/request_id.hpp"
 
 namespace bubblesim::ros2 {
+namespace {
+
+/// A reader of Cyclone DDS takes only what is written after it has found the writer, which may be later than here.
+constexpr std::chrono::milliseconds kCycloneDelay{1500};
+
+}  // namespace
 
 class ServiceClient::RequestListener final : public dds::DataWriterListener {
  public:
@@ -16,6 +22,7 @@ class ServiceClient::RequestListener final : public dds::DataWriterListener {
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
     if (is_of_cyclone(guid_of(status.last_subscription_handle))) {
       client_.cyclone_servers_ += status.current_count_change;
+      client_.cyclone_found_ = std::chrono::steady_clock::now();
     }
     client_.servers_ = status.current_count;
     client_.queue_.wake();
@@ -58,6 +65,11 @@ ServiceClient::ServiceClient(Participant& participant, std::string name, const m
                                          request_listener_.get())) {}
 
 ServiceClient::~ServiceClient() = default;
+
+bool ServiceClient::is_ready() const {
+  if (servers_ == 0 || repliers_ == 0) return false;
+  return cyclone_servers_ == 0 || std::chrono::steady_clock::now() - cyclone_found_.load() > kCycloneDelay;
+}
 
 std::optional<std::int64_t> ServiceClient::send(messages::WireBuffer request) { return send(std::move(request), {}); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -29,7 +30,7 @@ class ServiceClient {
   const std::string& name() const { return name_; }
   const messages::ServiceType& type() const { return type_; }
   /// Whether a server gets requests and its replies arrive.
-  bool is_ready() const { return servers_ > 0 && repliers_ > 0; }
+  bool is_ready() const;
   /// Sends a request and returns its number, or nothing if it could not be sent.
   std::optional<std::int64_t> send(messages::WireBuffer request);
   /// Sends a request; `on_response` is called when `queue` is served. For the simulation's thread.
@@ -58,6 +59,7 @@ class ServiceClient {
   const std::shared_ptr<bool> open_ = std::make_shared<bool>(true);  // replies that wait in the queue watch its end
   std::atomic<int> servers_{0};
   std::atomic<int> cyclone_servers_{0};
+  std::atomic<std::chrono::steady_clock::time_point> cyclone_found_{};  // the last one
   std::atomic<int> repliers_{0};
   std::mutex mutex_;
   std::map<std::int64_t, Call> calls_;  // guarded

@@ -53,7 +53,8 @@ class RosTransforms(RosTopics):
         all_transforms = self._static_transforms | {_child_frame(each): each for each in _checked(transforms)}
         message = {"transforms": list(all_transforms.values())}
         if self._static_publisher is None:
-            self._static_publisher = self._advertise("/tf_static", _TYPE, _core.Qos(1, transient_local=True))
+            depth = 1 if self._is_ros2 else _QUEUE_SIZE  # in ROS 2 it is also the number of messages that are kept
+            self._static_publisher = self._advertise("/tf_static", _TYPE, _core.Qos(depth, transient_local=True))
         self.publish(self._static_publisher, message)
         self._static_transforms = all_transforms
 
