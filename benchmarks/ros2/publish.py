@@ -59,7 +59,7 @@ def sysCall_sensing():
 """
 
 RCLPY = """
-import importlib, json, sys, time
+import contextlib, importlib, json, sys, time
 import numpy as np
 import rclpy
 from rclpy.node import Node
@@ -85,7 +85,9 @@ if sys.argv[1] == 'subscriber':
     for kind in MESSAGES:
         for side in ('two', 'rclpy'):
             node.create_subscription(type_of(kind), '/' + side + '/' + kind.split('/')[1], lambda message: None, 10)
-    rclpy.spin(node)
+    with contextlib.suppress(rclpy.executors.ExternalShutdownException):
+        rclpy.spin(node)
+    sys.exit()
 publishers = {{kind: node.create_publisher(type_of(kind), '/rclpy/' + kind.split('/')[1], 10) for kind in MESSAGES}}
 while not all(each.get_subscription_count() for each in publishers.values()):
     time.sleep(0.05)
