@@ -11,6 +11,7 @@ setup(
         package_data={
             "bubblesim.scripting.language": ["*.lua"],
             "bubblesim.cli": ["templates/*.in"],
+            "bubblesim.messages": ["ros2/*/*/*"],
             "bubblesim.gym_tasks": ["scenes/*.sdf"],
         },
     )

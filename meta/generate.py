@@ -30,10 +30,12 @@ try:
 
     import rules
     from bubblesim.messages.kinds import has_header
-    from bubblesim.messages.lists import read_list
+    from bubblesim.messages.lists import Entry, read_interfaces, read_list
     from bubblesim.messages.names import split_name
     from bubblesim.messages.packages import build_index
-    from bubblesim.messages.specs import Specs
+    from bubblesim.messages.ros2_definitions import Ros2Message
+    from bubblesim.messages.ros2_specs import Ros2Specs, without_ros1_only
+    from bubblesim.messages.specs import SpecError, Specs
 except ImportError as error:
     sys.exit(f"{error}; install ros-base-dev and use Debian's Python: cmake -DPython3_EXECUTABLE=/usr/bin/python3")
 
@@ -44,7 +46,7 @@ class TypeTable:
 
     label: str
     name: str
-    md5: str
+    type_hash: str
     definition: str
     has_header: str
     fields: list[rules.FieldRow]
@@ -56,7 +58,7 @@ class ServiceTable:
     """Template data of a service."""
 
     name: str
-    md5: str
+    type_hash: str
     request: TypeTable
     response: TypeTable
 
@@ -66,7 +68,7 @@ def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
     return TypeTable(
         label=f"{kind}_{split_name(spec.full_name)[1]}",
         name=rules.cpp_string(spec.full_name),
-        md5=specs.md5(spec),
+        type_hash=specs.md5(spec),
         definition=rules.cpp_string(specs.full_text(spec)),
         has_header="true" if has_header(spec.types) else "false",
         fields=[rules.field_row(f.name, f.base_type, f.is_array, f.array_len) for f in spec.parsed_fields()],
@@ -78,10 +80,29 @@ def service_table(specs: Specs, name: str, spec: Any) -> ServiceTable:
     """Return the tables of a genmsg.SrvSpec."""
     return ServiceTable(
         name=rules.cpp_string(name),
-        md5=specs.md5(spec),
+        type_hash=specs.md5(spec),
         request=type_table(specs, spec.request, "srv"),
         response=type_table(specs, spec.response, "srv"),
     )
+
+
+def ros2_type_table(specs: Ros2Specs, message: Ros2Message) -> TypeTable:
+    """Return the tables of a type of ROS 2."""
+    return TypeTable(
+        label=f"{message.folder}_{split_name(message.name)[1]}",
+        name=rules.cpp_string(message.name),
+        type_hash=specs.message_hash(message),
+        definition=rules.cpp_string(specs.full_text(message)),
+        has_header="false",
+        fields=[rules.ros2_field_row(name, kind) for name, kind in message.fields],
+        constants=[rules.ros2_constant_row(*constant) for constant in message.constants],
+    )
+
+
+def ros2_service_table(specs: Ros2Specs, name: str) -> ServiceTable:
+    """Return the tables of a service of ROS 2."""
+    request, response = (ros2_type_table(specs, part) for part in specs.services[name])
+    return ServiceTable(rules.cpp_string(name), specs.service_hash(name), request, response)
 
 
 def expand(template: str, context: dict[str, Any]) -> str:
@@ -96,23 +117,49 @@ def write_if_changed(path: Path, text: str) -> None:
         path.write_bytes(data)
 
 
-def write_tables(specs: Specs, inputs: list[Path], output: Path) -> None:
+Tables = dict[str, tuple[list[TypeTable], list[ServiceTable]]]
+"""Messages and services by package."""
+
+
+def all_tables(specs: Specs) -> Tables:
+    """Return the tables of all loaded types of ROS 1."""
+    tables: Tables = {}
+    for name in sorted(specs.messages):
+        messages, _ = tables.setdefault(split_name(name)[0], ([], []))
+        messages.append(type_table(specs, specs.messages[name], "msg"))
+    for name in sorted(specs.services):
+        _, services = tables.setdefault(split_name(name)[0], ([], []))
+        services.append(service_table(specs, name, specs.services[name]))
+    return tables
+
+
+def all_ros2_tables(specs: Ros2Specs) -> Tables:
+    """Return the tables of all loaded types of ROS 2."""
+    tables: Tables = {}
+    for name in sorted(specs.messages):
+        messages, _ = tables.setdefault(split_name(name)[0], ([], []))
+        messages.append(ros2_type_table(specs, specs.messages[name]))
+    for name in sorted(specs.services):
+        _, services = tables.setdefault(split_name(name)[0], ([], []))
+        services.append(ros2_service_table(specs, name))
+    return tables
+
+
+def write_tables(ros1: Tables, ros2: Tables, inputs: list[Path], output: Path) -> None:
     """Write all files and remove the files of packages that are no longer needed."""
     output.mkdir(parents=True, exist_ok=True)
-    packages = sorted({split_name(name)[0] for name in [*specs.messages, *specs.services]})
     contents: dict[Path, str] = {}
-    for package in packages:
-        mine = [name for name in sorted(specs.messages) if split_name(name)[0] == package]
-        messages = [type_table(specs, specs.messages[name], "msg") for name in mine]
-        served = [name for name in sorted(specs.services) if split_name(name)[0] == package]
-        services = [service_table(specs, name, specs.services[name]) for name in served]
-        types = messages + [half for service in services for half in (service.request, service.response)]
-        context = {"package": package, "types": types, "messages": messages, "services": services}
-        contents[output / f"package_{package}.cpp"] = expand("package.cpp.em", context)
-    contents[output / "all_packages.cpp"] = expand("all_packages.cpp.em", {"packages": packages})
+    for prefix, tables in (("package", ros1), ("ros2_package", ros2)):
+        for package, (messages, services) in tables.items():
+            types = messages + [half for service in services for half in (service.request, service.response)]
+            context = {"package": package, "types": types, "messages": messages, "services": services}
+            contents[output / f"{prefix}_{package}.cpp"] = expand("package.cpp.em", context | {"prefix": prefix})
+    contents[output / "all_packages.cpp"] = expand(
+        "all_packages.cpp.em", {"packages": sorted(ros1), "ros2_packages": sorted(ros2)}
+    )
     for path, text in contents.items():
         write_if_changed(path, text)
-    for path in output.glob("package_*.cpp"):
+    for path in output.glob("*package_*.cpp"):
         if path not in contents:
             path.unlink()
     manifest = expand("tables.cmake.em", {"sources": sorted(contents), "inputs": sorted(inputs)})
@@ -128,6 +175,10 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="generate.py", description=__doc__.partition("\n")[0])
     parser.add_argument("--messages", type=Path, default=HERE / "messages.txt", help="list of message types")
     parser.add_argument("--services", type=Path, default=HERE / "services.txt", help="list of service types")
+    parser.add_argument(
+        "--interfaces", type=Path, default=HERE / "interfaces.txt", help="list of both, such as std_msgs/msg/String"
+    )
+    parser.add_argument("--ros2", action="store_true", help="also write the tables of ROS 2's types")
     parser.add_argument("--output", type=Path, required=True, help="folder for the generated files")
     parser.add_argument("--project", type=Path, default=HERE.parent, help="root of this project in the build")
     parser.add_argument("--build", type=Path, help="build folder, used to find the workspace (default: --output)")
@@ -157,17 +208,41 @@ def main(arguments: list[str]) -> int:
     specs = Specs(index)
     messages = read_list(options.messages, shown_path(options.messages), problems, warnings)
     services = read_list(options.services, shown_path(options.services), problems, warnings)
+    more = read_interfaces(options.interfaces, shown_path(options.interfaces), problems, warnings)
+    messages, services = united(messages, more[0]), united(services, more[1])
     specs.load_list(messages, "msg", problems)
     specs.load_list(services, "srv", problems)
+    ros2 = Ros2Specs(index)
+    if options.ros2 and not problems:
+        load_ros2(ros2, messages, services, problems)
     for text in (*problems, *(f"warning: {warning}" for warning in warnings)):
         print(text, file=sys.stderr)
     if problems:
         return 1
-    own = [options.messages, options.services, *HERE.glob("*.py"), *HERE.glob("templates/*.em")]
+    own = [options.messages, options.services, *([options.interfaces] if options.interfaces.is_file() else [])]
+    own += [*HERE.glob("*.py"), *HERE.glob("templates/*.em")]
     own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]
-    inputs = {path.absolute() for path in [*own, *specs.files, *index.watched]}
-    write_tables(specs, sorted(inputs), options.output)
+    inputs = {path.absolute() for path in [*own, *specs.files, *ros2.files, *index.watched]}
+    write_tables(all_tables(specs), all_ros2_tables(ros2), sorted(inputs), options.output)
     return 0
+
+
+def united(entries: list[Entry], more: list[Entry]) -> list[Entry]:
+    """Return the entries of both lists, without repetitions."""
+    names = {entry.name for entry in entries}
+    return [*entries, *(entry for entry in more if entry.name not in names)]
+
+
+def load_ros2(specs: Ros2Specs, messages: list[Entry], services: list[Entry], problems: list[str]) -> None:
+    """Load ROS 2's types of these names, and those that ROS 1 does not have; add errors to `problems`."""
+    specs.load_own()
+    in_ros2 = set(without_ros1_only(entry.name for entry in messages))
+    for kind, entries in (("msg", [entry for entry in messages if entry.name in in_ros2]), ("srv", services)):
+        for entry in entries:
+            try:
+                specs.load(entry.name, kind)
+            except SpecError as error:
+                problems.append(f"{entry.place}: {error}")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bubblesim.messages import ros2_definitions
 from bubblesim.messages.kinds import KINDS, is_builtin
 
 # Spelling in a .msg file -> FieldKind in message_type.hpp.
@@ -56,6 +57,25 @@ def field_row(name: str, base_type: str, is_array: bool, array_length: int | Non
         length=array_length or 0,
         message="nullptr" if is_builtin(base_type) else cpp_string(base_type),
     )
+
+
+def ros2_field_row(name: str, kind: ros2_definitions.FieldType) -> FieldRow:
+    """Return the row of a field of a type of ROS 2."""
+    array = "kNone" if not kind.is_array else "kVariable" if kind.length is None or kind.is_bounded else "kFixed"
+    builtin = ros2_definitions.KINDS.get(kind.base)
+    return FieldRow(
+        name=cpp_string(name),
+        kind=FIELD_KINDS[builtin] if builtin else "kMessage",
+        array=array,
+        length=kind.length or 0 if array == "kFixed" else 0,
+        message="nullptr" if builtin else cpp_string(kind.base),
+    )
+
+
+def ros2_constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:
+    """Return the row of a constant of a type of ROS 2."""
+    row = constant_row(name, "int8", value)
+    return ConstantRow(row.name, FIELD_KINDS[ros2_definitions.KINDS[base_type]], row.value)
 
 
 def constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:

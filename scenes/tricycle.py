@@ -103,7 +103,7 @@ def publish_picture(now):
         picture = sim.getVisionSensorArray(self.camera)
         simROS.imageTransportPublish(self.image_topic, picture[::-1], width, height, CAMERA_FRAME)
     field_of_view = sim.getVisionSensorFieldOfView(self.camera)
-    info = ros_messages.camera_info(now, CAMERA_FRAME, width, height, field_of_view)
+    info = ros_messages.camera_info(now, CAMERA_FRAME, width, height, field_of_view, simROS.rosVersion())
     simROS.publish(self.camera_topic, info)
 
 

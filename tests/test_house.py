@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from ros2_peer import has_ros2
 from ros_support import REPOSITORY, built
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
@@ -16,6 +17,7 @@ ROS = re.compile(
     r"^(ros|roscpp|rosgraph_msgs|std_msgs|std_srvs|geometry_msgs|sensor_msgs|nav_msgs|tf2\w*|xmlrpcpp|XmlRpc\w*)(/|\.h)"
 )
 PYTHON = re.compile(r"^(pybind11/|Python\.h|numpy/)")
+FAST_DDS = re.compile(r"^fast(dds|rtps|cdr)/")
 
 # Includes that are forbidden in each folder.
 FORBIDDEN = {
@@ -25,10 +27,12 @@ FORBIDDEN = {
     "src/reading_messages": [ROS, PYTHON, re.compile(r"^bubblesim/(messages/(?!fields)|ros_bridge|child_scripts)")],
     "src/peer_guard": [PYTHON, re.compile(r"^bubblesim/")],
     "src/nodes": [PYTHON, re.compile(r"^bubblesim/")],
-    "src/ros1": [PYTHON, re.compile(r"^bubblesim/child_scripts")],
+    "src/ros1": [PYTHON, FAST_DDS, re.compile(r"^bubblesim/(child_scripts|ros2_bridge)")],
+    "src/ros2": [ROS, PYTHON, re.compile(r"^bubblesim/(child_scripts|ros_bridge)")],
+    "src/endpoints": [ROS, PYTHON, FAST_DDS],
     "src/python_codec": [ROS, re.compile(r"^bubblesim/(?!messages/|nearest_names)")],
-    "src/bindings": [ROS, re.compile(r"^bubblesim/(ros_bridge|child_scripts)")],
-    "src/scripting": [ROS, re.compile(r"^bubblesim/ros_bridge")],
+    "src/bindings": [ROS, FAST_DDS, re.compile(r"^bubblesim/(ros2?_bridge|child_scripts)")],
+    "src/scripting": [ROS, FAST_DDS, re.compile(r"^bubblesim/ros2?_bridge")],
 }
 
 
@@ -51,6 +55,12 @@ def test_one_file_knows_which_version_embree_has() -> None:
     assert [path.name for path in sources if versions.search(path.read_text())] == ["embree.hpp"]
 
 
+def test_one_file_knows_which_version_fast_dds_has() -> None:
+    sources = [path for folder in ("src", "tests", "benchmarks") for path in (REPOSITORY / folder).rglob("*.?pp")]
+    versions = re.compile(r"include <fast(dds|rtps|cdr)/|FASTDDS_VERSION|eprosima")
+    assert [path.name for path in sources if versions.search(path.read_text())] == ["fast_dds.hpp"]
+
+
 @pytest.mark.parametrize("folder", ["controllers", "navigation"])
 def test_logic_knows_no_ros(folder: str) -> None:
     sources = sorted((REPOSITORY / "python" / "bubblesim" / folder).glob("*.py"))
@@ -64,7 +74,8 @@ def test_logic_knows_no_ros(folder: str) -> None:
     [
         ("libbubblesim.so", r"ros|python|xmlrpc|tf2"),
         ("libbubblesim_messages.so", r"libros|python|xmlrpc|tf2"),
-        ("libbubblesim_ros.so", r"python"),
+        ("libbubblesim_ros.so", r"python|fastrtps|fastdds"),
+        pytest.param("libbubblesim_ros2.so", r"libros|python|xmlrpc|tf2", marks=has_ros2),
     ],
 )
 def test_libraries_need_only_what_their_layer_may_know(library: str, foreign: str) -> None:

@@ -70,7 +70,7 @@ MessageType image_type() {
   namespace traits = ros::message_traits;
   MessageType type;
   type.name = traits::datatype<sensor_msgs::Image>();
-  type.md5 = traits::md5sum<sensor_msgs::Image>();
+  type.type_hash = traits::md5sum<sensor_msgs::Image>();
   type.definition = traits::definition<sensor_msgs::Image>();
   type.has_header = true;
   return type;
@@ -91,7 +91,7 @@ void compare_images(bubblesim::RosBridge& bridge, const MessageType& type) {
   const sensor_msgs::Image image = make_image();
   const std::vector<std::uint8_t> bytes = serialize(image);
   ros::Publisher raw = node.advertise<sensor_msgs::Image>("/benchmark/roscpp", 1);
-  const EndpointId bridged = bridge.advertise("/benchmark/bridge", type, 1, false);
+  const EndpointId bridged = bridge.advertise("/benchmark/bridge", type, {1});
   while (raw.getNumSubscribers() == 0 || !bridge.wants_messages(bridged)) std::this_thread::sleep_for(kPause);
 
   std::vector<double> raw_times;
@@ -112,7 +112,7 @@ void compare_unheard(bubblesim::RosBridge& bridge, const MessageType& type) {
   ros::NodeHandle node;
   const sensor_msgs::Image image = make_image();
   ros::Publisher raw = node.advertise<sensor_msgs::Image>("/benchmark/unheard_roscpp", 1);
-  const EndpointId bridged = bridge.advertise("/benchmark/unheard_bridge", type, 1, false);
+  const EndpointId bridged = bridge.advertise("/benchmark/unheard_bridge", type, {1});
   std::vector<double> raw_times;
   std::vector<double> bridge_times;
   for (int round = 0; round < 21; ++round) {

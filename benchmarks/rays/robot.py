@@ -50,7 +50,7 @@ class Subscribers:
         """Return the time."""
         return 1, 0
 
-    def advertise(self, _topic: str, message_type: str, _queue_size: int, _latch: bool) -> int:
+    def advertise(self, _topic: str, message_type: str, _qos: object) -> int:
         """Return the handle of a new topic."""
         self._types.append(message_type)
         return len(self._types) - 1

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bubblesim/messages/bridge.hpp"
 #include "bubblesim/runner.hpp"
@@ -19,8 +20,9 @@ class PythonEngine {
   PythonEngine(const PythonEngine&) = delete;
   PythonEngine& operator=(const PythonEngine&) = delete;
 
-  /// The systems that are made from here on belong to this runner. `bridge` may be null: without ROS.
-  void begin(Runner& runner, messages::Bridge* bridge);
+  /// The systems that are made from here on belong to this runner. `bridges`: none without ROS; of two, the first is
+  /// that to ROS 1 and the second that to ROS 2.
+  void begin(Runner& runner, const std::vector<messages::Bridge*>& bridges);
   /// Call it before the runner is destroyed. Systems that stay may not use the simulation any more.
   void end();
   /// Throws std::logic_error between end() and begin().

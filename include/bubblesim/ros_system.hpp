@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ROS bridge as a system of a simulation.
+// A ROS bridge as a system of a simulation.
 #pragma once
 
 #include <utility>
 
-#include "bubblesim/ros_bridge.hpp"
+#include "bubblesim/node_bridge.hpp"
 #include "bubblesim/simulation.hpp"
 
 namespace bubblesim {
@@ -14,7 +14,7 @@ namespace bubblesim {
 class RosSystem final : public System {
  public:
   /// The bridge and the simulation must outlive this object.
-  RosSystem(RosBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
+  RosSystem(NodeBridge& bridge, const Simulation& simulation) : bridge_(bridge), simulation_(simulation) {}
 
   void process_input() override {
     if (!std::exchange(published_, false)) bridge_.publish_clock(simulation_.state_time());  // also during a pause
@@ -27,7 +27,7 @@ class RosSystem final : public System {
   void reset() override { bridge_.publish_clock(simulation_.state_time()); }
 
  private:
-  RosBridge& bridge_;
+  NodeBridge& bridge_;
   const Simulation& simulation_;
   bool published_ = false;  // since the last step
 };

@@ -1,5 +1,6 @@
 @# Context:
 @#   package   name of the message package, such as "geometry_msgs"
+@#   prefix    of the name of the function: "package", or "ros2_package" for types of ROS 2
 @#   types     list of generate.TypeTable: its messages, then the requests and responses of its services
 @#   messages  the messages in `types`
 @#   services  list of generate.ServiceTable
@@ -25,7 +26,7 @@ constexpr ConstantRow kConstants_@(type.label)[] = {
 };
 @[end if]@
 constexpr MessageRow k_@(type.label) = {
-    @type.name, "@type.md5", @type.has_header,
+    @type.name, "@type.type_hash", @type.has_header,
     @(f"kFields_{type.label}" if type.fields else "{}"), @(f"kConstants_{type.label}" if type.constants else "{}"),
     @type.definition};
 @[end for]@
@@ -40,13 +41,13 @@ constexpr const MessageRow* kMessages[] = {
 @[if services]@
 constexpr ServiceRow kServices[] = {
 @[for service in services]@
-    {@service.name, "@service.md5", &k_@(service.request.label), &k_@(service.response.label)},
+    {@service.name, "@service.type_hash", &k_@(service.request.label), &k_@(service.response.label)},
 @[end for]@
 };
 @[end if]@
 
 }  // namespace
 
-PackageTable package_@(package)() { return {@("kMessages" if messages else "{}"), @("kServices" if services else "{}")}; }
+PackageTable @(prefix)_@(package)() { return {@("kMessages" if messages else "{}"), @("kServices" if services else "{}")}; }
 
 }  // namespace bubblesim::messages::tables

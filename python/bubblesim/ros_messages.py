@@ -143,23 +143,28 @@ def point_cloud(stamp: float, frame: str, points: np.ndarray[Any, np.dtype[np.fl
     }
 
 
-def camera_info(stamp: float, frame: str, width: int, height: int, horizontal_fov: float) -> Message:
+def camera_info(
+    stamp: float, frame: str, width: int, height: int, horizontal_fov: float, ros_version: int = 1
+) -> Message:
     """Return a sensor_msgs/CameraInfo of a pinhole camera without distortion; pixels and radians.
 
-    ``frame`` is the optical frame: z forward, x to the right (REP 103).
+    ``frame`` is the optical frame: z forward, x to the right (REP 103). ROS 2 writes the names in lower case.
     """
     focal = width / (2.0 * math.tan(horizontal_fov / 2.0))
     # The centre of pixel (0, 0) is half a pixel from the corner.
     x, y = (width - 1) / 2.0, (height - 1) / 2.0
+    matrices = {
+        "D": [0.0] * 5,
+        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
+        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        "P": [focal, 0.0, x, 0.0, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
+    }
     return {
         "header": header(stamp, frame),
         "width": width,
         "height": height,
         "distortion_model": "plumb_bob",
-        "D": [0.0] * 5,
-        "K": [focal, 0.0, x, 0.0, focal, y, 0.0, 0.0, 1.0],
-        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        "P": [focal, 0.0, x, 0.0, 0.0, focal, y, 0.0, 0.0, 0.0, 1.0, 0.0],
+        **{(name.lower() if ros_version == 2 else name): values for name, values in matrices.items()},
     }
 
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "bridges.hpp"
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
@@ -54,10 +55,10 @@ int run_node(Options& options, int& argc, char** argv) {
   const WebServer web(options);
   watch_stop_signals();  // before this there is nothing to shut down
   Node node(options);
-  if (options.ros) node.bridge = std::make_unique<RosBridge>(argc, argv, ros_options(node));
+  node.bridges = make_bridges(node, argc, argv);
   if (stop_requested()) return kFine;
-  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridge = node.bridge] {
-    if (bridge) bridge->leave();
+  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridges = node.bridges] {
+    for (const auto& bridge : bridges) bridge->leave();
   });
   auto session = std::make_unique<Session>(node, std::move(simulation), true);
   while (const std::shared_ptr<const Scene> next = session->run()) {

@@ -100,6 +100,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   std::vector<std::string> script_paths;
   bool list_scenes = false;
   bool no_ros = false;
+  std::string ros = "1";
   double until = 0;
   int remote_port = kRemotePort;
   int web_port = 0;
@@ -121,7 +122,10 @@ ParsedOptions parse_options(int argc, char** argv) {
   });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
-  app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts");
+  CLI::Option* ros_option =
+      app.add_option("--ros", ros, "version of ROS that the node uses: 1, 2 or both (default 1)")
+          ->check(CLI::IsMember({"1", "2", "both"}));
+  app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts")->excludes(ros_option);
   app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
       ->allow_extra_args(false);
   app.add_option("--script-path", script_paths, "DIR to search for files that scripts include (repeatable)")
@@ -135,7 +139,8 @@ ParsedOptions parse_options(int argc, char** argv) {
                  "(repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--watch", options.watch, "reload a script when its file changes");
-  app.add_option("--record", options.record, "FILE: record the messages that scripts publish and receive in a bag");
+  app.add_option("--record", options.record,
+                 "FILE: record the messages that scripts publish and receive in a bag, with ROS 2 in FILE.mcap");
   app.add_option("--lockstep", options.lockstep, "TOPIC: in each step, wait for one message on it (repeatable)")
       ->allow_extra_args(false);
   CLI::Option* remote = app.add_option("--remote", remote_port,
@@ -184,13 +189,21 @@ ParsedOptions parse_options(int argc, char** argv) {
     options.web = static_cast<bool>(*web);
     if (web_port != 0) options.web_port = web_port;
     options.speed = parse_speed(speed);
-    options.ros = !no_ros;
+    options.ros = no_ros ? Ros::kNone : ros == "both" ? Ros::kBoth : ros == "2" ? Ros::kRos2 : Ros::kRos1;
     if (*remote && !options.web_edit && options.remote_token.empty()) {
       throw CLI::ValidationError("--web-edit=false",
                                  "with --remote it needs --remote-token: without one, each user who may "
                                  "only look could connect there and change the simulation");
     }
     if (no_ros && !options.record.empty()) throw CLI::ValidationError("--record", "needs ROS");
+    const bool mcap = options.record.extension() == ".mcap";
+    if (options.ros == Ros::kRos2 && !options.record.empty() && !mcap) {
+      throw CLI::ValidationError("--record", "the files of ROS 2 are named FILE.mcap");
+    }
+    if (options.ros == Ros::kRos1 && mcap) throw CLI::ValidationError("--record", ".mcap is of ROS 2: --ros=2");
+    if (options.ros == Ros::kRos2 && options.replace) {
+      throw CLI::ValidationError("--replace", "needs ROS 1: nodes of ROS 2 may have the same name");
+    }
     if (no_ros && !options.lockstep.empty()) throw CLI::ValidationError("--lockstep", "needs ROS");
     for (const std::string& text : child_scripts) options.child_scripts.push_back(parse_child_script(text));
     options.script_paths.assign(script_paths.begin(), script_paths.end());

@@ -20,13 +20,16 @@ enum ExitCode {
   kDiverged = 4,
 };
 
+/// The versions of ROS that the node uses.
+enum class Ros { kNone, kRos1, kRos2, kBoth };
+
 struct Options {
   std::string scene;
   std::uint64_t seed = 0;
   std::optional<double> until;  ///< s of simulation time
   double speed = 1;             ///< simulated seconds per second; infinity: as fast as possible
   bool paused = false;
-  bool ros = true;
+  Ros ros = Ros::kRos1;
   bool replace = false;  ///< shut down a node of the same name
   bool strict = false;
   bool state_hash = false;

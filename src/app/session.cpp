@@ -39,8 +39,8 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   if (options.remote_port && !options.start && !options.paused) how.initial = RunState::kStopped;
   if (!is_first) how.initial = RunState::kStopped;
   if (options.until) how.until = *options.until;
-  how.ends_at_stop =
-      (!options.ros && !options.has_remote_api()) || options.until;  // nothing can or should start it again
+  how.ends_at_stop = (options.ros == Ros::kNone && !options.has_remote_api()) ||
+                     options.until;  // nothing can or should start it again
   how.is_ending = [&counts, strict = options.strict] { return stop_requested() || (strict && counts.failures() > 0); };
   how.on_divergence = [](const std::string& why) {
     std::fprintf(stderr, "error: %s; paused until reset or stopped\n", why.c_str());
@@ -81,41 +81,9 @@ int ScriptCounts::disabled() const {
   return scripts_ != nullptr ? scripts_->disabled() : disabled_;
 }
 
-RosBridgeOptions ros_options(Node& node) {
-  RosBridgeOptions how;
-  how.on_pause = [&node](bool paused) {
-    node.runner.with([paused](Runner& runner) { return paused ? runner.pause() : runner.start(); },
-                     std::future<RunState>());
-  };
-  how.on_step = [&node](std::uint32_t steps) {
-    const auto step = [steps](Runner& runner) -> StepAnswer {
-      try {
-        return {"", runner.step(steps).get()};
-      } catch (const std::exception& error) {
-        return {error.what(), runner.frame()->time};
-      }
-    };
-    return node.runner.with(step, StepAnswer{"another scene is being loaded", 0});
-  };
-  how.on_arrival = [&node] { node.runner.with([](Runner& runner) { return runner.wake(), true; }, false); };
-  how.is_ending = stop_requested;
-  how.replace = node.options.replace;
-  how.on_shutdown = [](const std::string& why) {
-    std::fprintf(stderr, "info: shutdown requested: %s\n", why.c_str());
-    request_stop();
-  };
-  how.take_report = [&node] {
-    RunReport report = node.runner.with([](Runner& runner) { return runner.take_report(); }, RunReport());
-    report.script_errors = node.counts.failures();
-    report.disabled_scripts = node.counts.disabled();
-    return report;
-  };
-  return how;
-}
-
 Session::RunnerUse::~RunnerUse() {
   if (node.python) node.python->end();
-  if (node.bridge) node.bridge->shutdown_endpoints();
+  for (const auto& bridge : node.bridges) bridge->shutdown_endpoints();
   runner.finish();  // it runs in no background, so this does not throw; the bridge's threads wait for commands
   node.runner.set(nullptr);
 }
@@ -135,17 +103,20 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
       runner_use_(node, runner_) {
   const Options& options = node.options;
   node.runner.set(&runner_);
-  if (node.bridge) {
-    ros_ = std::make_unique<RosSystem>(*node.bridge, *simulation_);
-    simulation_->add(*ros_);
+  const bool with_ros = !node.bridges.empty();
+  std::vector<messages::Bridge*> bridges;
+  for (const auto& bridge : node.bridges) {
+    ros_.push_back(std::make_unique<RosSystem>(*bridge, *simulation_));
+    simulation_->add(*ros_.back());
+    bridges.push_back(bridge.get());
   }
   if (!node.python) node.python = std::make_unique<PythonEngine>();
   PythonEngine& python = *node.python;
-  python.begin(runner_, node.bridge.get());
-  if (node.bridge && (!options.record.empty() || !options.lockstep.empty())) {
+  python.begin(runner_, bridges);
+  if (with_ros && (!options.record.empty() || !options.lockstep.empty())) {
     observers_ = std::make_unique<Observers>(python, ObserverOptions{options.record, options.lockstep});
   }
-  if (node.bridge || has_plugins(simulation_->scene())) {  // without ROS, the skipped plugins are reported
+  if (with_ros || has_plugins(simulation_->scene())) {  // without ROS, the skipped plugins are reported
     plugins_ = std::make_unique<GazeboPlugins>(python);
     simulation_->add(*plugins_);
   }
@@ -159,7 +130,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
   if (simulation_->scene().file == node.first_scene) how.replacements = options.child_scripts;  // they name its objects
   scripts_ = std::make_unique<ChildScripts>(python, how);
   simulation_->add(*scripts_);
-  if (node.bridge) {
+  if (with_ros) {
     services_ = std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat);
     simulation_->add(*services_);
   }
@@ -182,7 +153,7 @@ std::shared_ptr<const Scene> Session::run() {
     runner_.run();
   } catch (const Diverged& error) {
     runner_.report_failure(error.what());
-    if (node_.bridge) node_.bridge->publish_diagnostics();
+    for (const auto& bridge : node_.bridges) bridge->publish_diagnostics();
     summarize(runner_);
     throw;
   }

@@ -9,13 +9,14 @@
 #include <shared_mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bubblesim/child_scripts.hpp"
 #include "bubblesim/gazebo_plugins.hpp"
+#include "bubblesim/node_bridge.hpp"
 #include "bubblesim/node_services.hpp"
 #include "bubblesim/observers.hpp"
 #include "bubblesim/remote_api_server.hpp"
-#include "bubblesim/ros_bridge.hpp"
 #include "bubblesim/ros_system.hpp"
 #include "bubblesim/runner.hpp"
 #include "bubblesim/simulation.hpp"
@@ -67,14 +68,11 @@ struct Node {
   std::filesystem::path first_scene;  ///< empty until the first session
   ScriptCounts counts;
   CurrentRunner runner;
-  std::unique_ptr<RosBridge> bridge;  ///< null without ROS
+  std::vector<std::unique_ptr<NodeBridge>> bridges;  ///< none without ROS; of two, the first is that to ROS 1
   std::unique_ptr<StopGuard> guard;
   std::unique_ptr<PythonEngine> python;
   std::unique_ptr<RemoteApiServer> remote_api;  ///< null without remote clients
 };
-
-/// The options for the node's bridge.
-RosBridgeOptions ros_options(Node& node);
 
 /// Runs one scene in a node, which must outlive it. The first session makes the node's missing parts.
 class Session {
@@ -127,7 +125,7 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   Runner runner_;
   RunnerUse runner_use_;
-  std::unique_ptr<RosSystem> ros_;
+  std::vector<std::unique_ptr<RosSystem>> ros_;
   std::unique_ptr<Observers> observers_;
   std::unique_ptr<GazeboPlugins> plugins_;
   std::unique_ptr<ChildScripts> scripts_;

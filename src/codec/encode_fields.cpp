@@ -42,11 +42,12 @@ class FieldEncoder {
 
   /// Of the nodes from `begin` to `end`, on one level.
   void message(const MessageType& type, std::size_t begin, std::size_t end) {
+    if (type.fields.empty()) out_.put_empty();
     std::size_t expected = begin;  // usually they have the order of the type
     for (const Field& field : type.fields) {
       const std::size_t found = find(field.name, expected, begin, end);
       if (found == end) {
-        put_default(field);
+        put_default(field, out_);
       } else {
         put(type, field, found);
         expected = node(found).end;
@@ -96,7 +97,7 @@ class FieldEncoder {
   }
   void put(const MessageType& type, const Field& field, std::size_t, std::string_view text) {
     if (field.kind != FieldKind::kString || field.array != ArrayKind::kNone) throw_unfit(type, field, "a string");
-    string(text);
+    out_.put_string(text);
   }
   void put(const MessageType& type, const Field& field, std::size_t, Stamp stamp) {
     if (field.kind != FieldKind::kTime || field.array != ArrayKind::kNone) throw_unfit(type, field, "a time");
@@ -106,7 +107,7 @@ class FieldEncoder {
   void put(const MessageType& type, const Field& field, std::size_t, const std::vector<std::string>* strings) {
     if (field.kind != FieldKind::kString || field.array == ArrayKind::kNone) throw_unfit(type, field, "strings");
     begin_array(type, field, strings->size());
-    for (const std::string& text : *strings) string(text);
+    for (const std::string& text : *strings) out_.put_string(text);
   }
   void put(const MessageType& type, const Field& field, std::size_t, const Fields::Array& array) {
     std::uint8_t* place = begin_numbers(type, field, array.kind, array.count);
@@ -143,6 +144,7 @@ class FieldEncoder {
       throw_unfit(type, field, "an array of " + std::to_string(count) + " " + std::string(kind_name(kind)));
     }
     begin_array(type, field, count / columns);
+    if (count != 0) out_.align(alignment(kind));
     return out_.extend(count * wire_size(kind));
   }
 
@@ -153,22 +155,12 @@ class FieldEncoder {
     if (field.array == ArrayKind::kVariable) length(count);
   }
 
-  /// The number of elements of a variable array or a string, before them.
+  /// The number of elements of a variable array, before them.
   void length(std::size_t count) {
     if (count > std::numeric_limits<std::uint32_t>::max()) {
       throw std::invalid_argument(std::to_string(count) + " elements do not fit into a message");
     }
     out_.put(static_cast<std::uint32_t>(count));
-  }
-
-  void string(std::string_view text) {
-    length(text.size());
-    out_.put_bytes(text.data(), text.size());
-  }
-
-  void put_default(const Field& field) {
-    const std::size_t size = default_size(field);
-    if (size != 0) std::memset(out_.extend(size), 0, size);
   }
 
   const Fields& fields_;
@@ -178,6 +170,7 @@ class FieldEncoder {
 void encode(const MessageType& type, const FieldReader& message, WireBuffer& out) {
   Fields fields;
   message.read(fields);
+  out.begin(layout_of(type.version));
   FieldEncoder(fields, out).message(type);
 }
 

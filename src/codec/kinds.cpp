@@ -2,10 +2,12 @@
 // The table of field kinds.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include "bubblesim/messages/message_type.hpp"
+#include "bubblesim/messages/numbers.hpp"
 
 namespace bubblesim::messages {
 namespace {
@@ -58,21 +60,54 @@ FieldKind kind_of(std::string_view name) {
   return static_cast<FieldKind>(found - kKinds.begin());
 }
 
-std::size_t default_size(const MessageType& type) {
+std::uint32_t alignment(FieldKind kind) {
+  if (is_number(kind)) return wire_size(kind);
+  return kind == FieldKind::kMessage ? 1 : sizeof(std::uint32_t);  // lengths, seconds
+}
+
+std::size_t minimum_size(const MessageType& type) {
   std::size_t size = 0;
-  for (const Field& field : type.fields) size += default_size(field);
+  for (const Field& field : type.fields) size += minimum_size(field);
   return size;
 }
 
-std::size_t default_element_size(const Field& field) {
-  if (field.kind == FieldKind::kMessage) return default_size(*field.message);
+std::size_t minimum_element_size(const Field& field) {
+  if (field.kind == FieldKind::kMessage) return minimum_size(*field.message);
   if (field.kind == FieldKind::kString) return sizeof(std::uint32_t);
   return wire_size(field.kind);
 }
 
-std::size_t default_size(const Field& field) {
+std::size_t minimum_size(const Field& field) {
   if (field.array == ArrayKind::kVariable) return sizeof(std::uint32_t);
-  return default_element_size(field) * (field.array == ArrayKind::kFixed ? field.fixed_length : 1);
+  return minimum_element_size(field) * (field.array == ArrayKind::kFixed ? field.fixed_length : 1);
+}
+
+void put_default(const MessageType& type, WireBuffer& out) {
+  if (type.fields.empty()) out.put_empty();
+  for (const Field& field : type.fields) put_default(field, out);
+}
+
+void put_default(const Field& field, WireBuffer& out) {
+  if (out.layout() == Layout::kPacked) {
+    const std::size_t size = minimum_size(field);
+    if (size != 0) std::memset(out.extend(size), 0, size);
+    return;
+  }
+  if (field.array == ArrayKind::kVariable) {
+    out.put(std::uint32_t{0});
+    return;
+  }
+  const std::uint32_t count = field.array == ArrayKind::kFixed ? field.fixed_length : 1;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (field.kind == FieldKind::kMessage) {
+      put_default(*field.message, out);
+    } else if (field.kind == FieldKind::kString) {
+      out.put_string({});
+    } else {
+      out.align(alignment(field.kind));
+      std::memset(out.extend(wire_size(field.kind)), 0, wire_size(field.kind));
+    }
+  }
 }
 
 }  // namespace bubblesim::messages

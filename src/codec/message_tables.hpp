@@ -41,7 +41,7 @@ struct ConstantRow {
 
 struct MessageRow {
   const char* name;
-  const char* md5;
+  const char* type_hash;
   bool has_header;
   Rows<FieldRow> fields;
   Rows<ConstantRow> constants;
@@ -50,7 +50,7 @@ struct MessageRow {
 
 struct ServiceRow {
   const char* name;
-  const char* md5;
+  const char* type_hash;
   const MessageRow* request;
   const MessageRow* response;
 };
@@ -60,7 +60,7 @@ struct PackageTable {
   Rows<ServiceRow> services;
 };
 
-/// Generated: the tables of all packages, nested types' packages included.
-std::vector<PackageTable> all_packages();
+/// Generated: the tables of all packages, nested types' packages included; none of ROS 2 in a build without it.
+std::vector<PackageTable> all_packages(RosVersion version);
 
 }  // namespace bubblesim::messages::tables

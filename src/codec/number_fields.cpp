@@ -9,7 +9,8 @@
 
 namespace bubblesim::messages {
 
-NumberFields::NumberFields(const MessageType& type, const std::vector<std::string>& paths) : count_(paths.size()) {
+NumberFields::NumberFields(const MessageType& type, const std::vector<std::string>& paths)
+    : layout_(layout_of(type.version)), count_(paths.size()) {
   add(type, "", paths);
   std::set<std::size_t> found;
   for (const Number& number : numbers_) found.insert(number.place);
@@ -19,6 +20,7 @@ NumberFields::NumberFields(const MessageType& type, const std::vector<std::strin
 }
 
 void NumberFields::add(const MessageType& type, const std::string& prefix, const std::vector<std::string>& paths) {
+  if (type.fields.empty() && layout_ == Layout::kCdr) numbers_.push_back({FieldKind::kUint8, kSkipped});
   for (const Field& field : type.fields) {
     const std::string path = prefix + field.name;
     if (field.array == ArrayKind::kNone && is_number(field.kind)) {
@@ -35,6 +37,7 @@ void NumberFields::add(const MessageType& type, const std::string& prefix, const
 
 std::vector<double> NumberFields::read(WireView message) const {
   std::vector<double> found(count_);
+  message.begin(layout_);
   for (const auto& [kind, place] : numbers_) {
     const double value = with_number(kind, [&](auto number) {
       using Type = std::conditional_t<std::is_same_v<decltype(number), bool>, std::uint8_t, decltype(number)>;
@@ -42,7 +45,7 @@ std::vector<double> NumberFields::read(WireView message) const {
     });
     if (place != kSkipped) found[place] = value;
   }
-  if (message.left() != 0) throw WireError(std::to_string(message.left()) + " surplus bytes after the last field");
+  if (message.surplus() != 0) throw WireError(std::to_string(message.left()) + " surplus bytes after the last field");
   return found;
 }
 

@@ -64,8 +64,8 @@ std::vector<std::string> sorted_names(const std::deque<T>& types) {
 
 class Registry {
  public:
-  Registry() {
-    const std::vector<tables::PackageTable> packages = tables::all_packages();
+  explicit Registry(RosVersion version) : version_(version) {
+    const std::vector<tables::PackageTable> packages = tables::all_packages(version);
     for (const auto& package : packages) {
       for (const auto* row : package.messages) add(*row, messages_);
     }
@@ -73,7 +73,7 @@ class Registry {
       for (const auto& row : package.services) {
         const MessageType* request = add(*row.request, others_);
         const MessageType* response = add(*row.response, others_);
-        keep({row.name, row.md5, request, response}, services_);
+        keep({row.name, row.type_hash, request, response}, services_);
       }
     }
     for (const auto& [field, name] : unresolved_) field->message = find(name);
@@ -90,10 +90,10 @@ class Registry {
     return add(std::move(type));
   }
 
-  const ServiceType& add_service(std::string name, std::string md5, MessageType request, MessageType response) {
+  const ServiceType& add_service(std::string name, std::string type_hash, MessageType request, MessageType response) {
     const std::unique_lock lock(mutex_);
-    if (const ServiceType* known = same(service_by_name_, name, md5)) return *known;
-    ServiceType service{std::move(name), std::move(md5), nullptr, nullptr};
+    if (const ServiceType* known = same(service_by_name_, name, type_hash)) return *known;
+    ServiceType service{std::move(name), std::move(type_hash), nullptr, nullptr};
     service.request = &add(std::move(request));
     service.response = &add(std::move(response));
     return *keep(std::move(service), other_services_);
@@ -104,7 +104,7 @@ class Registry {
   using ByName = std::unordered_map<std::string_view, const T*>;
 
   const MessageType* add(const tables::MessageRow& row, std::deque<MessageType>& types) {
-    MessageType& type = *keep({row.name, row.md5, row.definition, row.has_header, {}, {}}, types);
+    MessageType& type = *keep({row.name, row.type_hash, row.definition, row.has_header, {}, {}, version_}, types);
     type.fields.reserve(row.fields.count);  // unresolved_ points into it
     for (const auto& field : row.fields) {
       type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name)});
@@ -115,7 +115,7 @@ class Registry {
   }
 
   const MessageType& add(MessageType type) {
-    if (const MessageType* known = same(message_by_name_, type.name, type.md5)) return *known;
+    if (const MessageType* known = same(message_by_name_, type.name, type.type_hash)) return *known;
     for (Field& field : type.fields) field.key = field_key(field.name);
     return *keep(std::move(type), others_);
   }
@@ -134,11 +134,12 @@ class Registry {
 
   /// The known type of that name, or nullptr.
   template <class T>
-  static const T* same(const ByName<T>& types, const std::string& name, const std::string& md5) {
+  static const T* same(const ByName<T>& types, const std::string& name, const std::string& type_hash) {
     const auto found = types.find(name);
     if (found == types.end()) return nullptr;
-    if (found->second->md5 == md5) return found->second;
-    throw std::invalid_argument(name + " is known with md5 " + found->second->md5 + ": cannot add it with md5 " + md5);
+    if (found->second->type_hash == type_hash) return found->second;
+    throw std::invalid_argument(name + " is known with type hash " + found->second->type_hash +
+                                ": cannot add it with type hash " + type_hash);
   }
 
   const MessageType* find(std::string_view name) const {
@@ -157,6 +158,7 @@ class Registry {
     return found == types.end() ? nullptr : found->second;
   }
 
+  const RosVersion version_;
   mutable std::shared_mutex mutex_;  // guards all members except messages_ and services_, which stay constant
   // Deques keep references to their elements valid.
   std::deque<MessageType> messages_;        // listed
@@ -168,27 +170,37 @@ class Registry {
   std::vector<std::pair<Field*, const char*>> unresolved_;
 };
 
-Registry& registry() {
+Registry& registry(RosVersion version) {
   // Never destroyed: threads of the bridge may still use a type while the process ends.
-  static Registry& instance = *std::make_unique<Registry>().release();
-  return instance;
+  static Registry& ros1 = *std::make_unique<Registry>(RosVersion::kRos1).release();
+  if (version == RosVersion::kRos1) return ros1;
+  static Registry& ros2 = *std::make_unique<Registry>(RosVersion::kRos2).release();
+  return ros2;
 }
 
 }  // namespace
 
-const MessageType* find_message(std::string_view name) { return registry().find_message(name); }
-
-const ServiceType* find_service(std::string_view name) { return registry().find_service(name); }
-
-const MessageType& add_message(MessageType type) { return registry().add_message(std::move(type)); }
-
-const ServiceType& add_service(std::string name, std::string md5, MessageType request, MessageType response) {
-  return registry().add_service(std::move(name), std::move(md5), std::move(request), std::move(response));
+const MessageType* find_message(std::string_view name, RosVersion version) {
+  return registry(version).find_message(name);
 }
 
-std::vector<std::string> message_names() { return registry().message_names(); }
+const ServiceType* find_service(std::string_view name, RosVersion version) {
+  return registry(version).find_service(name);
+}
 
-std::vector<std::string> service_names() { return registry().service_names(); }
+const MessageType& add_message(MessageType type) {
+  Registry& types = registry(type.version);
+  return types.add_message(std::move(type));
+}
+
+const ServiceType& add_service(std::string name, std::string type_hash, MessageType request, MessageType response) {
+  Registry& types = registry(request.version);
+  return types.add_service(std::move(name), std::move(type_hash), std::move(request), std::move(response));
+}
+
+std::vector<std::string> message_names(RosVersion version) { return registry(version).message_names(); }
+
+std::vector<std::string> service_names(RosVersion version) { return registry(version).service_names(); }
 
 std::uint32_t field_key(std::string_view name) {
   static std::mutex mutex;

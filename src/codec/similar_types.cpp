@@ -54,8 +54,12 @@ std::vector<std::string> similar_names(std::string_view name, const std::vector<
 
 }  // namespace
 
-std::vector<std::string> similar_message_names(std::string_view name) { return similar_names(name, message_names()); }
+std::vector<std::string> similar_message_names(std::string_view name, RosVersion version) {
+  return similar_names(name, message_names(version));
+}
 
-std::vector<std::string> similar_service_names(std::string_view name) { return similar_names(name, service_names()); }
+std::vector<std::string> similar_service_names(std::string_view name, RosVersion version) {
+  return similar_names(name, service_names(version));
+}
 
 }  // namespace bubblesim::messages

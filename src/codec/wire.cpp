@@ -2,6 +2,7 @@
 #include "bubblesim/messages/wire.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,13 +11,24 @@ namespace bubblesim::messages {
 WireBuffer::WireBuffer(WireBuffer&& other) noexcept
     : storage_(std::move(other.storage_)),
       size_(std::exchange(other.size_, kPrefix)),
-      capacity_(std::exchange(other.capacity_, 0)) {}
+      capacity_(std::exchange(other.capacity_, 0)),
+      cdr_(other.cdr_) {}
 
 WireBuffer& WireBuffer::operator=(WireBuffer&& other) noexcept {
   storage_ = std::move(other.storage_);
   size_ = std::exchange(other.size_, kPrefix);
   capacity_ = std::exchange(other.capacity_, 0);
+  cdr_ = other.cdr_;
   return *this;
+}
+
+void WireBuffer::put_string(std::string_view text) {
+  if (text.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw std::length_error("a string of " + std::to_string(text.size()) + " bytes does not fit into a message");
+  }
+  put(static_cast<std::uint32_t>(text.size() + (cdr_ ? 1 : 0)));
+  put_bytes(text.data(), text.size());
+  if (cdr_) put(std::uint8_t{0});
 }
 
 std::unique_ptr<std::uint8_t[]> WireBuffer::release() {

@@ -52,8 +52,11 @@ inline pybind11::object decode(const messages::MessageType& type, messages::Wire
 
 /// A dict with all fields at their defaults.
 inline pybind11::object default_message(const messages::MessageType& type, CodecOptions options = {}) {
-  const std::vector<std::uint8_t> zeros(default_size(type) + 1);  // one more, so that data() is never null
-  return decode(type, messages::WireView(zeros.data(), zeros.size() - 1), options);
+  messages::WireBuffer bytes;
+  bytes.begin(layout_of(type.version));
+  bytes.extend(0);  // so that data() is never null
+  put_default(type, bytes);
+  return decode(type, messages::WireView(bytes.data(), bytes.size()), options);
 }
 
 }  // namespace bubblesim::bindings

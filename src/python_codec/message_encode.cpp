@@ -2,9 +2,11 @@
 // Encodes a dict to wire bytes.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
+#include "bubblesim/messages/registry.hpp"
 #include "bubblesim/nearest_names.hpp"
 #include "field_names.hpp"
 #include "message_walk.hpp"
@@ -17,11 +19,14 @@ namespace {
 using messages::ArrayKind;
 using messages::Field;
 using messages::FieldKind;
+using messages::Layout;
 using messages::MessageType;
 
+/// The layout is known here, so that the packed one of ROS 1 spends nothing on alignment.
+template <Layout layout>
 class Encoder {
  public:
-  explicit Encoder(messages::WireBuffer& out) : out_(out) {}
+  explicit Encoder(messages::WireBuffer& out) : out_(out) { out_.begin(layout); }
 
   /// All functions return false if `failure` has the reason or a Python exception is set.
   ConversionFailure failure;
@@ -29,6 +34,7 @@ class Encoder {
   bool message(const MessageType& type, PyObject* value) {
     if (!PyDict_Check(value)) return failure.expected("dict with the fields of " + type.name, value);
     const Ref held = Ref::borrow(value);  // Python code of a value may release it
+    if (kIsCdr && type.fields.empty()) out_.put_empty();
     Py_ssize_t used = 0;
     Py_ssize_t position = 0;
     for (const Field& field : type.fields) {
@@ -50,13 +56,15 @@ class Encoder {
         if (failure.truncation_count() != truncated) failure.truncated_inside(truncated, field.name);
       } else {
         if (PyErr_Occurred() != nullptr) return false;
-        put_default(field);
+        put_default(field, out_);
       }
     }
     return used == PyDict_GET_SIZE(value) || unknown_key(type, value);
   }
 
  private:
+  static constexpr bool kIsCdr = layout == Layout::kCdr;
+
   bool field(const Field& field, PyObject* value) {
     if (field.array == ArrayKind::kNone) return element(field, value);
     if (is_number(field.kind)) return encode_numbers(field, value, out_, failure);
@@ -109,7 +117,7 @@ class Encoder {
       case FieldKind::kString:
         return string(value);
       case FieldKind::kTime:
-        return time<std::uint32_t>(value);
+        return kIsCdr ? time<std::int32_t>(value) : time<std::uint32_t>(value);
       case FieldKind::kDuration:
         return time<std::int32_t>(value);
       case FieldKind::kMessage:
@@ -119,10 +127,16 @@ class Encoder {
   }
 
   template <class T>
+  void put(T number) {
+    if constexpr (kIsCdr) out_.align(sizeof(T));
+    std::memcpy(out_.extend(sizeof(T)), &number, sizeof(T));
+  }
+
+  template <class T>
   bool number(PyObject* value) {
     T number{};
     if (!read_number(value, number, failure)) return false;
-    out_.put(number);
+    put(number);
     return true;
   }
 
@@ -130,11 +144,8 @@ class Encoder {
     std::string_view bytes;
     PyObject* owner = nullptr;
     if (!read_string(value, bytes, owner, failure)) return false;
-    const bool fits = bytes.size() <= std::numeric_limits<std::uint32_t>::max();
-    if (fits) {
-      out_.put(static_cast<std::uint32_t>(bytes.size()));
-      out_.put_bytes(bytes.data(), bytes.size());
-    }
+    const bool fits = bytes.size() < std::numeric_limits<std::uint32_t>::max();
+    if (fits) out_.put_string(bytes);
     Py_XDECREF(owner);
     return fits || failure.set("a string of " + std::to_string(bytes.size()) + " bytes does not fit into a message");
   }
@@ -143,14 +154,9 @@ class Encoder {
   bool time(PyObject* value) {
     TimeParts<T> parts;
     if (!read_time(value, parts, failure)) return false;
-    out_.put(parts.secs);
-    out_.put(parts.nsecs);
+    put(parts.secs);
+    put(parts.nsecs);
     return true;
-  }
-
-  void put_default(const Field& field) {
-    const std::size_t size = default_size(field);
-    if (size != 0) std::memset(out_.extend(size), 0, size);
   }
 
   bool unknown_key(const MessageType& type, PyObject* dict) {
@@ -169,25 +175,42 @@ class Encoder {
       for (const std::string& name : names) valid += (valid.empty() ? "" : ", ") + name;
       return failure.set(type.name + " has no field '" + letters + "'" + did_you_mean(letters, names) +
                          (did_you_mean(letters, names).empty() ? ";" : "") +
-                         " its fields: " + (valid.empty() ? "none" : valid));
+                         " its fields: " + (valid.empty() ? "none" : valid) + of_other_version(type, letters));
     }
     return true;  // Python code of a value changed the dict: all current entries are known fields
+  }
+
+  /// A hint for scripts that were written for the other version of ROS.
+  static std::string of_other_version(const MessageType& type, std::string_view name) {
+    const bool is_ros2 = type.version == messages::RosVersion::kRos2;
+    const MessageType* other =
+        messages::find_message(type.name, is_ros2 ? messages::RosVersion::kRos1 : messages::RosVersion::kRos2);
+    const auto has = [name](const Field& field) { return field.name == name; };
+    if (other == nullptr || std::none_of(other->fields.begin(), other->fields.end(), has)) return {};
+    return std::string("; in ROS ") + (is_ros2 ? "1" : "2") + " it has '" + std::string(name) + "'";
   }
 
   messages::WireBuffer& out_;
 };
 
-}  // namespace
-
-bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
-                    std::vector<Truncation>* truncations) {
-  Encoder encoder(out);
+template <Layout layout>
+bool encode_as(const MessageType& type, PyObject* message, messages::WireBuffer& out,
+               std::vector<Truncation>* truncations) {
+  Encoder<layout> encoder(out);
   if (encoder.message(type, message)) {
     if (truncations != nullptr) *truncations = encoder.failure.take_truncations();
     return true;
   }
   encoder.failure.raise(type.name);
   return false;
+}
+
+}  // namespace
+
+bool encode_message(const MessageType& type, PyObject* message, messages::WireBuffer& out,
+                    std::vector<Truncation>* truncations) {
+  return layout_of(type.version) == Layout::kCdr ? encode_as<Layout::kCdr>(type, message, out, truncations)
+                                                 : encode_as<Layout::kPacked>(type, message, out, truncations);
 }
 
 }  // namespace bubblesim::bindings

@@ -171,14 +171,14 @@ bool load_numpy() {
 }
 
 bool begin_array(const Field& field, std::size_t count, WireBuffer& out, ConversionFailure& failure) {
-  if (field.array == ArrayKind::kFixed) {
-    return count == field.fixed_length ||
-           failure.set("expected " + std::to_string(field.fixed_length) + " elements, found " + std::to_string(count));
+  if (field.array == ArrayKind::kFixed && count != field.fixed_length) {
+    return failure.set("expected " + std::to_string(field.fixed_length) + " elements, found " + std::to_string(count));
   }
   if (count > std::numeric_limits<std::uint32_t>::max()) {
     return failure.set("an array of " + std::to_string(count) + " elements does not fit into a message");
   }
-  out.put(static_cast<std::uint32_t>(count));
+  if (field.array == ArrayKind::kVariable) out.put(static_cast<std::uint32_t>(count));
+  if (count != 0) out.align(alignment(field.kind));
   return true;
 }
 

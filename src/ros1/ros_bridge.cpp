@@ -17,6 +17,7 @@
 #include "callbacks/arrivals.hpp"
 #include "callbacks/counting_queue.hpp"
 #include "console/log_line.hpp"
+#include "endpoint_table.hpp"
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
 #include "master/names.hpp"
@@ -32,7 +33,6 @@
 #include "services/services.hpp"
 #include "services/step_service.hpp"
 #include "status/diagnostics.hpp"
-#include "topics/endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 #include "topics/topics.hpp"
 
@@ -45,6 +45,7 @@ using messages::MessageType;
 using messages::ServiceType;
 using messages::WireBuffer;
 
+constexpr const char* kUsualName = "sim_ros_interface";  // that of CoppeliaSim's plugin
 constexpr std::chrono::milliseconds kAnswerTimeout{800};
 constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
 constexpr std::chrono::milliseconds kLastCalls{100};      // for calls that timed out, or that wait for a lost master
@@ -93,9 +94,10 @@ struct RosBridge::Impl {
 RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     : options(std::move(bridge_options)),
       master({[this] { return watch.check(); }, [this] { return refusal(); },
-              [] {
+              [this] {
                 log_line("load failed (failed initialization): no ROS master at " + ros::master::getURI() +
-                         "; start one with 'roscore' -- the simulation continues without ROS and connects as soon "
+                         "; start one with 'roscore'" + options.without_master +
+                         " -- the simulation continues without ROS and connects as soon "
                          "as a master appears");
               },
               [](bool had_master) {
@@ -151,7 +153,7 @@ void RosBridge::Impl::offer_step_service() {
 }
 
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
-  init_node(argc, argv, options.node_name);
+  init_node(argc, argv, options.node_name.empty() ? kUsualName : options.node_name);
   impl_ = std::make_unique<Impl>(std::move(options));
   const auto is_ending = [this] { return impl_->options.is_ending && impl_->options.is_ending(); };
   impl_->master.wait_for_first_answer(kAnswerTimeout, kStartTimeout, is_ending);
@@ -171,20 +173,19 @@ RosBridge::~RosBridge() {
 
 bool RosBridge::leave() { return impl_->master.stop(); }
 
-EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                                bool latch) {
+EndpointId RosBridge::advertise(const std::string& topic, const MessageType& type, const messages::Qos& qos) {
   const std::string resolved = resolve_name(topic, "topic");
   impl_->clock.check_type(resolved, type);
-  impl_->topics.advertise(impl_->next_id, resolved, type, queue_size, latch);
+  impl_->topics.advertise(impl_->next_id, resolved, type, qos.depth, qos.transient_local);
   if (resolved == impl_->clock.topic()) impl_->clock.say_left_to_script();
   return impl_->next_id++;
 }
 
-EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                                messages::MessageCallback callback, bool tcp_no_delay) {
+EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& type, const messages::Qos& qos,
+                                messages::MessageCallback callback) {
   const std::string resolved = resolve_name(topic, "topic");
   impl_->clock.check_type(resolved, type);
-  impl_->topics.subscribe(impl_->next_id, resolved, type, queue_size, std::move(callback), tcp_no_delay);
+  impl_->topics.subscribe(impl_->next_id, resolved, type, qos.depth, std::move(callback), qos.tcp_no_delay);
   return impl_->next_id++;
 }
 

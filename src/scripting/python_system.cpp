@@ -17,12 +17,19 @@ PythonEngine::PythonEngine() : objects_(std::make_unique<Objects>()) {
 
 PythonEngine::~PythonEngine() { end(); }
 
-void PythonEngine::begin(Runner& runner, messages::Bridge* bridge) {
+void PythonEngine::begin(Runner& runner, const std::vector<messages::Bridge*>& bridges) {
   const py::gil_scoped_acquire gil;
   runner_ = &runner;
   objects_->runner = py::cast(&runner, py::return_value_policy::reference);
+  const auto object_of = [](messages::Bridge* bridge) { return py::cast(bridge, py::return_value_policy::reference); };
   objects_->bridge = py::none();
-  if (bridge != nullptr) objects_->bridge = py::cast(bridge, py::return_value_policy::reference);
+  if (bridges.size() == 1) objects_->bridge = object_of(bridges[0]);
+  if (bridges.size() == 2) {
+    scripting::with_python(simulation(), "the simulator's Python code", [&] {
+      objects_->bridge = py::module_::import("bubblesim.both_bridges")
+                             .attr("BothBridges")(object_of(bridges[0]), object_of(bridges[1]));
+    });
+  }
 }
 
 void PythonEngine::end() {

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "bridges.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "session.hpp"
 
@@ -142,7 +143,7 @@ class SessionStart : public testing::Test {
   SessionStart() {
     Options& options = one_node->options;
     options = {};
-    options.ros = false;
+    options.ros = Ros::kNone;
     options.child_scripts = {{"/Ball", folder_ / "script.py"}};
     options.window_socket = folder_ / "api";
     std::ofstream(folder_ / "script.py") << R"(#python
@@ -165,14 +166,14 @@ def on_time(message):
   /// The bridge waits for a master that is not there, as a node does that is started before its master.
   void use_ros() {
     Options& options = one_node->options;
-    options.ros = true;
+    options.ros = Ros::kRos1;
     options.record = folder_ / "bag.bag";
     options.lockstep = {"/speed"};
     setenv("ROS_MASTER_URI", "http://localhost:1", 1);
     int argc = 1;
     std::string name = "test_session";
     std::vector<char*> argv{name.data(), nullptr};
-    if (!node_.bridge) node_.bridge = std::make_unique<RosBridge>(argc, argv.data(), ros_options(node_));
+    if (node_.bridges.empty()) node_.bridges = make_bridges(node_, argc, argv.data());
   }
 
   /// Loads all modules and starts the threads that stay.

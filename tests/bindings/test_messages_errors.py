@@ -155,25 +155,25 @@ def test_unknown_types_name_the_list_and_the_command() -> None:
 
 def test_unknown_services_name_their_list() -> None:
     with pytest.raises(codec.MessageError, match=r"did you mean std_srvs/SetBool\?$"):
-        codec.service_md5("std_srvs/SetBol")
+        codec.service_type_hash("std_srvs/SetBol")
     with pytest.raises(codec.MessageError, match=r"to add it, .* in meta/services\.txt: rosrun"):
-        codec.service_md5("quantum_teleport_srvs/Beam")
+        codec.service_type_hash("quantum_teleport_srvs/Beam")
 
 
 def test_unknown_types_may_have_meant_one_that_is_not_listed() -> None:
     with pytest.raises(codec.MessageError, match="did you mean shape_msgs/SolidPrimitive"):
-        codec.md5("shape_msgs/SolidPrimitiv")
+        codec.type_hash("shape_msgs/SolidPrimitiv")
 
 
 @pytest.mark.parametrize("name", ["Twist", "std_msgs/Twist"])
 def test_the_right_type_of_the_wrong_package_is_recognised(name: str) -> None:
     with pytest.raises(codec.MessageError, match="did you mean geometry_msgs/Twist"):
-        codec.md5(name)
+        codec.type_hash(name)
 
 
 def test_services_are_no_messages() -> None:
     with pytest.raises(codec.MessageError) as caught:
-        codec.md5("std_srvs/SetBool")
+        codec.type_hash("std_srvs/SetBool")
     assert str(caught.value) == "std_srvs/SetBool is a service type, expected a message type"
 
 

@@ -20,7 +20,7 @@ quick = settings(
 
 @pytest.mark.parametrize("name", ALL_TYPES)
 def test_md5_is_genpys(name: str) -> None:
-    assert codec.md5(name) == genpy_class(name)._md5sum
+    assert codec.type_hash(name) == genpy_class(name)._md5sum
 
 
 @pytest.mark.parametrize("name", ALL_TYPES)
@@ -46,11 +46,11 @@ def test_constants_are_genpys(name: str) -> None:
 
 @pytest.mark.parametrize("service", codec.service_names())
 def test_service_md5_is_genpys(service: str) -> None:
-    assert codec.service_md5(service) == genpy.message.get_service_class(service)._md5sum
+    assert codec.service_type_hash(service) == genpy.message.get_service_class(service)._md5sum
 
 
 def test_notification_md5_is_that_of_its_text() -> None:
-    assert codec.md5("test_msgs/Notification") == hashlib.md5(b"string messages").hexdigest()
+    assert codec.type_hash("test_msgs/Notification") == hashlib.md5(b"string messages").hexdigest()
 
 
 @pytest.mark.parametrize("name", ALL_TYPES)

@@ -47,7 +47,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Package:
 def error(name: str) -> str:
     """Return the text of the error for a type."""
     with pytest.raises(codec.MessageError) as caught:
-        codec.md5(name)
+        codec.type_hash(name)
     return str(caught.value)
 
 
@@ -58,7 +58,7 @@ def test_there_are_enough_types_to_test() -> None:
 
 @pytest.mark.parametrize("name", UNLISTED)
 def test_md5_and_definition_are_genpys(name: str) -> None:
-    assert codec.md5(name) == genpy_class(name)._md5sum
+    assert codec.type_hash(name) == genpy_class(name)._md5sum
     assert codec.definition(name) == genpy_class(name)._full_text
 
 
@@ -84,7 +84,7 @@ def test_bytes_are_genpys(name: str) -> None:
 def test_services_are_genpys(name: str) -> None:
     cls = genpy.message.get_service_class(name)
     request, response = codec.service_halves(name)
-    assert codec.service_md5(name) == cls._md5sum
+    assert codec.service_type_hash(name) == cls._md5sum
     assert codec.definition(request) == cls._request_class._full_text
     assert codec.definition(response) == cls._response_class._full_text
 
@@ -99,7 +99,7 @@ def test_a_users_package_works_at_once(package: Package) -> None:
     )
     name = "unlisted_robot/Battery"
     generated = genpy.dynamic.generate_dynamic(name, codec.definition(name))
-    assert codec.md5(name) == generated[name]._md5sum
+    assert codec.type_hash(name) == generated[name]._md5sum
     assert codec.constants(name) == {"MOST": 2**64 - 1}
     assert codec.constants("unlisted_robot/Cell") == {"NAME": "a # b", "KIND": 7}
 
@@ -153,9 +153,9 @@ def test_a_missing_nested_type_is_reported_with_its_place(package: Package) -> N
 
 def test_a_definition_that_changed_since_it_was_read_is_refused(package: Package) -> None:
     folder = package("unlisted_change", {"msg/Cell.msg": "int8 a\n", "msg/Two.msg": "Cell cell\n"})
-    codec.md5("unlisted_change/Cell")
+    codec.type_hash("unlisted_change/Cell")
     (folder / "msg" / "Cell.msg").write_text("int16 a\n")
-    assert "unlisted_change/Cell is known with md5" in error("unlisted_change/Two")
+    assert "unlisted_change/Cell is known with type hash" in error("unlisted_change/Two")
 
 
 def test_threads_that_ask_at_once_get_the_same_type(package: Package) -> None:
@@ -173,5 +173,5 @@ def test_threads_that_ask_at_once_get_the_same_type(package: Package) -> None:
 
 def test_names_of_listed_types_stay_those_of_the_build(package: Package) -> None:
     package("unlisted_names", {"msg/Cell.msg": "int8 a\n"})
-    codec.md5("unlisted_names/Cell")
+    codec.type_hash("unlisted_names/Cell")
     assert "unlisted_names/Cell" not in codec.message_names()

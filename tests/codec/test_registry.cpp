@@ -53,7 +53,7 @@ TEST(Registry, ArraysCarryTheirLength) {
 TEST(Registry, ServicesHaveTwoHalves) {
   const ServiceType* service = find_service("std_srvs/srv/SetBool");
   ASSERT_NE(service, nullptr);
-  EXPECT_EQ(service->md5, "09fb03525b03e7ea1fd3992bafd87e16");
+  EXPECT_EQ(service->type_hash, "09fb03525b03e7ea1fd3992bafd87e16");
   EXPECT_EQ(service->request, find_message("std_srvs/SetBoolRequest"));
   EXPECT_EQ(service->response->fields.size(), 2U);
 }
@@ -171,13 +171,13 @@ TEST(AddedTypes, StayWhereTheyAreWhileThreadsAddMore) {
   EXPECT_EQ(first->fields[0].message, find_message("geometry_msgs/Vector3"));
 }
 
-TEST(DefaultSize, CountsLengthsAndFixedArrays) {
-  EXPECT_EQ(default_size(*find_message("geometry_msgs/Twist")), 48U);
+TEST(MinimumSize, CountsLengthsAndFixedArrays) {
+  EXPECT_EQ(minimum_size(*find_message("geometry_msgs/Twist")), 48U);
   // Header: seq, stamp, empty frame_id.
-  EXPECT_EQ(default_size(*find_message("std_msgs/Header")), 4U + 8U + 4U);
-  EXPECT_EQ(default_size(*find_message("geometry_msgs/PoseWithCovariance")), 8U * (3 + 4 + 36));
-  EXPECT_EQ(default_size(*find_message("tf2_msgs/TFMessage")), 4U);
-  EXPECT_EQ(default_size(*find_message("std_msgs/Empty")), 0U);
+  EXPECT_EQ(minimum_size(*find_message("std_msgs/Header")), 4U + 8U + 4U);
+  EXPECT_EQ(minimum_size(*find_message("geometry_msgs/PoseWithCovariance")), 8U * (3 + 4 + 36));
+  EXPECT_EQ(minimum_size(*find_message("tf2_msgs/TFMessage")), 4U);
+  EXPECT_EQ(minimum_size(*find_message("std_msgs/Empty")), 0U);
 }
 
 TEST(Kinds, HaveTheNamesAndSizesOfTheMessageLanguage) {

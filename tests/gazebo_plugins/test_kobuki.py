@@ -189,4 +189,4 @@ def test_a_cliff_sensor_reads_less_the_farther_the_floor_is() -> None:
     ],
 )
 def test_its_messages_have_the_md5_of_the_kobukis_own(name: str, md5: str) -> None:
-    assert _core.messages.md5(f"kobuki_msgs/{name}") == md5
+    assert _core.messages.type_hash(f"kobuki_msgs/{name}") == md5

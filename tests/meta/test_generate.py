@@ -211,3 +211,35 @@ def test_a_python_class_is_enough(generator: Generator, monkeypatch: pytest.Monk
 
 def test_help_names_the_options(generator: Generator) -> None:
     assert "--ros-package-path" in generator.run("", "", "--help").stdout
+
+
+def test_the_list_of_interfaces_adds_messages_and_services(generator: Generator) -> None:
+    generator.folder.joinpath("interfaces.txt").write_text("geometry_msgs/msg/Twist\nstd_srvs/srv/SetBool\n# none\n")
+    run = generator.run("std_msgs/String\ngeometry_msgs/Twist\n", "", "--interfaces", "interfaces.txt")
+    assert run.returncode == 0, run.stderr
+    assert '"geometry_msgs/Twist"' in generator.table("geometry_msgs")
+    assert '"std_srvs/SetBool"' in generator.table("std_srvs")
+
+
+def test_typos_among_the_interfaces_are_reported_with_their_place(generator: Generator) -> None:
+    generator.folder.joinpath("interfaces.txt").write_text("std_srvs/srv/SetBol\ngeometry_msgs/msg/Twits\n")
+    run = generator.run("std_msgs/String\n", "", "--interfaces", "interfaces.txt")
+    assert run.returncode == 1
+    assert run.stderr.splitlines() == [
+        "interfaces.txt:2: geometry_msgs has no message Twits; did you mean geometry_msgs/Twist?",
+        "interfaces.txt:1: std_srvs has no service SetBol; did you mean std_srvs/SetBool?",
+    ]
+
+
+def test_tables_of_ros2_are_written_on_request(generator: Generator) -> None:
+    run = generator.run("sensor_msgs/CameraInfo\nstd_msgs/Time\n", "std_srvs/Trigger\n", "--ros2")
+    assert run.returncode == 0, run.stderr
+    table = (generator.output / "ros2_package_sensor_msgs.cpp").read_text()
+    assert '{"k", FieldKind::kFloat64, ArrayKind::kFixed, 9, nullptr}' in table
+    assert (
+        '{"stamp", FieldKind::kTime, ArrayKind::kNone, 0, nullptr}'
+        in (generator.output / "ros2_package_std_msgs.cpp").read_text()
+    )
+    assert '"std_msgs/Time"' not in (generator.output / "ros2_package_std_msgs.cpp").read_text()
+    generator.run("sensor_msgs/CameraInfo\n")
+    assert not (generator.output / "ros2_package_sensor_msgs.cpp").exists()

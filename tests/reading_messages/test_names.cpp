@@ -25,7 +25,7 @@ class Info final : public messages::FieldReader {
 std::vector<double> matrices(const std::vector<std::string>& names) {
   MessageType type;
   type.name = "bubblesim_test/CameraInfo_" + names[0];
-  type.md5 = names[0];
+  type.type_hash = names[0];
   for (const std::string& name : names) type.fields.push_back({name, FieldKind::kFloat64, ArrayKind::kVariable});
   messages::WireBuffer bytes;
   messages::encode(messages::add_message(type), Info(), bytes);

@@ -40,7 +40,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 MessageType make_type(const char* name, const char* md5, const char* definition, bool has_header = false) {
   MessageType type;
   type.name = name;
-  type.md5 = md5;
+  type.type_hash = md5;
   type.definition = definition;
   type.has_header = has_header;
   return type;
@@ -192,7 +192,7 @@ class Probe {
     const auto& type = types().at(read<std::string>(words));
     const bool latch = read<std::string>(words) == "latch";
     const auto queue_size = read<std::uint32_t>(words);
-    return std::to_string(bridge_.advertise(topic, type, queue_size == 0 ? 100 : queue_size, latch));
+    return std::to_string(bridge_.advertise(topic, type, {queue_size == 0 ? 100 : queue_size, latch}));
   }
 
   /// `how`: "" prints, "throw" prints and throws, "once" prints and shuts itself down, "size" prints the number of
@@ -208,7 +208,7 @@ class Probe {
       if (how == "throw") throw std::runtime_error("subscriber " + std::to_string(*id));
       if (how == "once") bridge_.shutdown_subscriber(*id);
     };
-    *id = bridge_.subscribe(topic, type, 100, print, true);
+    *id = bridge_.subscribe(topic, type, {100}, print);
     return std::to_string(*id);
   }
 
@@ -271,11 +271,8 @@ class Probe {
     EndpointId subscriber = 0;
     EndpointId server = 0;
     return std::to_string(longest_call(
-        100, [&] { publisher = bridge_.advertise(topic, type, 1, false); },
-        [&] {
-          subscriber = bridge_.subscribe(
-              topic, type, 1, [](WireView) {}, true);
-        },
+        100, [&] { publisher = bridge_.advertise(topic, type, {1}); },
+        [&] { subscriber = bridge_.subscribe(topic, type, {1}, [](WireView) {}); },
         [&] { server = bridge_.advertise_service(topic, services().at("setbool"), nullptr); },
         [&] { bridge_.publish(publisher, encode(type, "1")); }, [&] { bridge_.publish_clock(1.0); },
         [&] { bridge_.process_input(); }, [&] { bridge_.now(); }, [&] { bridge_.shutdown_publisher(publisher); },

@@ -88,4 +88,4 @@ def test_actuator_messages_command_the_propellers(roscore: RosCore, tmp_path: Pa
 
 def test_actuators_have_the_md5_of_the_original() -> None:
     # From rosserial's code for mav_msgs.
-    assert _core.messages.md5("mav_msgs/Actuators") == "25741daf38ed25442e3a66a855ee8d9c"
+    assert _core.messages.type_hash("mav_msgs/Actuators") == "25741daf38ed25442e3a66a855ee8d9c"

@@ -33,9 +33,9 @@ SERVICES = {
 
 @pytest.mark.parametrize("name", MESSAGES)
 def test_messages_have_gazebos_md5(name: str) -> None:
-    assert _core.messages.md5(f"gazebo_msgs/{name}") == MESSAGES[name]
+    assert _core.messages.type_hash(f"gazebo_msgs/{name}") == MESSAGES[name]
 
 
 @pytest.mark.parametrize("name", SERVICES)
 def test_services_have_gazebos_md5(name: str) -> None:
-    assert _core.messages.service_md5(f"gazebo_msgs/{name}") == SERVICES[name]
+    assert _core.messages.service_type_hash(f"gazebo_msgs/{name}") == SERVICES[name]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The message bridge interface of child scripts. Scripts convert their values to wire bytes and a bridge only transfers
-// bytes, so the bridge does not depend on scripts, nor scripts on ROS. src/ros_bridge implements it.
+// bytes, so the bridge does not depend on scripts, nor scripts on ROS. src/ros1 and src/ros2 implement it.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "bubblesim/messages/message_type.hpp"
+#include "bubblesim/messages/qos.hpp"
 #include "bubblesim/messages/wire.hpp"
 
 namespace bubblesim::messages {
@@ -32,35 +33,36 @@ struct ServiceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// There is no master, or it does not answer.
-struct NoMaster : std::runtime_error {
+/// The server that keeps the parameters does not answer: the master of ROS 1. In ROS 2, a node keeps its own.
+struct NoParameterServer : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 /// std::monostate stands for lists and dictionaries, which scripts do not read.
 using ParameterValue = std::variant<std::monostate, bool, std::int32_t, double, std::string>;
 
+class LaterServices;
+
 struct BridgeTime {
   std::uint32_t sec = 0;
   std::uint32_t nanosec = 0;
 };
 
-/// All calls come from the simulation's thread and, unless stated otherwise, return at once. A bridge communicates with
-/// its master on a thread of its own: an endpoint created without a reachable master becomes active when one appears.
-/// Errors (invalid name, unknown or shut-down id) are std::invalid_argument, with a string for the author of the
-/// script.
+/// All calls come from the simulation's thread and, unless stated otherwise, return at once: a bridge communicates with
+/// its peers on threads of its own. An endpoint created without peers becomes active when they appear. Errors (invalid
+/// name, unknown or shut-down id) are std::invalid_argument, with a string for the author of the script.
 class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  /// `topic` is a ROS name: absolute `/a`, relative `a` (below the node's own name), `~a`. `type` must live as long as
-  /// the bridge. At most `queue_size` messages wait to be sent or delivered, the oldest are dropped first; 0: no limit.
-  virtual EndpointId advertise(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                               bool latch) = 0;
-  /// `tcp_no_delay`: publishers send each message at once and do not wait for a fuller packet. If a node has several
-  /// subscribers of a topic, the value of the first one applies.
-  virtual EndpointId subscribe(const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                               MessageCallback callback, bool tcp_no_delay) = 0;
+  /// The version of the types that it takes.
+  virtual RosVersion version() const = 0;
+
+  /// `topic` is a ROS name: absolute `/a`, relative `a` (ROS 1: below the node's own name, ROS 2: in the node's
+  /// namespace), `~a`. `type` must live as long as the bridge.
+  virtual EndpointId advertise(const std::string& topic, const MessageType& type, const Qos& qos) = 0;
+  virtual EndpointId subscribe(const std::string& topic, const MessageType& type, const Qos& qos,
+                               MessageCallback callback) = 0;
   /// For endpoints of the simulator itself: from now on this publisher (subscriber) publishes (delivers) nothing while
   /// its topic has another one, or while its topic is used with another type, which remains possible.
   virtual void yield_topic(EndpointId publisher_or_subscriber) = 0;
@@ -68,7 +70,7 @@ class Bridge {
   virtual void set_priority(EndpointId subscriber_or_server) = 0;
   /// Whether a message or request for such an endpoint has arrived and is not delivered yet. Thread-safe.
   virtual bool urgent_waits() const = 0;
-  /// Whether publish() would have an effect now: there is a subscriber, or the publisher latches.
+  /// Whether publish() would have an effect now: there is a subscriber, or the publisher keeps messages for late ones.
   virtual bool wants_messages(EndpointId publisher) const = 0;
   /// Whether a subscriber has a publisher; up to a quarter of a second old.
   virtual bool has_publisher(EndpointId subscriber) const = 0;
@@ -90,10 +92,12 @@ class Bridge {
   virtual bool wait_for_service(const std::string& name, double timeout) = 0;
   virtual void shutdown_service_server(EndpointId server) = 0;
   virtual void shutdown_service_client(EndpointId client) = 0;
+  /// Null for a bridge without them.
+  virtual LaterServices* later_services() { return nullptr; }
 
-  /// Parameters of the master; without a master none is set. Names are resolved like topics. Reading waits for the
-  /// answer, and throws NoMaster when the master has not answered for a second. Writing does not wait; a later read
-  /// returns the written value.
+  /// Parameters: in ROS 1 those of all nodes, which the master keeps; in ROS 2 those of this node, `~a` or `a`. Reading
+  /// waits for the answer, and throws NoParameterServer when the master has not answered for a second. Writing does not
+  /// wait; a later read returns the written value.
   virtual std::optional<ParameterValue> get_parameter(const std::string& name) = 0;
   virtual void set_parameter(const std::string& name, const ParameterValue& value) = 0;
   virtual void delete_parameter(const std::string& name) = 0;
@@ -106,7 +110,7 @@ class Bridge {
   /// example to run the simulation while it works.
   virtual void process_input() = 0;
 
-  /// Time for time stamps of messages: when /use_sim_time is set, the time of the simulation's state, else wall clock
+  /// Time for time stamps of messages: when use_sim_time is set, the time of the simulation's state, else wall clock
   /// time.
   virtual BridgeTime now() const = 0;
   /// Whether another node receives this node's /clock; true when nodes use the wall clock.

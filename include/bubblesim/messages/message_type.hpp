@@ -9,7 +9,14 @@
 #include <variant>
 #include <vector>
 
+#include "bubblesim/messages/wire.hpp"
+
 namespace bubblesim::messages {
+
+/// The version of ROS whose names, fields and bytes a type has. Most types exist in both, some with other fields.
+enum class RosVersion : std::uint8_t { kRos1 = 1, kRos2 = 2 };
+
+constexpr Layout layout_of(RosVersion version) { return version == RosVersion::kRos2 ? Layout::kCdr : Layout::kPacked; }
 
 /// Wire format of one value of a field (http://wiki.ros.org/msg, "Field Types").
 enum class FieldKind : std::uint8_t {
@@ -24,8 +31,8 @@ enum class FieldKind : std::uint8_t {
   kUint64,
   kFloat32,
   kFloat64,
-  kString,    ///< uint32 length, then bytes
-  kTime,      ///< uint32 secs, uint32 nsecs
+  kString,    ///< uint32 length, then bytes; in CDR the last byte is 0
+  kTime,      ///< uint32 secs, uint32 nsecs; in ROS 2 like kDuration
   kDuration,  ///< int32 secs, int32 nsecs
   kMessage,   ///< the fields of another type, in order
 };
@@ -56,17 +63,18 @@ struct Constant {
 
 /// A message, or the request or response of a service. Once returned by the registry, it lives as long as the process.
 struct MessageType {
-  std::string name;         ///< `geometry_msgs/Twist`; of a service: `std_srvs/SetBoolRequest`
-  std::string md5;          ///< as genmsg computes it; peers compare it when they connect
-  std::string definition;   ///< full text with nested types, as rosbag stores it
+  std::string name;       ///< `geometry_msgs/Twist`; of a service: `std_srvs/SetBoolRequest` (ROS 2: `SetBool_Request`)
+  std::string type_hash;  ///< the MD5 of ROS 1, or `RIHS01_...` of ROS 2; peers compare it
+  std::string definition;   ///< full text with nested types, as bags store it
   bool has_header = false;  ///< first field is std_msgs/Header: roscpp writes its sequence number
   std::vector<Field> fields;
   std::vector<Constant> constants;
+  RosVersion version = RosVersion::kRos1;
 };
 
 struct ServiceType {
   std::string name;  ///< `std_srvs/SetBool`
-  std::string md5;
+  std::string type_hash;
   const MessageType* request = nullptr;
   const MessageType* response = nullptr;
 };
@@ -74,11 +82,18 @@ struct ServiceType {
 /// Bytes of one value of a kind; 0 when the size depends on the value (strings, messages).
 std::uint32_t wire_size(FieldKind kind);
 
-/// Bytes of a message, a field or one element of an array field with its default value. This is the minimum size. The
-/// defaults are all zero bytes: 0, false, "", time 0, no elements.
-std::size_t default_size(const MessageType& type);
-std::size_t default_size(const Field& field);
-std::size_t default_element_size(const Field& field);
+/// The multiple at which a value of a kind begins in CDR; 1 for messages, whose first value has its own.
+std::uint32_t alignment(FieldKind kind);
+
+/// Least bytes of a message, a field or one element of an array field, without those for alignment. In the layout of
+/// ROS 1 these are the bytes of the default value.
+std::size_t minimum_size(const MessageType& type);
+std::size_t minimum_size(const Field& field);
+std::size_t minimum_element_size(const Field& field);
+
+/// Appends the default value of a message or a field: 0, false, "", time 0, no elements.
+void put_default(const MessageType& type, WireBuffer& out);
+void put_default(const Field& field, WireBuffer& out);
 
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);

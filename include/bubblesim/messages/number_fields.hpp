@@ -30,6 +30,7 @@ class NumberFields {
 
   void add(const MessageType& type, const std::string& prefix, const std::vector<std::string>& paths);
 
+  Layout layout_;
   std::vector<Number> numbers_;  // all of a message, in its order
   std::size_t count_;
 };

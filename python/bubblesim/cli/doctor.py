@@ -28,13 +28,13 @@ def add_parser(commands: Any) -> None:
 
 
 def _examine(options: argparse.Namespace) -> int:
-    from bubblesim.doctor import build_checks, message_checks, port_checks, ros_checks
+    from bubblesim.doctor import build_checks, message_checks, port_checks, ros2_checks, ros_checks
     from bubblesim.doctor.finding import Level
 
     checks = {
         "build": (build_checks.check_python, build_checks.check_package, build_checks.check_node),
         "messages": (message_checks.check_messages,),
-        "ros": (ros_checks.check_names, ros_checks.check_master),
+        "ros": (ros_checks.check_names, ros_checks.check_master, ros2_checks.check_ros2),
         "ports": (port_checks.check_ports,),
     }
     unknown = [about for about in options.about if about not in checks]

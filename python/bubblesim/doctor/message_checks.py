@@ -27,7 +27,7 @@ def check_messages() -> Iterator[Finding]:
         kind = _python_class(name)
         if kind is None:
             missing[name.partition("/")[0]].append(name)
-        elif kind._md5sum != _core.messages.md5(name):
+        elif kind._md5sum != _core.messages.type_hash(name):
             others.append(name)
     for package, types in missing.items():
         yield warning(

@@ -111,7 +111,7 @@ class Plugin:
 
     def advertise(self, topic: str, message_type: str, queue_size: int) -> int:
         """Advertise a topic until the plugin is closed."""
-        publisher: int = self.bridge.advertise(self.topic(topic), message_type, queue_size, False)
+        publisher: int = self.bridge.advertise(self.topic(topic), message_type, queue_size)
         self.context.endpoints.append(lambda: self.bridge.shutdown_publisher(publisher))
         return publisher
 

@@ -28,7 +28,7 @@ class Transforms:
     def add(self, header: Any, child: str, pose: Sequence[float]) -> None:
         """Add the pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
         if self._publisher is None:
-            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE, False))
+            self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE))
         if is_needed(self._bridge, self._publisher):
             self._waiting.append(Transform(header, child, pose))
 

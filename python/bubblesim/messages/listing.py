@@ -57,7 +57,7 @@ def _listed(kind: str) -> list[str]:
 
 def _rows(names: list[str], kind: str, specs: Specs) -> Iterator[tuple[str, str, str, str]]:
     listed = set(_listed(kind))
-    compiled_md5 = _core.messages.md5 if kind == "msg" else _core.messages.service_md5
+    compiled_md5 = _core.messages.type_hash if kind == "msg" else _core.messages.service_type_hash
     for name in names:
         md5 = file = "-"
         try:

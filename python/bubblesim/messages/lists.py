@@ -35,6 +35,21 @@ def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str
     return list(entries.values())
 
 
+def read_interfaces(
+    path: Path, shown_as: str, problems: list[str], warnings: list[str]
+) -> tuple[list[Entry], list[Entry]]:
+    """Return the messages and services of a list that has both, in ROS 2's spelling; nothing without the file."""
+    if not path.is_file():
+        return [], []
+    entries = read_list(path, shown_as, problems, warnings)
+    lines = path.read_text(encoding="utf-8").splitlines()
+
+    def is_service(entry: Entry) -> bool:
+        return "/srv/" in _content(lines[int(entry.place.rpartition(":")[2]) - 1])
+
+    return [entry for entry in entries if not is_service(entry)], [entry for entry in entries if is_service(entry)]
+
+
 def add_to_list(path: Path, name: str) -> str:
     """Write a type into messages.txt or services.txt, sorted within its package; return a message about the change."""
     lines = path.read_text(encoding="utf-8").splitlines()

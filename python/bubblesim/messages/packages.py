@@ -49,7 +49,7 @@ class PackageIndex:
 
     def add_share(self, folder: Path) -> None:
         """Add the packages directly below a folder such as /usr/share, named like their folders."""
-        for kind in ("msg", "srv"):
+        for kind in ("msg", "srv", "action"):
             for definitions in sorted(folder.glob(f"*/{kind}")):
                 self.add(definitions.parent.name, definitions.parent)
 

@@ -15,29 +15,57 @@ from bubblesim import _core
 from bubblesim.messages.kinds import KINDS, has_header
 from bubblesim.messages.names import did_you_mean, nearest_names, type_name
 from bubblesim.messages.packages import machine_index
+from bubblesim.messages.ros2_definitions import KINDS as ROS2_KINDS
+from bubblesim.messages.ros2_definitions import Ros2Message
+from bubblesim.messages.ros2_specs import Ros2Specs
 from bubblesim.messages.specs import SpecError, Specs
 
 _lock = threading.Lock()
 _added: set[tuple[str, str]] = set()  # kind, name
 
 
-def add_message(name: str) -> None:
-    """Add a message, or half of a service, with its nested types; raise MessageError if that fails."""
-    _add(name, "msg")
+def add_message(name: str, version: _core.messages.RosVersion) -> None:
+    """Add a message, or half of a service of ROS 1, with its nested types; raise MessageError if that fails."""
+    _add(name, "msg", version)
 
 
-def add_service(name: str) -> None:
+def add_service(name: str, version: _core.messages.RosVersion) -> None:
     """Add a service with its nested types; raise MessageError if that fails."""
-    _add(name, "srv")
+    _add(name, "srv", version)
 
 
-def _add(given_name: str, kind: str) -> None:
+def add_action(given_name: str) -> str:
+    """Add the parts of an action of ROS 2; return the beginning of their names, `package/action/Type`.
+
+    Raise MessageError if that fails.
+    """
+    name = type_name(given_name.replace("/action/", "/"))
+    if name is None:
+        raise _core.MessageError(
+            f"'{given_name}' is not a type name, expected package/Name such as test_msgs/Fibonacci"
+        )
+    specs = Ros2Specs(machine_index())
+    try:
+        base = specs.load_action(name)
+    except SpecError as error:
+        actions = {each.removesuffix("Goal") for each in specs.index.names("msg") if each.endswith("ActionGoal")}
+        known = sorted({*specs.index.names("action"), *(each.removesuffix("Action") for each in actions)})
+        raise _core.MessageError(f"{error}{did_you_mean(nearest_names(name, known))}") from error
+    with _lock:
+        _register_ros2(specs)
+    return base
+
+
+def _add(given_name: str, kind: str, version: _core.messages.RosVersion) -> None:
     specs = Specs(machine_index())
     name = type_name(given_name)
     if name is None:
         hint = did_you_mean(_similar(specs, given_name, kind))
         expected = f"expected package/Type such as geometry_msgs/Twist{hint}"
         raise _core.MessageError(f"'{given_name}' is not a type name, {expected}")
+    if version == _core.messages.RosVersion.ROS2:
+        _add_of_ros2(Ros2Specs(specs.index), name, kind)
+        return
     if kind == "msg" and not specs.index.find(name, "msg") and (service := _service_of_half(specs, name)):
         name, kind = service, "srv"
     if not specs.index.find(name, kind):
@@ -51,6 +79,52 @@ def _add(given_name: str, kind: str) -> None:
         if (kind, name) not in _added:
             _added.add((kind, name))
             _report_unlisted(name, file)
+
+
+def _add_of_ros2(specs: Ros2Specs, name: str, kind: str) -> None:
+    what = "message" if kind == "msg" else "service"
+    if not specs.find(name, kind):
+        version = _core.messages.RosVersion.ROS2
+        names = _core.messages.message_names if kind == "msg" else _core.messages.service_names
+        hint = did_you_mean(nearest_names(name, sorted({*names(version), *specs.index.names(kind)})))
+        raise _core.MessageError(
+            f"{name} is not a {what} type of ROS 2 in this build, and no definition was found{hint}"
+        )
+    try:
+        file = specs.load(name, kind)
+    except SpecError as error:
+        raise _core.MessageError(str(error)) from error
+    with _lock:
+        _register_ros2(specs)
+        if (f"ROS 2 {kind}", name) not in _added:
+            _added.add((f"ROS 2 {kind}", name))
+            _report_unlisted(name, file)
+
+
+def _register_ros2(specs: Ros2Specs) -> None:
+    version = _core.messages.RosVersion.ROS2
+    services = [
+        (name, specs.service_hash(name), *(_ros2_tuple(specs, part) for part in parts))
+        for name, parts in specs.services.items()
+    ]
+    try:
+        for message in specs.messages.values():
+            _core.messages.add_message(_ros2_tuple(specs, message), version)
+        for service in services:
+            _core.messages.add_service(*service, version)
+    except ValueError as error:
+        cure = "its definition has changed since bubblesim was built or started; rebuild: catkin build bubblesim"
+        raise _core.MessageError(f"{error}: {cure}") from error
+
+
+def _ros2_tuple(specs: Ros2Specs, message: Ros2Message) -> tuple[Any, ...]:
+    fields = [
+        (name, ROS2_KINDS.get(kind.base, kind.base), kind.is_array, None if kind.is_bounded else kind.length)
+        for name, kind in message.fields
+    ]
+    constants = [(name, ROS2_KINDS[kind], _bytes_of(value)) for name, kind, value in message.constants]
+    definition = _bytes_of(specs.full_text(message))
+    return message.name, specs.message_hash(message), definition, False, fields, constants
 
 
 def _service_of_half(specs: Specs, name: str) -> str | None:

@@ -4,9 +4,14 @@
 from __future__ import annotations
 
 import io
+from dataclasses import dataclass
 from pathlib import Path
 
+import genpy
 import rosbag
+
+from bubblesim import _core
+from bubblesim.observers.recorder import Time
 
 
 class _WholeWrites(io.FileIO):
@@ -60,3 +65,31 @@ class BagFile(rosbag.Bag):  # type: ignore[misc]
                 return True
         self._close_file()
         return False
+
+
+@dataclass(frozen=True)
+class _Definition:
+    """The attributes of a message class that rosbag reads."""
+
+    _md5sum: str
+    _full_text: str
+
+
+class BagRecording:
+    """A RecordingFile of ROS 1."""
+
+    def __init__(self, file: Path) -> None:
+        """Open the bag, replacing an existing file; raise OSError on failure."""
+        self._bag = BagFile(file)
+        self._definitions: dict[str, _Definition] = {}
+        self.complete_chunk = self._bag.complete_chunk
+        self.close = self._bag.close
+        self.close_at_last_chunk = self._bag.close_at_last_chunk
+
+    def write(self, topic: str, message_type: str, data: bytes, time: Time) -> None:
+        """Write a message; raise OSError on failure."""
+        definition = self._definitions.get(message_type)
+        if definition is None:
+            hash_, text = _core.messages.type_hash(message_type), _core.messages.definition(message_type)
+            definition = self._definitions[message_type] = _Definition(hash_, text)
+        self._bag.write(topic, (message_type, data, definition._md5sum, definition), genpy.Time(*time), raw=True)

@@ -8,6 +8,7 @@ from functools import reduce
 from operator import getitem
 from typing import Any, Protocol
 
+from bubblesim._core import Qos
 from bubblesim._core.messages import TimeForm
 from bubblesim.observers.lock_step import LockStep
 
@@ -60,11 +61,11 @@ class ObservedBridge:
         """Forward all functions that are not observed."""
         return getattr(self._bridge, name)
 
-    def advertise(self, topic: str, message_type: str, queue_size: int, latch: bool) -> int:
+    def advertise(self, topic: str, message_type: str, qos: Qos | int) -> int:
         """Advertise a topic and notify the observers."""
-        publisher: int = self._bridge.advertise(topic, message_type, queue_size, latch)
+        publisher: int = self._bridge.advertise(topic, message_type, qos)
         self._published[publisher] = topic, message_type
-        if latch:
+        if isinstance(qos, Qos) and qos.transient_local:
             self._latched.add(publisher)
         for observer in self.observers:
             observer.advertised(publisher)
@@ -100,7 +101,7 @@ class ObservedBridge:
         fields: Sequence[str],
         target: Callable[[list[float]], bool],
         refused: Callable[[list[float]], object],
-        queue_size: int,
+        qos: Qos | int,
     ) -> int:
         """Subscribe, and notify the observers of whole messages."""
 
@@ -109,4 +110,4 @@ class ObservedBridge:
             if not target(numbers):
                 refused(numbers)
 
-        return self.subscribe(topic, message_type, take, queue_size, TimeForm.FLOAT)
+        return self.subscribe(topic, message_type, take, qos, TimeForm.FLOAT)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bubblesim._core import NoMaster
+from bubblesim._core import NoParameterServer
 from bubblesim.geometry.poses import IDENTITY
 from bubblesim.ros_messages import pose_message
 from bubblesim.scene_state.drawings import Drawing
@@ -36,7 +36,7 @@ Array = npt.NDArray[np.float64]
 def _frame_of(bridge: Any) -> str:
     try:
         found, frame = bridge.get_parameter("~drawings_frame")
-    except NoMaster:
+    except NoParameterServer:
         return "world"
     return frame if found and isinstance(frame, str) else "world"
 
@@ -51,7 +51,7 @@ class DrawingMarkers:
         self._drawings = shared.drawings
         self._tree = ObjectTree(simulation.world, shared.dummies, shared.edits)
         self._frame = _frame_of(bridge)
-        self._publisher = bridge.advertise(TOPIC, "visualization_msgs/MarkerArray", 10, False)
+        self._publisher = bridge.advertise(TOPIC, "visualization_msgs/MarkerArray", 10)
         self._sent: dict[int, tuple[int, list[float], int]] = {}  # by handle: change, parent's pose, number of markers
         self._next = self._next_refresh = 0.0
 

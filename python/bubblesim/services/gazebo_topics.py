@@ -17,8 +17,8 @@ class GazeboTopics:
         """Advertise the topics."""
         self._bridge = bridge
         self._world = world
-        self._models = bridge.advertise("/gazebo/model_states", "gazebo_msgs/ModelStates", 1, False)
-        self._links = bridge.advertise("/gazebo/link_states", "gazebo_msgs/LinkStates", 1, False)
+        self._models = bridge.advertise("/gazebo/model_states", "gazebo_msgs/ModelStates", 1)
+        self._links = bridge.advertise("/gazebo/link_states", "gazebo_msgs/LinkStates", 1)
 
     def publish(self) -> None:
         """Publish all poses and velocities at the end of a step, if there are subscribers."""

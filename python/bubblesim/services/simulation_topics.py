@@ -42,7 +42,7 @@ class SimulationTopics:
         return subscriber
 
     def _advertise(self, topic: str, message_type: str, queue_size: int) -> int:
-        publisher = int(self._bridge.advertise(topic, message_type, queue_size, False))
+        publisher = int(self._bridge.advertise(topic, message_type, queue_size))
         self._bridge.yield_topic(publisher)
         return publisher
 

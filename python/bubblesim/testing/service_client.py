@@ -23,7 +23,7 @@ class ServiceClient:
         header = {
             "callerid": "/bubblesim_test",
             "service": name,
-            "md5sum": _core.messages.service_md5(service_type),
+            "md5sum": _core.messages.service_type_hash(service_type),
             "persistent": "1",
         }
         fields = [f"{key}={value}".encode() for key, value in header.items()]

@@ -24,16 +24,17 @@ using messages::Constant;
 using messages::Field;
 using messages::FieldKind;
 using messages::MessageType;
+using messages::RosVersion;
 
 /// name; kind or name of a message; whether it is an array; its length if fixed
 using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>>;
 /// name, kind, value; strings are bytes
 using ConstantTuple = std::tuple<std::string, std::string, py::object>;
-/// name, md5, definition, has_header, fields, constants
+/// name, type hash, definition, has_header, fields, constants
 using MessageTuple =
     std::tuple<std::string, std::string, py::bytes, bool, std::vector<FieldTuple>, std::vector<ConstantTuple>>;
 
-Field make_field(const FieldTuple& tuple) {
+Field make_field(const FieldTuple& tuple, RosVersion version) {
   const auto& [name, type, is_array, length] = tuple;
   Field field;
   field.name = name;
@@ -44,7 +45,7 @@ Field make_field(const FieldTuple& tuple) {
     return field;
   }
   field.kind = FieldKind::kMessage;
-  field.message = messages::find_message(type);
+  field.message = messages::find_message(type, version);
   if (field.message == nullptr) throw std::invalid_argument(type + " must be added before the types that contain it");
   return field;
 }
@@ -66,29 +67,32 @@ Constant make_constant(const ConstantTuple& tuple) {
   }
 }
 
-MessageType make_type(const MessageTuple& tuple) {
-  const auto& [name, md5, definition, has_header, fields, constants] = tuple;
-  MessageType type{name, md5, definition, has_header, {}, {}};
-  for (const FieldTuple& field : fields) type.fields.push_back(make_field(field));
+MessageType make_type(const MessageTuple& tuple, RosVersion version) {
+  const auto& [name, type_hash, definition, has_header, fields, constants] = tuple;
+  MessageType type{name, type_hash, definition, has_header, {}, {}, version};
+  for (const FieldTuple& field : fields) type.fields.push_back(make_field(field, version));
   for (const ConstantTuple& constant : constants) type.constants.push_back(make_constant(constant));
   return type;
 }
 
-void add_message(const MessageTuple& message) { messages::add_message(make_type(message)); }
+void add_message(const MessageTuple& message, RosVersion version) {
+  messages::add_message(make_type(message, version));
+}
 
-void add_service(const std::string& name, const std::string& md5, const MessageTuple& request,
-                 const MessageTuple& response) {
-  messages::add_service(name, md5, make_type(request), make_type(response));
+void add_service(const std::string& name, const std::string& type_hash, const MessageTuple& request,
+                 const MessageTuple& response, RosVersion version) {
+  messages::add_service(name, type_hash, make_type(request, version), make_type(response, version));
 }
 
 }  // namespace
 
 void bind_added_types(py::module_& m) {
-  m.def("add_message", &add_message, py::arg("message"),
-        "Add a message type that is not listed, after the types that it contains. The message is a tuple (name, md5, "
-        "definition as bytes, has_header, fields, constants), with fields (name, kind or package/Type, is_array, "
+  m.def("add_message", &add_message, py::arg("message"), py::arg("version") = RosVersion::kRos1,
+        "Add a message type that is not listed, after the types that it contains. The message is a tuple (name, type "
+        "hash, definition as bytes, has_header, fields, constants), with fields (name, kind or package/Type, is_array, "
         "length or None) and constants (name, kind, value). Raise ValueError if another type has that name.");
-  m.def("add_service", &add_service, py::arg("name"), py::arg("md5"), py::arg("request"), py::arg("response"),
+  m.def("add_service", &add_service, py::arg("name"), py::arg("type_hash"), py::arg("request"), py::arg("response"),
+        py::arg("version") = RosVersion::kRos1,
         "Add a service type; its request and response are tuples as in add_message.");
 }
 

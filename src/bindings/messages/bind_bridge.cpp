@@ -4,15 +4,17 @@
 #include <pybind11/stl.h>
 
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 
 #include "bindings.hpp"
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/messages/later_services.hpp"
 #include "bubblesim/messages/number_fields.hpp"
 #include "devices/number_target.hpp"
 #include "message_codec.hpp"
@@ -25,6 +27,7 @@ namespace {
 namespace py = pybind11;
 using messages::Bridge;
 using messages::EndpointId;
+using messages::Qos;
 
 py::object publish(Bridge& bridge, EndpointId publisher, const py::object& message) {
   if (!bridge.wants_messages(publisher)) return py::none();
@@ -47,11 +50,10 @@ py::object check(const Bridge& bridge, EndpointId publisher, const py::object& m
   return to_python(encode_any(bridge.message_type(publisher), message, bytes));
 }
 
-EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, std::uint32_t queue_size,
-                     bool latch) {
-  const messages::MessageType& listed = listed_message(type);
+EndpointId advertise(Bridge& bridge, const std::string& topic, const std::string& type, const Qos& qos) {
+  const messages::MessageType& listed = listed_message(type, bridge.version());
   const py::gil_scoped_release release;
-  return bridge.advertise(topic, listed, queue_size, latch);
+  return bridge.advertise(topic, listed, qos);
 }
 
 /// A Python function that a thread without the GIL may release.
@@ -71,8 +73,8 @@ void warn_of_dropped(const std::string& topic, const char* why) {
 }
 
 EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string& type, py::function callback,
-                     std::uint32_t queue_size, TimeForm time, bool tcp_no_delay) {
-  const messages::MessageType& listed = listed_message(type);
+                     const Qos& qos, TimeForm time) {
+  const messages::MessageType& listed = listed_message(type, bridge.version());
   auto deliver = [&listed, topic, time, function = share(std::move(callback))](messages::WireView bytes) {
     const py::gil_scoped_acquire gil;
     py::object message;
@@ -85,13 +87,13 @@ EndpointId subscribe(Bridge& bridge, const std::string& topic, const std::string
     (*function)(message);
   };
   const py::gil_scoped_release release;
-  return bridge.subscribe(topic, listed, queue_size, std::move(deliver), tcp_no_delay);
+  return bridge.subscribe(topic, listed, qos, std::move(deliver));
 }
 
 EndpointId subscribe_numbers(Bridge& bridge, const std::string& topic, const std::string& type,
                              const std::vector<std::string>& fields, const NumberTarget& target, py::function refused,
-                             std::uint32_t queue_size) {
-  const messages::MessageType& listed = listed_message(type);
+                             const Qos& qos) {
+  const messages::MessageType& listed = listed_message(type, bridge.version());
   auto deliver = [topic, numbers = messages::NumberFields(listed, fields), take = target.take,
                   function = share(std::move(refused))](messages::WireView bytes) {
     std::vector<double> values;
@@ -106,13 +108,13 @@ EndpointId subscribe_numbers(Bridge& bridge, const std::string& topic, const std
     (*function)(values);
   };
   const py::gil_scoped_release release;
-  return bridge.subscribe(topic, listed, queue_size, std::move(deliver), true);
+  return bridge.subscribe(topic, listed, qos, std::move(deliver));
 }
 
 messages::WireBuffer default_bytes(const messages::MessageType& type) {
   messages::WireBuffer bytes;
-  const std::size_t size = default_size(type);
-  if (size != 0) std::memset(bytes.extend(size), 0, size);
+  bytes.begin(layout_of(type.version));
+  put_default(type, bytes);
   return bytes;
 }
 
@@ -126,7 +128,7 @@ py::object decode_request(const messages::ServiceType& type, messages::WireView 
 
 EndpointId advertise_service(Bridge& bridge, const std::string& name, const std::string& type, py::function callback,
                              TimeForm time) {
-  const messages::ServiceType& listed = listed_service(type);
+  const messages::ServiceType& listed = listed_service(type, bridge.version());
   auto answer = [&listed, time, function = share(std::move(callback))](messages::WireView bytes) {
     const py::gil_scoped_acquire gil;
     const py::object request = decode_request(listed, bytes, time);
@@ -152,7 +154,7 @@ std::pair<bool, messages::ParameterValue> get_parameter(Bridge& bridge, const st
 }
 
 EndpointId service_client(Bridge& bridge, const std::string& name, const std::string& type) {
-  const messages::ServiceType& listed = listed_service(type);
+  const messages::ServiceType& listed = listed_service(type, bridge.version());
   const py::gil_scoped_release release;
   return bridge.service_client(name, listed);
 }
@@ -169,20 +171,93 @@ py::object call(Bridge& bridge, EndpointId client, const py::object& request, do
   return decode(*type.response, messages::WireView(response.data(), response.size()), {time});
 }
 
+messages::LaterServices& later_services(Bridge& bridge) {
+  if (messages::LaterServices* services = bridge.later_services()) return *services;
+  throw std::invalid_argument("ROS 1 has no services that answer later");
+}
+
+EndpointId advertise_service_later(Bridge& bridge, const std::string& name, const std::string& type,
+                                   py::function callback, TimeForm time) {
+  const messages::ServiceType& listed = listed_service(type, bridge.version());
+  auto on_request = [&listed, name, time, function = share(std::move(callback))](messages::RequestNumber number,
+                                                                                 messages::WireView bytes) {
+    const py::gil_scoped_acquire gil;
+    py::object request;
+    try {
+      request = decode(*listed.request, bytes, {time});
+    } catch (const py::error_already_set& error) {
+      warn_of_dropped(name, error.what());
+      return;
+    }
+    (*function)(number, request);
+  };
+  const py::gil_scoped_release release;
+  return later_services(bridge).advertise_service_later(name, listed, std::move(on_request));
+}
+
+void reply(Bridge& bridge, EndpointId server, messages::RequestNumber number, const py::object& response) {
+  messages::WireBuffer bytes;
+  encode(*bridge.service_type(server).response, response.ptr(), bytes);
+  const py::gil_scoped_release release;
+  later_services(bridge).reply(server, number, std::move(bytes));
+}
+
+void call_later(Bridge& bridge, EndpointId client, const py::object& request, py::function callback, TimeForm time) {
+  const messages::ServiceType& type = bridge.service_type(client);
+  messages::WireBuffer bytes;
+  encode(*type.request, request.ptr(), bytes);
+  auto on_response = [&type, time, function = share(std::move(callback))](messages::WireView response) {
+    const py::gil_scoped_acquire gil;
+    (*function)(decode(*type.response, response, {time}));
+  };
+  const py::gil_scoped_release release;
+  later_services(bridge).call_later(client, std::move(bytes), std::move(on_response));
+}
+
+void bind_qos(py::module_& core) {
+  py::class_<Qos>(core, "Qos", "Quality of service of a topic.")
+      .def(py::init([](std::uint32_t depth, bool transient_local, bool reliable, bool tcp_no_delay,
+                       std::optional<double> lifespan, std::optional<double> deadline) {
+             return Qos{depth, transient_local, reliable, tcp_no_delay, lifespan, deadline};
+           }),
+           py::arg("depth") = 1, py::kw_only(), py::arg("transient_local") = false, py::arg("reliable") = true,
+           py::arg("tcp_no_delay") = true, py::arg("lifespan") = py::none(), py::arg("deadline") = py::none(),
+           "See include/bubblesim/messages/qos.hpp; a depth of 0 has no limit, times are seconds.")
+      .def_readonly("depth", &Qos::depth)
+      .def_readonly("transient_local", &Qos::transient_local)
+      .def_readonly("reliable", &Qos::reliable)
+      .def_readonly("tcp_no_delay", &Qos::tcp_no_delay)
+      .def_readonly("lifespan", &Qos::lifespan)
+      .def_readonly("deadline", &Qos::deadline)
+      .def(
+          "__eq__",
+          [](const Qos& left, const Qos& right) {
+            const auto values = [](const Qos& qos) {
+              return std::tie(qos.depth, qos.transient_local, qos.reliable, qos.tcp_no_delay, qos.lifespan,
+                              qos.deadline);
+            };
+            return values(left) == values(right);
+          },
+          py::is_operator());
+  py::implicitly_convertible<std::uint32_t, Qos>();
+}
+
 }  // namespace
 
 void bind_bridge(py::module_& core) {
+  bind_qos(core);
   const auto without_gil = py::call_guard<py::gil_scoped_release>();
   py::register_exception<messages::ServiceError>(core, "ServiceError", PyExc_RuntimeError);
-  py::register_exception<messages::NoMaster>(core, "NoMaster", PyExc_RuntimeError);
+  py::register_exception<messages::NoParameterServer>(core, "NoParameterServer", PyExc_RuntimeError);
   py::class_<Bridge>(core, "Bridge",
                      "Topics and services of a message bridge. Handles are integers; stale ones raise ValueError.")
-      .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("queue_size"), py::arg("latch"))
-      .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"),
-           py::arg("queue_size"), py::arg("time"), py::arg("tcp_no_delay") = true,
-           "Subscribe; `callback` gets each message as a dict.")
+      .def_property_readonly("version", &Bridge::version, "The messages.RosVersion of its types.")
+      .def("advertise", &advertise, py::arg("topic"), py::arg("message_type"), py::arg("qos"),
+           "Advertise a topic with a Qos, or with a depth alone.")
+      .def("subscribe", &subscribe, py::arg("topic"), py::arg("message_type"), py::arg("callback"), py::arg("qos"),
+           py::arg("time"), "Subscribe; `callback` gets each message as a dict.")
       .def("subscribe_numbers", &subscribe_numbers, py::arg("topic"), py::arg("message_type"), py::arg("fields"),
-           py::arg("target"), py::arg("refused"), py::arg("queue_size"),
+           py::arg("target"), py::arg("refused"), py::arg("qos"),
            "Subscribe; a NumberTarget gets the numbers of these fields, such as 'linear.x', of each message, without "
            "Python; `refused` gets those that it cannot use.")
       .def("publish", &publish, py::arg("publisher"), py::arg("message"),
@@ -191,7 +266,7 @@ void bind_bridge(py::module_& core) {
       .def("check", &check, py::arg("publisher"), py::arg("message"),
            "Convert a message without sending it; return what publish() returns.")
       .def("wants_messages", &Bridge::wants_messages, py::arg("publisher"),
-           "Return whether publish() would send anything: the topic has subscribers or is latched.")
+           "Return whether publish() would send anything: the topic has subscribers, or keeps messages for late ones.")
       .def("yield_topic", &Bridge::yield_topic, py::arg("endpoint"), without_gil,
            "Make an endpoint inactive while other endpoints of this bridge use its topic.")
       .def("set_priority", &Bridge::set_priority, py::arg("endpoint"),
@@ -213,11 +288,22 @@ void bind_bridge(py::module_& core) {
            "fails or times out.")
       .def("wait_for_service", &Bridge::wait_for_service, py::arg("name"), py::arg("timeout"), without_gil,
            "Wait at most `timeout` seconds for a service and return whether it exists; check once if `timeout` is 0.")
+      .def("advertise_service_later", &advertise_service_later, py::arg("name"), py::arg("service_type"),
+           py::arg("callback"), py::arg("time"),
+           "Advertise a service of ROS 2; `callback` gets each request as (number, dict), and reply() answers it.")
+      .def("reply", &reply, py::arg("server"), py::arg("number"), py::arg("response"), "Answer a request with a dict.")
+      .def(
+          "service_is_ready",
+          [](Bridge& bridge, EndpointId client) { return later_services(bridge).service_is_ready(client); },
+          py::arg("client"), "Return whether a server of ROS 2 gets the requests of a client.")
+      .def("call_later", &call_later, py::arg("client"), py::arg("request"), py::arg("callback"), py::arg("time"),
+           "Send a request to a service of ROS 2; `callback` gets the response as a dict when it has arrived.")
       .def("shutdown_service_server", &Bridge::shutdown_service_server, without_gil)
       .def("shutdown_service_client", &Bridge::shutdown_service_client, without_gil)
       .def("get_parameter", &get_parameter, py::arg("name"), without_gil,
-           "Return (exists, value) of a parameter of the master; None for lists and dictionaries. Raise NoMaster "
-           "without master.")
+           "Return (exists, value) of a parameter; None for lists and dictionaries. Raise NoParameterServer if ROS 1 "
+           "has no "
+           "master.")
       .def("set_parameter", &Bridge::set_parameter, py::arg("name"), py::arg("value"), without_gil)
       .def("delete_parameter", &Bridge::delete_parameter, py::arg("name"), without_gil)
       .def("search_parameter", &Bridge::search_parameter, py::arg("name"), without_gil,

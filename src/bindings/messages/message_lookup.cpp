@@ -13,13 +13,14 @@ namespace {
 
 namespace py = pybind11;
 using messages::MessageType;
+using messages::RosVersion;
 using messages::ServiceType;
 
 /// Makes python/bubblesim/messages/runtime.py add the type from its definition on this machine. Does nothing if the
 /// parser of definitions is not installed; raises MessageError if it fails.
-void add_from_definition(const char* function, const std::string& name) {
+void add_from_definition(const char* function, const std::string& name, RosVersion version) {
   try {
-    py::module_::import("bubblesim.messages.runtime").attr(function)(name);
+    py::module_::import("bubblesim.messages.runtime").attr(function)(name, version);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_ImportError)) throw;
   }
@@ -38,18 +39,18 @@ void add_from_definition(const char* function, const std::string& name) {
 
 }  // namespace
 
-const MessageType& listed_message(const std::string& name) {
-  if (const MessageType* type = messages::find_message(name)) return *type;
-  add_from_definition("add_message", name);
-  if (const MessageType* type = messages::find_message(name)) return *type;
-  throw_unknown("message", name, "meta/messages.txt", messages::similar_message_names(name));
+const MessageType& listed_message(const std::string& name, RosVersion version) {
+  if (const MessageType* type = messages::find_message(name, version)) return *type;
+  add_from_definition("add_message", name, version);
+  if (const MessageType* type = messages::find_message(name, version)) return *type;
+  throw_unknown("message", name, "meta/messages.txt", messages::similar_message_names(name, version));
 }
 
-const ServiceType& listed_service(const std::string& name) {
-  if (const ServiceType* type = messages::find_service(name)) return *type;
-  add_from_definition("add_service", name);
-  if (const ServiceType* type = messages::find_service(name)) return *type;
-  throw_unknown("service", name, "meta/services.txt", messages::similar_service_names(name));
+const ServiceType& listed_service(const std::string& name, RosVersion version) {
+  if (const ServiceType* type = messages::find_service(name, version)) return *type;
+  add_from_definition("add_service", name, version);
+  if (const ServiceType* type = messages::find_service(name, version)) return *type;
+  throw_unknown("service", name, "meta/services.txt", messages::similar_service_names(name, version));
 }
 
 }  // namespace bubblesim::bindings

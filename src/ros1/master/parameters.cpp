@@ -73,7 +73,7 @@ RpcAnswer Parameters::ask(const char* method, const std::string& argument) {
   const auto answer = std::make_shared<RpcAnswer>();  // shared with the job, which may outlive this call
   const bool asked = master_.run([answer, method, argument] { *answer = ask_master(method, {argument}); }, kTimeout);
   if (!asked || !answer->answered)
-    throw messages::NoMaster("the ROS master at " + ros::master::getURI() + " does not answer");
+    throw messages::NoParameterServer("the ROS master at " + ros::master::getURI() + " does not answer");
   return *answer;
 }
 

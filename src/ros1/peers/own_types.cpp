@@ -18,7 +18,7 @@ MessageType describe() {
   namespace traits = ros::message_traits;
   MessageType type;
   type.name = traits::datatype<Message>();
-  type.md5 = traits::md5sum<Message>();
+  type.type_hash = traits::md5sum<Message>();
   type.definition = traits::definition<Message>();
   return type;
 }
@@ -36,7 +36,7 @@ const ServiceType& empty_service() {
   static const ServiceType kType = [] {
     ServiceType empty;
     empty.name = ros::service_traits::datatype<std_srvs::Empty>();
-    empty.md5 = ros::service_traits::md5sum<std_srvs::Empty>();
+    empty.type_hash = ros::service_traits::md5sum<std_srvs::Empty>();
     empty.request = &kRequest;
     empty.response = &kResponse;
     return empty;

@@ -26,7 +26,7 @@ std::vector<std::string> others(XmlRpc::XmlRpcValue& nodes) {
 
 void ask(const std::string& topic, const std::string& node, const std::string& uri, const TypeVersion& ours) {
   probe_publisher(topic, uri, [topic, node, ours](const TypeVersion& theirs) {
-    if (theirs.md5 == ours.md5 || theirs.md5 == "*") return;
+    if (theirs.type_hash == ours.type_hash || theirs.type_hash == "*") return;
     log_line("topic '" + topic + "': node " + node + " publishes " + shown(theirs) + ", but this node subscribes to " +
              shown(ours) + ", so no messages arrive from it; " + cure(theirs, ours));
   });
@@ -36,7 +36,7 @@ void ask(const std::string& topic, const std::string& node, const std::string& u
 
 void PublisherCheck::add(const std::string& topic, const messages::MessageType& type) {
   Subscribed& subscribed = topics_[topic];
-  subscribed.type = {type.name, type.md5};
+  subscribed.type = {type.name, type.type_hash};
   ++subscribed.count;
 }
 

@@ -28,7 +28,7 @@ void connect(const std::string& topic, const std::string& host, int port, Answer
   connection->setHeaderReceivedCallback(
       [on_answer = std::move(on_answer)](const ros::ConnectionPtr& answered, const ros::Header& header) {
         TypeVersion type;
-        if (header.getValue("type", type.name) && header.getValue("md5sum", type.md5)) on_answer(type);
+        if (header.getValue("type", type.name) && header.getValue("md5sum", type.type_hash)) on_answer(type);
         answered->drop(ros::Connection::Destructing);
         return false;
       });

@@ -8,10 +8,10 @@ namespace bubblesim {
 /// A type as known to a node: types of the same name may have different definitions, and so different md5 sums.
 struct TypeVersion {
   std::string name;
-  std::string md5;
+  std::string type_hash;
 };
 
-inline std::string shown(const TypeVersion& type) { return type.name + " (md5 " + type.md5 + ")"; }
+inline std::string shown(const TypeVersion& type) { return type.name + " (md5 " + type.type_hash + ")"; }
 
 /// What to do about two nodes with incompatible types.
 inline std::string cure(const TypeVersion& theirs, const TypeVersion& ours) {

@@ -84,7 +84,8 @@ void check_header(const std::string& service, ros::Header& header, const Service
   if (header.getValue("error", text)) throw ServiceError("service '" + service + "' refused the call: " + text);
   std::string name = "?";
   header.getValue("type", name);
-  if (header.getValue("md5sum", text) && text != type.md5 && text != "*") throw other_type(service, name, text, type);
+  if (header.getValue("md5sum", text) && text != type.type_hash && text != "*")
+    throw other_type(service, name, text, type);
 }
 
 WireBuffer read_response(TimedSocket& socket, const std::string& service) {
@@ -105,7 +106,7 @@ ServiceError other_type(const std::string& service, const std::string& name, con
   std::string text = "service '" + service + "' is of type " + name + ", not " + wanted.name;
   if (name == wanted.name) {
     text = "service '" + service + "' uses another version of " + name + " than this node: md5 " + md5 + ", not " +
-           wanted.md5;
+           wanted.type_hash;
   }
   return ServiceError(text);
 }

@@ -100,7 +100,7 @@ void ServiceServer::silence() { responder_->silence(); }
 void ServiceServer::register_at_master() {
   ros::AdvertiseServiceOptions options;
   options.service = name_;
-  options.md5sum = type_.md5;
+  options.md5sum = type_.type_hash;
   options.datatype = type_.name;
   options.req_datatype = type_.request->name;
   options.res_datatype = type_.response->name;

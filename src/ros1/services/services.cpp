@@ -145,7 +145,7 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
       throw ServiceError("service '" + name +
                          "' is for other nodes: its answer would wait for the step of this script");
     }
-    if (own->type().md5 != type.md5) throw other_type(name, own->type().name, own->type().md5, type);
+    if (own->type().type_hash != type.type_hash) throw other_type(name, own->type().name, own->type().type_hash, type);
     try {
       return own->answer(WireView(request.data(), request.size()));
     } catch (const ServiceError& error) {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "endpoint_table.hpp"
 #include "master/deadline.hpp"
 #include "services/request_queue.hpp"
 #include "services/service_server.hpp"
-#include "topics/endpoint_table.hpp"
 
 namespace bubblesim {
 

@@ -17,7 +17,7 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "callbacks/callback_guard.hpp"
+#include "callback_guard.hpp"
 #include "callbacks/counting_queue.hpp"
 
 namespace bubblesim {

@@ -85,7 +85,7 @@ void PublisherEndpoint::send(ros::SerializedMessage message) {
 void PublisherEndpoint::register_at_master() {
   // roscpp warns about empty definitions; gencpp writes an empty line for such types, for example std_msgs/Empty.
   const std::string definition = type_.definition.empty() ? "\n" : type_.definition;
-  ros::AdvertiseOptions options(topic_, queue_size_, type_.md5, type_.name, definition);
+  ros::AdvertiseOptions options(topic_, queue_size_, type_.type_hash, type_.name, definition);
   options.latch = latch_ != nullptr;
   options.has_header = type_.has_header;
   callbacks_ = boost::make_shared<ros::SubscriberCallbacks>();

@@ -76,7 +76,7 @@ void SubscriberEndpoint::set_aside(bool aside) { receiver_->set_aside(aside); }
 void SubscriberEndpoint::silence() { receiver_->silence(); }
 
 void SubscriberEndpoint::register_at_master() {
-  ros::SubscribeOptions options(topic_, queue_size_, type_.md5, type_.name);
+  ros::SubscribeOptions options(topic_, queue_size_, type_.type_hash, type_.name);
   options.helper = receiver_;
   options.callback_queue = &receiver_->queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay(tcp_no_delay_);

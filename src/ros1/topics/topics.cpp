@@ -26,7 +26,7 @@ std::shared_ptr<SubscriberEndpoint> renewed(const std::shared_ptr<SubscriberEndp
 }  // namespace
 
 void check_same_type(const std::string& topic, const MessageType& type, const char* done, const MessageType& other) {
-  if (type.md5 == other.md5) return;
+  if (type.type_hash == other.type_hash) return;
   throw std::invalid_argument("topic '" + topic + "' is already " + done + " here as " + other.name + ", not " +
                               type.name);
 }
@@ -74,7 +74,7 @@ bool Topics::has_script(const EndpointTable<Endpoint>& endpoints, const std::str
   return std::any_of(endpoints.begin(), endpoints.end(), [&](const auto& entry) {
     const auto& [id, endpoint] = entry;
     if (endpoint->topic() != topic || yielding_.count(id) != 0) return false;
-    return other_than == nullptr || endpoint->type().md5 != other_than->md5;
+    return other_than == nullptr || endpoint->type().type_hash != other_than->type_hash;
   });
 }
 

@@ -9,9 +9,9 @@
 #include <unordered_map>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "callbacks/callback_guard.hpp"
+#include "callback_guard.hpp"
+#include "endpoint_table.hpp"
 #include "peers/publisher_check.hpp"
-#include "topics/endpoint_table.hpp"
 #include "topics/endpoints.hpp"
 
 namespace bubblesim {

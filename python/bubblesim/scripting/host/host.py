@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
+from bubblesim._core.messages import RosVersion
+from bubblesim.both_bridges import bridge_of
 from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
@@ -50,7 +52,7 @@ class ScriptHost:
         """Store the scripts; ``start`` loads them.
 
         :param runner: the ``bubblesim.Runner`` of the simulation.
-        :param bridge: a ``bubblesim._core.Bridge``, or None: then ``simROS`` is a ``NoRos`` in scripts.
+        :param bridge: a ``bubblesim._core.Bridge``, a BothBridges, or None: then ``simROS`` is a ``NoRos`` in scripts.
         :param scripts: pairs of object path and file.
         :param search_paths: folders for ``include``, searched after the script's folder.
         :param lua_unsafe: give Lua scripts access to files and processes.
@@ -207,8 +209,8 @@ class ScriptHost:
             return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
         return {
             "sim": sim,
-            "simROS": SimRos(self.bridge, self.simulation, script),
-            "simROS2": SimRos2(self.bridge, self.simulation, script),
+            "simROS": SimRos(bridge_of(self.bridge, RosVersion.ROS1), self.simulation, script),
+            "simROS2": SimRos2(bridge_of(self.bridge, RosVersion.ROS2), self.simulation, script),
         }
 
     def process_input(self) -> None:

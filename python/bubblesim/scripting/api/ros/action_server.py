@@ -141,7 +141,7 @@ class ActionServer:
             self._decide(goal, message["goal"])
 
     def _decide(self, goal: _Goal, content: Message) -> None:
-        answer = _response_of(self._handle_goal, goal.id, content)
+        answer = response_of(self._handle_goal, goal.id, content)
         if self._topics.closed or goal.status is not GoalStatus.PENDING:  # ended in the callback
             return
         if answer == REJECT:
@@ -172,7 +172,7 @@ class ActionServer:
     def _request_cancel(self, goal: _Goal) -> None:
         if goal.goal is None or goal.status not in _LIVE["cancel"]:
             return
-        answer = _response_of(self._handle_cancel, goal.id, goal.goal)
+        answer = response_of(self._handle_cancel, goal.id, goal.goal)
         if answer == ACCEPT and goal.status in _LIVE["cancel"]:  # the callback may have ended the goal
             goal.status = _LIVE["cancel"][goal.status]
 
@@ -195,7 +195,8 @@ class ActionServer:
         self._topics.publish(self._status_publisher, {"header": {"stamp": self._topics.now()}, "status_list": statuses})
 
 
-def _response_of(callback: Callable[[str, Message], int], goal_id: str, goal: Message) -> int:
+def response_of(callback: Callable[[str, Message], int], goal_id: str, goal: Message) -> int:
+    """Return what a script's callback answers."""
     try:
         return int(callback(goal_id, goal))
     except _core.ServiceError:

@@ -76,7 +76,8 @@ class ActionTopics:
 
     def advertise(self, topic: str, message_type: str, *, latch: bool = False) -> int:
         """Create a publisher on NAME/``topic``."""
-        publisher = int(self._bridge.advertise(f"{self.name}/{topic}", message_type, _QUEUE_SIZE, latch))
+        qos = _core.Qos(_QUEUE_SIZE, transient_local=latch)
+        publisher = int(self._bridge.advertise(f"{self.name}/{topic}", message_type, qos))
         self._opened.callback(self._bridge.shutdown_publisher, publisher)
         self._publishers.append(publisher)
         return publisher

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`simROS2` functions for actions, with actionlib's protocol."""
+"""`simROS2` functions for actions: those of ROS 2, or with actionlib's protocol on ROS 1."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from bubblesim.scripting.api.ros.action_server import ACCEPT, DEFER, REJECT, Act
 from bubblesim.scripting.api.ros.action_topics import ActionTopics, GoalStatus
 from bubblesim.scripting.api.ros.context import RosContext
 from bubblesim.scripting.api.ros.kinds import CallbackOrName, RosHandle
+from bubblesim.scripting.api.ros.ros2_action_client import Ros2ActionClient
+from bubblesim.scripting.api.ros.ros2_action_parts import Ros2ActionParts
+from bubblesim.scripting.api.ros.ros2_action_server import Ros2ActionServer
 from bubblesim.scripting.api.ros.stamps import Message
 from bubblesim.scripting.caller import Caller
 
@@ -17,8 +20,8 @@ from bubblesim.scripting.caller import Caller
 class RosActions(RosContext):
     """Action clients and servers of one script; they are shut down when the script ends.
 
-    An action type is `actionlib/Test` or `actionlib/action/Test`; the messages TestActionGoal, TestActionFeedback and
-    TestActionResult must exist.
+    An action type is `actionlib/Test` or `actionlib/action/Test`. On ROS 1, the messages TestActionGoal,
+    TestActionFeedback and TestActionResult must exist; on ROS 2, the file Test.action or these messages.
     """
 
     action_result_code_succeeded = int(ResultCode.SUCCEEDED)
@@ -34,8 +37,8 @@ class RosActions(RosContext):
     def __init__(self, bridge: Any, simulation: Any, caller: Caller) -> None:
         """Bind the functions to one script."""
         super().__init__(bridge, simulation, caller)
-        self._action_clients: dict[int, ActionClient] = {}
-        self._action_servers: dict[int, ActionServer] = {}
+        self._action_clients: dict[int, ActionClient | Ros2ActionClient] = {}
+        self._action_servers: dict[int, ActionServer | Ros2ActionServer] = {}
 
     def createActionClient(
         self,
@@ -53,9 +56,7 @@ class RosActions(RosContext):
         the values of ROS 2, and _unknown (0) for a goal that the server does not know any more.
         """
         callbacks = map(self._caller.callback, (goal_response_callback, feedback_callback, result_callback))
-        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
-        with topics.closed_on_error():
-            client = ActionClient(topics, *callbacks)
+        client = self._make_client(name, action_type, *callbacks)
         self._action_clients[client.handle] = client
         self._caller.in_each_step["action client", client.handle] = client.send_outgoing
         self._caller.at_end["action client", client.handle] = lambda: self.shutdownActionClient(client.handle)
@@ -94,9 +95,7 @@ class RosActions(RosContext):
         handle_goal = self._caller.answering_callback(handle_goal_callback, _check_goal_response)
         handle_cancel = self._caller.answering_callback(handle_cancel_callback, _check_cancel_response)
         handle_accepted = self._caller.callback(handle_accepted_callback)
-        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
-        with topics.closed_on_error():
-            server = ActionServer(topics, handle_goal, handle_cancel, handle_accepted)
+        server = self._make_server(name, action_type, handle_goal, handle_cancel, handle_accepted)
         self._action_servers[server.handle] = server
         self._caller.in_each_step["action server", server.handle] = server.publish_status_when_due
         self._caller.at_end["action server", server.handle] = lambda: self.shutdownActionServer(server.handle)
@@ -147,12 +146,30 @@ class RosActions(RosContext):
     def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
         """Do nothing; for older scripts: uint8[] is always bytes."""
 
-    def _action_client(self, handle: int) -> ActionClient:
+    def _make_client(self, name: str, action_type: str, *callbacks: Any) -> ActionClient | Ros2ActionClient:
+        if self._is_ros2:
+            parts = Ros2ActionParts(self._bridge, name, action_type)
+            with parts.closed_on_error():
+                return Ros2ActionClient(parts, *callbacks)
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
+        with topics.closed_on_error():
+            return ActionClient(topics, *callbacks)
+
+    def _make_server(self, name: str, action_type: str, *callbacks: Any) -> ActionServer | Ros2ActionServer:
+        if self._is_ros2:
+            parts = Ros2ActionParts(self._bridge, name, action_type)
+            with parts.closed_on_error():
+                return Ros2ActionServer(parts, *callbacks)
+        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
+        with topics.closed_on_error():
+            return ActionServer(topics, *callbacks)
+
+    def _action_client(self, handle: int) -> ActionClient | Ros2ActionClient:
         if handle not in self._action_clients:
             raise ValueError(f"invalid object handle {handle}: no such action client, or it was shut down")
         return self._action_clients[handle]
 
-    def _action_server(self, handle: int) -> ActionServer:
+    def _action_server(self, handle: int) -> ActionServer | Ros2ActionServer:
         if handle not in self._action_servers:
             raise ValueError(f"invalid object handle {handle}: no such action server, or it was shut down")
         return self._action_servers[handle]

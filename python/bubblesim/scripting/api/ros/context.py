@@ -25,6 +25,14 @@ class RosContext:
         self._caller = caller
         self._warned: set[object] = set()
 
+    def rosVersion(self) -> int:
+        """Return the version of ROS that the module uses, 1 or 2; some messages have other fields in each."""
+        return 2 if self._is_ros2 else 1
+
+    @property
+    def _is_ros2(self) -> bool:
+        return bool(self._bridge.version == _core.messages.RosVersion.ROS2)
+
     def _warn(self, text: str) -> None:
         """Warn once for the script."""
         if text not in self._warned:

@@ -56,7 +56,7 @@ class RosImages(RosTopics, RosParameters):
             self._bridge.publish(compressed, message | {"data": compress(top_down, image_format, level)})
 
     def wantsMessages(self, publisher: RosHandle) -> bool:
-        """Return whether the topic has subscribers; always true for a latched topic.
+        """Return whether the topic has subscribers; always true for a topic that keeps messages for late ones.
 
         For images, also whether the compressed topic has subscribers.
         """
@@ -73,11 +73,11 @@ class RosImages(RosTopics, RosParameters):
         self.shutdownPublisher(publisher)
 
     def _advertise_images(self, topic: str, queue_size: int) -> int:
-        publisher = self._advertise(topic, _RAW, queue_size, latch=False)
+        publisher = self._advertise(topic, _RAW, queue_size)
         compressed_topic = f"{topic.rstrip('/')}/compressed"
         image_format, level = self._compression(compressed_topic)
         self._compressed[publisher] = (
-            self._advertise(compressed_topic, _COMPRESSED, queue_size, latch=False),
+            self._advertise(compressed_topic, _COMPRESSED, queue_size),
             image_format,
             level,
         )

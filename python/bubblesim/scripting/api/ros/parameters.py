@@ -65,7 +65,7 @@ class RosParameters(RosContext):
         """Return whether the node's namespace or one above it has the parameter, and its full name there."""
         try:
             found = self._bridge.search_parameter(name)
-        except _core.NoMaster as error:
+        except _core.NoParameterServer as error:
             self._warn(str(error))
             found = None
         return found is not None, found or ""
@@ -90,7 +90,7 @@ class RosParameters(RosContext):
     def _read(self, name: str) -> tuple[bool, Any]:
         try:
             answer: tuple[bool, Any] = self._bridge.get_parameter(name)
-        except _core.NoMaster as error:
+        except _core.NoParameterServer as error:
             self._warn(f"{error}: no parameter exists")
             return False, None
         return answer

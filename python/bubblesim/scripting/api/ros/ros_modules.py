@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The modules `simROS` and `simROS2` of one child script: the same bridge with two sets of names."""
+"""The modules `simROS` and `simROS2` of one child script: two sets of names, on the same bridge or on two."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
 
     def advertise(self, topic: str, message_type: str, queue_size: QueueSize = 1, latch: bool = False) -> int:
         """Create a publisher and return its handle."""
-        return self._advertise(topic, message_type, queue_size, latch=latch)
+        return self._advertise(topic, message_type, _core.Qos(queue_size, transient_local=latch))
 
     def subscribe(
         self,
@@ -45,7 +45,7 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         if hints.wants_udp:
             self._warn(f"'{topic}' is subscribed over TCP: UDP is not supported")
         guarded = self._caller.callback(callback)
-        return self._subscribe(topic, message_type, guarded, queue_size, tcp_no_delay=hints.tcp_no_delay)
+        return self._subscribe(topic, message_type, guarded, _core.Qos(queue_size, tcp_no_delay=hints.tcp_no_delay))
 
     def shutdownSubscriber(self, subscriber: RosHandle) -> None:
         """Shut down a subscriber; its handle becomes invalid."""
@@ -109,19 +109,22 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
     def createPublisher(
         self, topic: str, message_type: str, qos: int | Mapping[str, Any] = 1, latch: bool = False
     ) -> int:
-        """Create a publisher and return its handle; ``qos``: queue size, or a dict with ``depth``, ``durability``."""
-        wanted = read_qos(qos)
-        return self._advertise(topic, message_type, wanted.depth, latch=latch or wanted.latch)
+        """Create a publisher and return its handle.
+
+        ``qos`` is a queue size, or a dict with ``depth``, ``history``, ``reliability``, ``durability``, ``deadline``,
+        ``lifespan``. ROS 1 has no equivalent of reliability and of the times.
+        """
+        return self._advertise(topic, message_type, read_qos(qos, self._is_ros2, keeps_last=latch))
 
     def createSubscription(
         self, topic: str, message_type: str, callback: CallbackOrName, qos: int | Mapping[str, Any] = 1
     ) -> int:
         """Create a subscriber and return its handle; ``callback`` (a function or its name) gets each message as a dict.
 
-        ``qos`` is a queue size, or a dict with ``depth``. Whether the last message is sent on connection depends on the
-        publisher.
+        ``qos`` is as in createPublisher. In ROS 1, whether the last message is sent on connection depends on the
+        publisher alone.
         """
-        return self._subscribe(topic, message_type, self._caller.callback(callback), read_qos(qos).depth)
+        return self._subscribe(topic, message_type, self._caller.callback(callback), read_qos(qos, self._is_ros2))
 
     def shutdownSubscription(self, subscriber: RosHandle) -> None:
         """Shut down a subscriber; its handle becomes invalid."""
@@ -171,17 +174,18 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
         """Return a message with all fields at their defaults."""
-        message: dict[str, Any] = _core.messages.default(message_type, self._time_form)
+        message: dict[str, Any] = _core.messages.default(message_type, self._time_form, self._bridge.version)
         return message
 
     def getInterfaceConstants(self, message_type: str) -> dict[str, Any]:
         """Return the constants of a type, by name."""
-        constants: dict[str, Any] = _core.messages.constants(message_type)
+        constants: dict[str, Any] = _core.messages.constants(message_type, self._bridge.version)
         return constants
 
     def supportedInterfaces(self) -> list[str]:
         """Return the names of all message and service types of this build."""
-        return [*_core.messages.message_names(), *_core.messages.service_names()]
+        version = self._bridge.version
+        return [*_core.messages.message_names(version), *_core.messages.service_names(version)]
 
     def timeFromFloat(self, seconds: Seconds) -> dict[str, int]:
         """Convert seconds to {sec, nanosec}."""

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from bubblesim import _core
 from bubblesim.program.output import write_line
 from bubblesim.scripting.api.checked_calls import checked_on_failure
 from bubblesim.scripting.api.ros.context import RosContext
@@ -44,7 +45,7 @@ class RosTopics(RosContext):
             self._warn_of_truncation(f"'{self._topics[publisher]}'", truncations)
 
     def wantsMessages(self, publisher: RosHandle) -> bool:
-        """Return whether the topic has subscribers; always true for a latched topic."""
+        """Return whether the topic has subscribers; always true for a topic that keeps messages for late ones."""
         return bool(self._bridge.wants_messages(publisher))
 
     def shutdownPublisher(self, publisher: RosHandle) -> None:
@@ -61,8 +62,8 @@ class RosTopics(RosContext):
     def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
         """Do nothing; for older scripts: uint8[] is always bytes."""
 
-    def _advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool) -> int:
-        publisher = int(self._bridge.advertise(topic, message_type, queue_size, latch))
+    def _advertise(self, topic: str, message_type: str, qos: _core.Qos | int) -> int:
+        publisher = int(self._bridge.advertise(topic, message_type, qos))
         self._caller.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
         self._topics[publisher] = topic
         self._caller.in_each_step["checks of messages"] = self._renew_checks
@@ -91,13 +92,9 @@ class RosTopics(RosContext):
         topic: str,
         message_type: str,
         guarded: Callable[[dict[str, Any]], None],
-        queue_size: int,
-        *,
-        tcp_no_delay: bool = True,
+        qos: _core.Qos | int,
     ) -> int:
-        subscriber = int(
-            self._bridge.subscribe(topic, message_type, guarded, queue_size, self._time_form, tcp_no_delay)
-        )
+        subscriber = int(self._bridge.subscribe(topic, message_type, guarded, qos, self._time_form))
         self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber
 

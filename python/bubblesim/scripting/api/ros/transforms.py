@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from bubblesim import _core
 from bubblesim.scripting.api.ros.kinds import Transforms
 from bubblesim.scripting.api.ros.stamps import Message
 from bubblesim.scripting.api.ros.topics import RosTopics
@@ -39,7 +40,7 @@ class RosTransforms(RosTopics):
         """
         checked = _checked(transforms)
         if self._tf_publisher is None:
-            self._tf_publisher = self._advertise("/tf", _TYPE, _QUEUE_SIZE, latch=False)
+            self._tf_publisher = self._advertise("/tf", _TYPE, _QUEUE_SIZE)
         self.publish(self._tf_publisher, {"transforms": checked})
 
     def sendStaticTransform(self, transform: Message) -> None:
@@ -52,7 +53,8 @@ class RosTransforms(RosTopics):
         all_transforms = self._static_transforms | {_child_frame(each): each for each in _checked(transforms)}
         message = {"transforms": list(all_transforms.values())}
         if self._static_publisher is None:
-            self._static_publisher = self._advertise("/tf_static", _TYPE, _QUEUE_SIZE, latch=True)
+            depth = 1 if self._is_ros2 else _QUEUE_SIZE  # in ROS 2 it is also the number of messages that are kept
+            self._static_publisher = self._advertise("/tf_static", _TYPE, _core.Qos(depth, transient_local=True))
         self.publish(self._static_publisher, message)
         self._static_transforms = all_transforms
 

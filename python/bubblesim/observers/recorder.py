@@ -1,53 +1,56 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Records the messages of scripts to a bag."""
+"""Records the messages of scripts to a file."""
 
 from __future__ import annotations
 
 import contextlib
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import genpy
+from typing import Any, Protocol
 
 from bubblesim import _core
-from bubblesim.observers.bag_file import BagFile
 from bubblesim.program.output import write_line
 
 _CLOCK = "rosgraph_msgs/Clock"
-_Message = tuple[str, str, bytes, genpy.Time]  # topic, type, content, time
+Time = tuple[int, int]  # sec, nanosec
+_Message = tuple[str, str, bytes, Time]  # topic, type, content, time
 
 
-@dataclass(frozen=True)
-class _Definition:
-    """The attributes of a message class that rosbag reads."""
+class RecordingFile(Protocol):
+    """A bag, or a file of ROS 2."""
 
-    _md5sum: str
-    _full_text: str
+    def write(self, topic: str, message_type: str, data: bytes, time: Time) -> None:
+        """Write a message; raise OSError on failure."""
+
+    def complete_chunk(self) -> None:
+        """Make what was written readable if the process is killed; raise OSError on failure."""
+
+    def close(self) -> None:
+        """Write the index, and close."""
+
+    def close_at_last_chunk(self) -> bool:
+        """After an error: drop the incomplete chunk and close; return whether the file is readable."""
 
 
-class BagRecorder:
+class Recorder:
     """An observer of a bridge.
 
     Messages are stamped with ROS time when they were received or published: in simulated time with the start of the
     step, those published after the physics and /clock with its end. At each time, received messages are written first,
-    sorted by topic, and then /clock. So equal runs write equal bags, independent of the delays of connections.
+    sorted by topic, and then /clock. So equal runs write equal files, independent of the delays of connections.
 
     A chunk is completed in each second of ROS time, not of wall time, which would make equal runs different: if the
-    simulator is killed, ``rosbag reindex`` restores all but the last second.
+    simulator is killed, all but the last second can be restored.
     """
 
-    def __init__(self, file: Path, bridge: Any) -> None:
-        """Open the bag, replacing an existing file.
-
-        :raises OSError: if that fails.
-        """
-        self._bag: BagFile | None = BagFile(file)
-        self._file = file
+    def __init__(self, path: Path, file: RecordingFile, bridge: Any) -> None:
+        """Write to an open file; ``path`` is for errors."""
+        self._file: RecordingFile | None = file
+        self._path = path
         self._bridge = bridge
-        self._definitions: dict[str, _Definition] = {}
+        is_ros2 = bridge.version == _core.messages.RosVersion.ROS2
+        self._encode = _core.messages.encode_ros2 if is_ros2 else _core.messages.encode
         self._received: list[_Message] = []
         self._published: list[_Message] = []
         self._second = 0  # of the chunk in progress
@@ -60,63 +63,55 @@ class BagRecorder:
 
     def published(self, topic: str, message_type: str, message: Any) -> None:
         """Store the message until the end of the step."""
-        if self._bag is not None:
+        if self._file is not None:
             self._published.append(self._message(topic, message_type, message))
 
     def received(self, topic: str, message_type: str, message: Any) -> None:
         """Store the message until the end of the step."""
-        if self._bag is not None:
+        if self._file is not None:
             self._received.append(self._message(topic, message_type, message))
 
     def _message(self, topic: str, message_type: str, message: Any) -> _Message:
-        return topic, message_type, _core.messages.encode(message_type, message), self._now()
+        return topic, message_type, self._encode(message_type, message), self._now()
 
     def input_processed(self) -> None:
         """Do nothing."""
 
     def step_done(self) -> None:
         """Write the messages of the step, and the time at its end."""
-        if self._bag is not None:
+        if self._file is not None:
             with self._stopped_on_error():
-                self._write_step(self._bag)
+                self._write_step(self._file)
         self._received.clear()
         self._published.clear()
 
     @contextlib.contextmanager
     def _stopped_on_error(self) -> Iterator[None]:
-        """Continue without a bag if writing fails."""
+        """Continue without a file if writing fails."""
         try:
             yield
         except OSError as error:
-            bag, self._bag = self._bag, None
-            kept = bag is not None and bag.close_at_last_chunk()
+            file, self._file = self._file, None
+            kept = file is not None and file.close_at_last_chunk()
             state = "the file contains the messages before" if kept else "the file is not readable"
-            write_line(sys.stderr, f"error: recording stopped: {self._file}: {error.strerror}; {state}")
+            write_line(sys.stderr, f"error: recording stopped: {self._path}: {error.strerror}; {state}")
 
-    def _write_step(self, bag: BagFile) -> None:
+    def _write_step(self, file: RecordingFile) -> None:
         sec, nanosec = self._bridge.now()
         clock = self._message("/clock", _CLOCK, {"clock": {"secs": sec, "nsecs": nanosec}})
         self._received.sort(key=lambda message: message[0])
-        messages = sorted([*self._received, clock, *self._published], key=lambda message: message[3])
-        for topic, message_type, data, time in messages:
-            definition = self._definition(message_type)
-            bag.write(topic, (message_type, data, definition._md5sum, definition), time, raw=True)
+        for message in sorted([*self._received, clock, *self._published], key=lambda message: message[3]):
+            file.write(*message)
         if sec != self._second:
-            bag.complete_chunk()
+            file.complete_chunk()
             self._second = sec
 
-    def _now(self) -> genpy.Time:
+    def _now(self) -> Time:
         sec, nanosec = self._bridge.now()
-        return genpy.Time(sec, max(nanosec, 1) if sec == 0 else nanosec)  # bags do not allow time 0
+        return (sec, max(nanosec, 1) if sec == 0 else nanosec)  # bags do not allow time 0
 
     def close(self) -> None:
-        """Close the bag; this writes its index."""
-        if self._bag is not None:
+        """Close the file; this writes its index."""
+        if self._file is not None:
             with self._stopped_on_error():
-                self._bag.close()
-
-    def _definition(self, message_type: str) -> _Definition:
-        if message_type not in self._definitions:
-            text = _core.messages.definition(message_type)
-            self._definitions[message_type] = _Definition(_core.messages.md5(message_type), text)
-        return self._definitions[message_type]
+                self._file.close()

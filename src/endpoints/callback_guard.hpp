@@ -6,7 +6,7 @@
 
 namespace bubblesim {
 
-/// Runs callbacks so that their exceptions do not unwind through roscpp, and rethrows the first one later.
+/// Runs callbacks so that their exceptions do not unwind through the middleware, and rethrows the first one later.
 class CallbackGuard {
  public:
   template <class Function>

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Times the publishing of messages by a script, on ROS 1 and on ROS 2, and by rclpy, each with one subscriber.
+
+Needs a build with ROS 2 and the tests' environment with rclpy (scripts/setup --with ros2 --with tests):
+
+    source scripts/environment/activate.bash && python3 benchmarks/ros2/publish.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PEERS = ROOT / ".ws" / "ros2_peers" / "bin" / "python"
+DOMAIN = "87"
+ROUNDS = 300
+
+# By type: the message, as code that both sides understand; `np` is numpy.
+MESSAGES = {
+    "std_msgs/Float32": "{'data': 1.5}",
+    "geometry_msgs/Twist": "{'linear': {'x': 1.0}, 'angular': {'z': 0.5}}",
+    "sensor_msgs/LaserScan": "{'range_max': 10.0, 'ranges': np.ones(720, np.float32)}",
+    "sensor_msgs/Image": "{'width': 640, 'height': 480, 'step': 1920, 'encoding': 'rgb8', 'data': PIXELS}",
+}
+
+SCRIPT = """
+import json
+import time
+import numpy as np
+
+PIXELS = np.zeros(640 * 480 * 3, np.uint8)
+MESSAGES = {messages}
+
+def sysCall_init():
+    self.times = {{}}
+    self.one = {{kind: simROS.advertise('/one/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
+    self.two = {{kind: simROS2.createPublisher('/two/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
+
+def sysCall_sensing():
+    if not all(map(simROS.wantsMessages, self.one.values())) or not all(map(simROS2.wantsMessages, self.two.values())):
+        return
+    for kind, message in MESSAGES.items():
+        for name, module, publishers in (('ROS 1', simROS, self.one), ('ROS 2', simROS2, self.two)):
+            begin = time.perf_counter()
+            module.publish(publishers[kind], message)
+            self.times.setdefault(name + ' ' + kind, []).append(time.perf_counter() - begin)
+    if len(self.times['ROS 1 std_msgs/Float32']) == {rounds}:
+        medians = {{name: 1e6 * float(np.median(each)) for name, each in self.times.items()}}
+        print('times', json.dumps(medians), flush=True)
+        sim.stopSimulation()
+"""
+
+RCLPY = """
+import contextlib, importlib, json, sys, time
+import numpy as np
+import rclpy
+from rclpy.node import Node
+
+PIXELS = np.zeros(640 * 480 * 3, np.uint8)
+MESSAGES = {messages}
+
+def type_of(name):
+    package, short = name.split('/')
+    return getattr(importlib.import_module(package + '.msg'), short)
+
+def fill(message, values):
+    for name, value in values.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        else:
+            setattr(message, name, value.tobytes() if getattr(value, 'dtype', None) == np.uint8 else value)
+    return message
+
+rclpy.init()
+node = Node('benchmark_' + sys.argv[1])
+if sys.argv[1] == 'subscriber':
+    for kind in MESSAGES:
+        for side in ('two', 'rclpy'):
+            node.create_subscription(type_of(kind), '/' + side + '/' + kind.split('/')[1], lambda message: None, 10)
+    with contextlib.suppress(rclpy.executors.ExternalShutdownException):
+        rclpy.spin(node)
+    sys.exit()
+publishers = {{kind: node.create_publisher(type_of(kind), '/rclpy/' + kind.split('/')[1], 10) for kind in MESSAGES}}
+while not all(each.get_subscription_count() for each in publishers.values()):
+    time.sleep(0.05)
+times = {{kind: [] for kind in MESSAGES}}
+for _ in range({rounds}):
+    for kind, values in MESSAGES.items():
+        begin = time.perf_counter()
+        publishers[kind].publish(fill(type_of(kind)(), values))
+        times[kind].append(time.perf_counter() - begin)
+    time.sleep(0.02)
+print(json.dumps({{kind: 1e6 * float(np.median(each)) for kind, each in times.items()}}), flush=True)
+"""
+
+ROSPY = """
+import importlib
+import rospy
+
+rospy.init_node('benchmark_subscriber')
+for kind in {kinds}:
+    package, short = kind.split('/')
+    rospy.Subscriber('/one/' + short, getattr(importlib.import_module(package + '.msg'), short), lambda message: None)
+rospy.spin()
+"""
+
+
+def code(template: str, **more: object) -> str:
+    """Return a program with the messages in it."""
+    messages = "{" + ", ".join(f"{kind!r}: {text}" for kind, text in MESSAGES.items()) + "}"
+    return template.format(messages=messages, rounds=ROUNDS, **more)
+
+
+def main() -> None:
+    """Print a table of medians."""
+    env = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_HOSTNAME": "localhost"}
+    env["ROS_MASTER_URI"] = "http://localhost:11987"
+    alone = {name: value for name, value in env.items() if not name.startswith(("PYTHON", "LD_", "VIRTUAL"))}
+    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
+
+        def start(*command: str, env: dict[str, str]) -> subprocess.Popen[str]:
+            process = subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True)
+            stack.callback(process.wait)
+            stack.callback(process.terminate)
+            return process
+
+        script = Path(folder, "script.py")
+        script.write_text(code(SCRIPT))
+        rclpy = Path(folder, "rclpy_peer.py")
+        rclpy.write_text(code(RCLPY))
+        start("roscore", "-p", "11987", env=env)
+        time.sleep(3.0)
+        start("/usr/bin/python3", "-c", ROSPY.format(kinds=list(MESSAGES)), env=env)
+        start(str(PEERS), str(rclpy), "subscriber", env=alone)
+        node = start("rosrun", "bubblesim", "sim", "ball", "--ros=both", f"--child-script=/Ball={script}", env=env)
+        assert node.stdout is not None
+        ours = next(json.loads(found[1]) for line in node.stdout if (found := re.search(r"times (\{.*\})", line)))
+        theirs = json.loads(start(str(PEERS), str(rclpy), "publisher", env=alone).communicate()[0])
+    print(f"{'median, us':24}{'ROS 1':>10}{'ROS 2':>10}{'rclpy':>10}")
+    for kind in MESSAGES:
+        print(f"{kind:24}{ours[f'ROS 1 {kind}']:10.1f}{ours[f'ROS 2 {kind}']:10.1f}{theirs[kind]:10.1f}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include "bubblesim/node_bridge.hpp"
+#include "services/request_queue.hpp"
+
+namespace bubblesim::ros2 {
+
+/// The answers of the service ~step. They wait for the steps, so threads of their own make them: one may wait, because
+/// only one request at a time is not refused at once, the other answers meanwhile.
+class StepService {
+ public:
+  using Action = std::function<StepAnswer(std::uint32_t steps)>;
+
+  explicit StepService(Action action);
+  ~StepService();
+  StepService(const StepService&) = delete;
+  StepService& operator=(const StepService&) = delete;
+
+  messages::WireBuffer answer(messages::WireView request) const;
+  /// The requests that wait for a thread.
+  RequestQueue& queue() { return queue_; }
+  /// Ends the threads, after their current answers.
+  void stop();
+
+ private:
+  const Action action_;
+  RequestQueue queue_{nullptr};
+  std::atomic<bool> ending_{false};
+  std::array<std::thread, 2> threads_;
+};
+
+}  // namespace bubblesim::ros2

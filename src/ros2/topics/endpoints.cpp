@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/endpoints.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "graph/names.hpp"
+
+namespace bubblesim::ros2 {
+
+class PublisherEndpoint::Listener final : public dds::DataWriterListener {
+ public:
+  explicit Listener(std::atomic<int>& subscribers) : subscribers_(subscribers) {}
+
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
+    subscribers_ = status.current_count;
+  }
+
+ private:
+  std::atomic<int>& subscribers_;
+};
+
+PublisherEndpoint::PublisherEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos)
+    : topic_(std::move(topic)), type_(type), qos_(qos), listener_(std::make_unique<Listener>(subscribers_)) {}
+
+PublisherEndpoint::~PublisherEndpoint() = default;
+
+void PublisherEndpoint::publish(messages::WireBuffer message) {
+  if (wants_messages()) write(**writer_, message);
+}
+
+void PublisherEndpoint::open(Participant& participant) {
+  writer_ = std::make_unique<Writer>(participant, message_topic(topic_, type_), qos_, listener_.get());
+}
+
+void PublisherEndpoint::close() {
+  writer_.reset();
+  subscribers_ = 0;
+}
+
+class SubscriberEndpoint::Listener final : public dds::DataReaderListener {
+ public:
+  Listener(Inbox& inbox, std::shared_ptr<Mailbox> mailbox, std::atomic<int>& publishers)
+      : inbox_(inbox), mailbox_(std::move(mailbox)), publishers_(publishers) {}
+
+  void on_data_available(dds::DataReader* reader) override {
+    std::vector<std::uint8_t> message;
+    dds::SampleInfo info;
+    while (take(*reader, message, info)) {
+      if (info.valid_data) inbox_.add(mailbox_, std::exchange(message, {}));
+    }
+  }
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    publishers_ = status.current_count;
+  }
+
+ private:
+  Inbox& inbox_;
+  const std::shared_ptr<Mailbox> mailbox_;
+  std::atomic<int>& publishers_;
+};
+
+SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos,
+                                       messages::MessageCallback callback, Inbox& inbox)
+    : topic_(std::move(topic)), type_(type), qos_(qos), inbox_(inbox) {
+  mailbox_->depth = qos.depth;
+  mailbox_->callback = std::make_shared<messages::MessageCallback>(std::move(callback));
+  listener_ = std::make_unique<Listener>(inbox_, mailbox_, publishers_);
+}
+
+SubscriberEndpoint::~SubscriberEndpoint() = default;
+
+void SubscriberEndpoint::open(Participant& participant) {
+  reader_ = std::make_unique<Reader>(participant, message_topic(topic_, type_), qos_, listener_.get());
+}
+
+void SubscriberEndpoint::close() {
+  reader_.reset();
+  publishers_ = 0;
+}
+
+}  // namespace bubblesim::ros2

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "bubblesim/messages/bridge.hpp"
+#include "callback_guard.hpp"
+
+namespace bubblesim::ros2 {
+
+/// Calls a function when input has arrived, on any thread, until it is silenced.
+class Arrivals {
+ public:
+  explicit Arrivals(std::function<void()> on_arrival) : on_arrival_(std::move(on_arrival)) {}
+
+  void note() {
+    const std::lock_guard lock(mutex_);
+    if (on_arrival_) on_arrival_();
+  }
+  void silence() {
+    const std::lock_guard lock(mutex_);
+    on_arrival_ = nullptr;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::function<void()> on_arrival_;
+};
+
+/// The messages of one subscriber that wait for the simulation's thread.
+struct Mailbox {
+  std::size_t depth = 0;                                ///< 0: no limit
+  std::deque<std::vector<std::uint8_t>> messages;       ///< guarded by the inbox
+  bool aside = false;                                   ///< of the simulation's thread: deliver nothing
+  std::shared_ptr<messages::MessageCallback> callback;  ///< of the simulation's thread; null: shut down
+};
+
+/// The messages of all subscribers, in the order in which they arrived.
+class Inbox {
+ public:
+  explicit Inbox(Arrivals& arrivals) : arrivals_(arrivals) {}
+
+  /// On any thread. Drops the oldest message of a full mailbox.
+  void add(const std::shared_ptr<Mailbox>& mailbox, std::vector<std::uint8_t> message);
+  /// Whether messages wait for this mailbox. Thread-safe.
+  bool has(const Mailbox& mailbox) const;
+  /// Calls the callbacks for what has arrived before the call.
+  void deliver(CallbackGuard& guard);
+
+ private:
+  Arrivals& arrivals_;
+  mutable std::mutex mutex_;
+  std::deque<std::shared_ptr<Mailbox>> order_;  // an entry for each message
+};
+
+}  // namespace bubblesim::ros2
