@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   script.replacements = {{"/Tricycle", argv[1]}};
   Runner runner(simulation);
   PythonEngine python;
-  python.begin(runner, &bridge);
+  python.begin(runner, {&bridge});
   ChildScripts scripts(python, script);
   simulation.add(scripts);
 

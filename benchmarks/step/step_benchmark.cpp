@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   options.replacements = {{"/Tricycle", FIVE_CALLS_SCRIPT}};
   Runner runner(scripted);
   PythonEngine python;
-  python.begin(runner, nullptr);
+  python.begin(runner, {});
   ChildScripts scripts(python, options);
   scripted.add(scripts);
 

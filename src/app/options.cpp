@@ -122,9 +122,8 @@ ParsedOptions parse_options(int argc, char** argv) {
   });
   app.add_option("--speed", speed, "simulated seconds per second, or 'max' (default 1)");
   app.add_flag("--paused", options.paused, "start paused; the service ~unpause starts it");
-  CLI::Option* ros_option =
-      app.add_option("--ros", ros, "version of ROS that the node uses: 1, 2 or both (default 1)")
-          ->check(CLI::IsMember({"1", "2", "both"}));
+  CLI::Option* ros_option = app.add_option("--ros", ros, "version of ROS that the node uses: 1, 2 or both (default 1)")
+                                ->check(CLI::IsMember({"1", "2", "both"}));
   app.add_flag("--no-ros", no_ros, "run without ROS; simROS is false in scripts")->excludes(ros_option);
   app.add_option("--child-script", child_scripts, "OBJECT=FILE: run FILE as the object's script (repeatable)")
       ->allow_extra_args(false);

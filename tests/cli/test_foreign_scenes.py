@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of CoppeliaSim: bubblesim describe, convert, check and run."""
 
+import functools
 import math
 import os
 import struct
@@ -195,6 +196,19 @@ def test_a_conversion_is_kept_in_the_cache_of_the_user(tmp_path: Path) -> None:
         (folder,) = (tmp_path / "bubblesim" / "converted").iterdir()
         assert (folder / "scene.sdf").is_file()
         assert folder.parent.stat().st_mode & 0o077 == 0
+
+
+def test_the_conversion_of_another_file_with_the_same_key_is_not_taken(tmp_path: Path) -> None:
+    file = write(tmp_path / "box.ttt", FLOOR, BOX)
+    sim = functools.partial(
+        run_sim, file, "--no-ros", "--until", "0", env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
+    )
+    assert sim().returncode == 0
+    (folder,) = (tmp_path / "bubblesim" / "converted").iterdir()
+    (folder / "box.ttt").write_bytes(b"another file")
+    (folder / "scene.sdf").write_text("its scene")
+    assert sim().returncode == 0
+    assert (folder / "box.ttt").read_bytes() == file.read_bytes()
 
 
 def test_without_a_home_the_error_names_what_to_set(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kTimeLimit{60};
 
 /// A folder of the user's own: others could put scenes with their scripts into one in /tmp.
 fs::path cache_folder() {
@@ -38,11 +38,12 @@ fs::path cache_folder() {
   throw std::runtime_error("there is no folder for the converted scene: set HOME or XDG_CACHE_HOME");
 }
 
-/// Of the content and of the program that converts it: another one may write something else.
-std::string key_of(const std::string& content, const fs::path& program) {
+/// Of the file and of the program that converts it: another one may write something else.
+std::string key_of(const fs::path& name, const std::string& content, const fs::path& program) {
   std::array<char, 64> text{};
   const auto changed = fs::last_write_time(program).time_since_epoch().count();
   Fnv1a hash;
+  hash.add(std::string_view(name.native()));
   hash.add(std::string_view(content));
   std::snprintf(text.data(), text.size(), "%016llx-%zu-%llx", static_cast<unsigned long long>(hash.value()),
                 content.size(), static_cast<unsigned long long>(changed));
@@ -89,7 +90,7 @@ class NewFolder {
 
 void run_converter(const fs::path& program, const fs::path& file, const fs::path& folder) {
   const auto fail = [&file](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
-  const ProgramResult result = run_limited({program.string(), "convert", file.string(), folder.string()}, kPatience);
+  const ProgramResult result = run_limited({program.string(), "convert", file.string(), folder.string()}, kTimeLimit);
   if (!result.in_time) fail("its conversion did not end within 60 s and was stopped: the file is too large or damaged");
   if (WIFSIGNALED(result.status)) {
     fail("its conversion was ended by signal " + std::string(::sigabbrev_np(WTERMSIG(result.status))) +
@@ -98,20 +99,29 @@ void run_converter(const fs::path& program, const fs::path& file, const fs::path
   if (WEXITSTATUS(result.status) != 0) fail(result.errors.substr(0, result.errors.find('\n')));
 }
 
+/// Compares the whole file: keys of two files can be made equal on purpose, and scenes have programs.
+bool is_conversion_of(const fs::path& folder, const fs::path& name, const std::string& content) {
+  return fs::is_regular_file(folder / "scene.sdf") && fs::is_regular_file(folder / name) &&
+         read_text(folder / name) == content;
+}
+
 }  // namespace
 
 bool is_foreign_scene(const fs::path& file) { return file.extension() == ".ttt" || file.extension() == ".ttm"; }
 
 ConvertedScene convert_scene(const fs::path& file) {
   const fs::path program = library_folder() / "bubblesim" / "scene_converter";
-  const fs::path folder = cache_folder() / key_of(read_text(file), program);
-  const fs::path scene = folder / "scene.sdf";
-  if (!fs::is_regular_file(scene)) {
+  const fs::path name = file.filename();
+  const std::string content = read_text(file);
+  const fs::path folder = cache_folder() / key_of(name, content, program);
+  if (!is_conversion_of(folder, name, content)) {
     NewFolder made(folder.parent_path());
+    std::ofstream(made.path() / name, std::ios::binary) << content;
     run_converter(program, file, made.path());
+    fs::remove_all(folder);
     made.move_to(folder);
   }
-  return {scene, lines_of(folder / "left_out.txt")};
+  return {folder / "scene.sdf", lines_of(folder / "left_out.txt")};
 }
 
 }  // namespace bubblesim

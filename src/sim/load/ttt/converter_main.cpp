@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program scene_converter: reads files of CoppeliaSim for a simulator in a separate process, which may crash or be
 // killed at its limits.
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <sstream>
 #include <string>
 
@@ -18,6 +21,16 @@ namespace fs = std::filesystem;
 
 constexpr int kFailed = 1;
 constexpr int kMisused = 2;
+constexpr rlim_t kMostMemory = 2ULL << 30U;  // bytes
+constexpr rlim_t kMostTime = 60;             // s of the processor
+
+/// Damaged files may ask for any amount of both.
+void limit_resources() {
+  const rlimit memory{kMostMemory, kMostMemory};
+  const rlimit time{kMostTime, kMostTime};
+  ::setrlimit(RLIMIT_AS, &memory);
+  ::setrlimit(RLIMIT_CPU, &time);
+}
 
 std::string bytes_of(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw FormatError("file not found");
@@ -29,6 +42,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 int run(const std::string& command, const fs::path& file, const fs::path& folder) {
+  limit_resources();
   try {
     const SceneFile scene = read_scene_file(bytes_of(file));
     if (command == "describe") {
@@ -37,6 +51,9 @@ int run(const std::string& command, const fs::path& file, const fs::path& folder
       for (const std::string& line : write_scene(scene, file.stem().string(), folder)) std::cout << line << "\n";
     }
     return 0;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "reading it takes more than 2 GB of memory: the file is too large or damaged\n";
+    return kFailed;
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return kFailed;
