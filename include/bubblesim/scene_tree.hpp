@@ -135,7 +135,7 @@ class SceneTree {
     return places_[index_of(id)].object;
   }
   void detach(const Object& object);
-  void forget_name(const Object& object);
+  bool forget_name(const Object& object);
   bool is_part_of(const Object& object, ObjectId whole) const;
   void free(ObjectId id, std::string path);
   std::string indexed_name(const Object& object) const;

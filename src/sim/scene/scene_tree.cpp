@@ -80,9 +80,10 @@ ObjectId SceneTree::add(ObjectKind kind, std::string name, ObjectId part_of, std
 
 void SceneTree::remove(ObjectId id) {
   const ObjectId whole = outermost_model_of(id);
+  const std::vector<ObjectId> alone{id};
   std::vector<ObjectId> kept;
   std::vector<std::pair<ObjectId, std::string>> gone;  // with their paths
-  for (const ObjectId each : whole == kNoObject ? std::vector<ObjectId>{id} : parts_.at(whole)) {
+  for (const ObjectId each : whole == kNoObject ? alone : parts_.at(whole)) {
     if (is_part_of(at(each), id)) {
       const Object& object = at(each);
       gone.emplace_back(each, (object.parent == kNoObject ? "" : path(object.parent)) + "/" + object.alias);
@@ -92,8 +93,7 @@ void SceneTree::remove(ObjectId id) {
   }
   for (const auto& each : gone) {
     for (const ObjectId child : std::vector<ObjectId>(at(each.first).children)) {
-      const bool stays = std::none_of(gone.begin(), gone.end(), [child](const auto& g) { return g.first == child; });
-      if (stays) set_parent(child, kNoObject);
+      if (!is_part_of(at(child), id)) set_parent(child, kNoObject);
     }
     detach(at(each.first));
   }
@@ -113,12 +113,15 @@ void SceneTree::detach(const Object& object) {
   siblings.erase(std::find(siblings.begin(), siblings.end(), object.id));
 }
 
-void SceneTree::forget_name(const Object& object) {
+bool SceneTree::forget_name(const Object& object) {
   const auto named = by_alias_.find(object.alias);
-  if (named == by_alias_.end()) return;
+  if (named == by_alias_.end()) return false;
   std::vector<ObjectId>& ids = named->second;
-  ids.erase(std::remove(ids.begin(), ids.end(), object.id), ids.end());
+  const auto found = std::find(ids.begin(), ids.end(), object.id);
+  if (found == ids.end()) return false;
+  ids.erase(found);
   if (ids.empty()) by_alias_.erase(named);
+  return true;
 }
 
 /// Whether an object is `whole` or, by the physical structure, a part of it.
@@ -157,11 +160,7 @@ void SceneTree::set_parent(ObjectId id, ObjectId parent) {
 
 void SceneTree::set_alias(ObjectId id, std::string alias) {
   Object& named = object(id);
-  const bool is_found = [&] {
-    const auto known = by_alias_.find(named.alias);
-    return known != by_alias_.end() && std::find(known->second.begin(), known->second.end(), id) != known->second.end();
-  }();
-  forget_name(named);
+  const bool is_found = forget_name(named);
   std::string& first = places_[index_of(id)].first_alias;
   if (first.empty()) first = named.alias;
   named.alias = std::move(alias);

@@ -184,10 +184,11 @@ ObjectId SceneTree::find(std::string_view path, ObjectId from, std::size_t index
                        "': there is no match with index " + std::to_string(index));
   }
   std::vector<std::string> known;
-  for (const ObjectId id : objects()) {
-    if (by_alias_.count(at(id).alias) == 0) continue;  // hidden
-    known.push_back(this->path(id));
-    known.push_back("/" + at(id).alias);
+  for (const ObjectId root : roots_) {
+    for (const ObjectId id : subtree(root)) {
+      known.push_back(this->path(id));
+      known.push_back("/" + at(id).alias);
+    }
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
