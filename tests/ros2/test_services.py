@@ -115,3 +115,13 @@ def test_a_node_calls_its_own_service(ros2_domain: Domain, tmp_path: Path) -> No
     """
     with node_with(ros2_domain, tmp_path, script) as node:
         node.wait_for_output("{'success': True, 'message': 'own'}")
+
+
+def test_a_script_calls_a_service_of_a_type_that_ros2_alone_has(ros2_domain: Domain, tmp_path: Path) -> None:
+    script = """
+        def sysCall_init():
+            client = simROS2.createClient('~/list_parameters', 'rcl_interfaces/srv/ListParameters')
+            print('names', simROS2.call(client, {})['result']['names'], flush=True)
+    """
+    with node_with(ros2_domain, tmp_path, script) as node:
+        node.wait_for_output("names ['use_sim_time'")

@@ -33,7 +33,9 @@ class RosServices(RosContext):
         """
         if client in self._clients and request:
             name, request_type = self._clients[client]
-            self._warn_of_truncation(f"'{name}'", _core.messages.truncations(request_type, request))
+            self._warn_of_truncation(
+                f"'{name}'", _core.messages.truncations(request_type, request, self._bridge.version)
+            )
         response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
         return response
 
@@ -47,17 +49,18 @@ class RosServices(RosContext):
 
     def _client(self, name: str, service_type: str) -> int:
         client = int(self._bridge.service_client(name, service_type))
-        self._clients[client] = name, _core.messages.service_halves(service_type)[0]
+        self._clients[client] = name, _core.messages.service_halves(service_type, self._bridge.version)[0]
         self._caller.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
         return client
 
     def _server(self, name: str, service_type: str, callback: ServiceCallback) -> int:
-        _, response_type = _core.messages.service_halves(service_type)
+        version = self._bridge.version
+        _, response_type = _core.messages.service_halves(service_type, version)
 
         def check(response: object) -> None:
             """Report an invalid response as an error of the callback, not of the bridge."""
             if response is not None:
-                self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response))
+                self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response, version))
 
         answer = self._caller.answering_callback(callback, check)
         server = int(self._bridge.advertise_service(name, service_type, answer, self._time_form))
