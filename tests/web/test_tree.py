@@ -52,3 +52,13 @@ def test_the_tree_is_that_of_scripts_and_follows_their_changes(tmp_path: Path, s
         children(page, "", ["base", "Dummy"])
         page.call("sim.removeObjects", [tip])
         children(page, "", ["base"])
+
+
+def test_an_object_of_no_model_stays_selected_while_others_change(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, str(write(tmp_path / "places.sdf", SCENE)), "--paused") as node:
+        page = show(node)
+        children(page, "", ["base", "goal"])
+        page.js("bubblesim.selection.select(bubblesim.scene.byPath('/goal'))")
+        page.call("sim.createDummy", 0.01)
+        children(page, "", ["base", "goal", "Dummy"])
+        assert page.js("bubblesim.selection.object?.path") == "/goal"

@@ -120,14 +120,16 @@ export class Scene extends Emitter {
 
   #take(changes) {
     this.#recolour([...changes.colours, ...this.#newer]);
-    const there = new Set(changes.models);
-    const removed = [];
-    for (const object of [...this.objects.values()]) {
-      if (there.has(this.outermost(object)?.handle)) continue;
-      removed.push(object);
-    }
+    const models = new Set(changes.models);
+    const frames = new Set(changes.frames.map((each) => each.handle));
+    const removed = [...this.objects.values()].filter(
+      (object) => !frames.has(object.handle) && !models.has(this.outermost(object)?.handle),
+    );
     for (const object of removed) this.objects.delete(object.handle);
-    for (const object of [...changes.objects, ...changes.frames]) this.objects.set(object.handle, object);
+    for (const object of changes.objects) this.objects.set(object.handle, object);
+    for (const frame of changes.frames) {  // those that were there stay the same objects
+      this.objects.set(frame.handle, Object.assign(this.objects.get(frame.handle) ?? {}, frame));
+    }
     for (const [handle, parent, path, name] of changes.places) {
       const object = this.objects.get(handle);
       if (object) Object.assign(object, { parent, path, name });
