@@ -13,9 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "arrivals.hpp"
 #include "bubblesim/messages/registry.hpp"
-#include "callbacks/arrivals.hpp"
 #include "callbacks/counting_queue.hpp"
+#include "callbacks/notifying_queue.hpp"
 #include "console/log_line.hpp"
 #include "endpoint_table.hpp"
 #include "master/master_thread.hpp"

@@ -67,7 +67,7 @@ struct Ros2Bridge::Impl {
   const NodeBridgeOptions options;
   const ros2::Environment environment = ros2::read_environment();
   const ros2::Names names;
-  ros2::Arrivals arrivals{options.on_arrival};
+  Arrivals arrivals{options.on_arrival};
   CallbackGuard guard;
   bool processing_input = false;
 

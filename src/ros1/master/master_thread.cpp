@@ -18,7 +18,7 @@
 #include "advertised_address.hpp"
 #include "console/log_line.hpp"
 #include "master/interrupt.hpp"
-#include "master/quiet_thread.hpp"
+#include "quiet_thread.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,8 +8,9 @@
 #include <atomic>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <utility>
+
+#include "service_answer.hpp"
 
 namespace bubblesim {
 namespace {
@@ -18,6 +19,18 @@ using messages::ServiceCallback;
 using messages::ServiceError;
 using messages::WireBuffer;
 using messages::WireView;
+
+/// Counts an answer in progress.
+class Answering {
+ public:
+  explicit Answering(std::atomic<int>& count) : count_(count) { ++count_; }
+  ~Answering() { --count_; }
+  Answering(const Answering&) = delete;
+  Answering& operator=(const Answering&) = delete;
+
+ private:
+  std::atomic<int>& count_;
+};
 
 /// The TCPROS form: one byte for success, the length, the bytes.
 ros::SerializedMessage to_response(const WireBuffer& message) {
@@ -44,27 +57,8 @@ class ServiceServer::Responder final : public ros::ServiceCallbackHelper {
   void silence() { callback_.reset(); }
 
   WireBuffer answer(WireView request) {
-    const std::shared_ptr<ServiceCallback> callback = callback_;  // the callback may call silence()
-    if (!callback) throw ServiceError("the service was shut down");
-    WireBuffer response;
-    std::optional<std::string> failure;
-    ++answering_;
-    guard_.run([&] {
-      try {
-        response = (*callback)(request);
-      } catch (const ServiceError& error) {
-        failure = error.what();
-      } catch (const std::exception& error) {
-        failure = error.what();
-        throw;
-      } catch (...) {
-        failure = "unknown error";
-        throw;
-      }
-    });
-    --answering_;
-    if (failure) throw ServiceError(*failure);
-    return response;
+    const Answering answering(answering_);
+    return answer_request(callback_, guard_, request);
   }
 
   bool is_answering() const { return answering_ > 0; }

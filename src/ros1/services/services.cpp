@@ -12,8 +12,8 @@
 #include "master/master_thread.hpp"
 #include "master/master_watch.hpp"
 #include "master/names.hpp"
-#include "master/quiet_thread.hpp"
 #include "master/timed_socket.hpp"
+#include "quiet_thread.hpp"
 #include "services/service_call.hpp"
 
 namespace bubblesim {
@@ -54,13 +54,13 @@ Services::Services(MasterThread& master, MasterWatch& watch, CallbackGuard& guar
       watch_(watch),
       guard_(guard),
       interrupted_(std::move(interrupted)),
-      queue_(std::make_shared<RequestQueue>(std::move(arrivals))) {}
+      queue_(std::make_shared<RequestQueue>([arrivals = std::move(arrivals)] { arrivals->note(); })) {}
 
 Services::~Services() { retired_.clear(); }
 
 std::shared_ptr<ServiceServer> Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
                                                     messages::ServiceCallback callback) {
-  return add_server_of(*queue_, id, name, type, std::move(callback));
+  return add_server_of(requests_, id, name, type, std::move(callback));
 }
 
 std::shared_ptr<ServiceServer> Services::add_server_of(ros::CallbackQueueInterface& queue, EndpointId id,
@@ -72,7 +72,7 @@ std::shared_ptr<ServiceServer> Services::add_server_of(ros::CallbackQueueInterfa
   }
   take_off_leaving();  // before a service of the same name is registered
   auto server = std::make_shared<ServiceServer>(resolved, type, std::move(callback), queue, guard_);
-  if (&queue != queue_.get()) answered_elsewhere_.insert(resolved);
+  if (&queue != &requests_) answered_elsewhere_.insert(resolved);
   servers_.emplace(id, server);
   return server;
 }

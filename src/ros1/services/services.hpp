@@ -11,10 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
+#include "arrivals.hpp"
 #include "bubblesim/messages/bridge.hpp"
+#include "callbacks/request_callbacks.hpp"
 #include "endpoint_table.hpp"
 #include "master/deadline.hpp"
-#include "services/request_queue.hpp"
+#include "request_queue.hpp"
 #include "services/service_server.hpp"
 
 namespace bubblesim {
@@ -73,6 +75,7 @@ class Services {
   CallbackGuard& guard_;
   const std::function<bool()> interrupted_;
   const std::shared_ptr<RequestQueue> queue_;
+  RequestCallbacks requests_{queue_};
   const std::shared_ptr<std::atomic<int>> calls_ = std::make_shared<std::atomic<int>>(0);  // running threads
   int nested_ = 0;  // waiting calls, nested in each other
   EndpointTable<ServiceServer> servers_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "master/quiet_thread.hpp"
+#include "quiet_thread.hpp"
 
 namespace bubblesim {
 namespace {

@@ -6,12 +6,11 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <unordered_map>
 
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
-#include "endpoint_table.hpp"
 #include "peers/publisher_check.hpp"
+#include "topic_endpoints.hpp"
 #include "topics/endpoints.hpp"
 
 namespace bubblesim {
@@ -35,8 +34,8 @@ class Topics {
   bool wants_messages(messages::EndpointId publisher) const;
   bool has_publisher(messages::EndpointId subscriber) const;
   WaitingCount waiting(messages::EndpointId subscriber) const;
-  bool has_subscriber(messages::EndpointId id) const { return subscribers_.count(id) != 0; }
-  const messages::MessageType& type(messages::EndpointId id) const;
+  bool has_subscriber(messages::EndpointId id) const { return endpoints_.subscribers.count(id) != 0; }
+  const messages::MessageType& type(messages::EndpointId id) const { return endpoints_.type(id); }
   void publish(messages::EndpointId publisher, messages::WireBuffer message);
   void shutdown_publisher(messages::EndpointId publisher);
   void shutdown_subscriber(messages::EndpointId subscriber);
@@ -51,15 +50,8 @@ class Topics {
   void silence();
 
  private:
-  /// Returns whether it was off.
-  bool forget_yielding(messages::EndpointId id);
-  void check_type_on(const std::string& topic, const messages::MessageType& type) const;
+  /// Registers the endpoints that yield on this topic, or takes them off.
   void settle(const std::string& topic);
-  template <class Endpoint>
-  void settle(EndpointTable<Endpoint>& own_kind, const std::string& topic);
-  template <class Endpoint>
-  bool has_script(const EndpointTable<Endpoint>& endpoints, const std::string& topic,
-                  const messages::MessageType* other_than) const;
   void put_on(std::shared_ptr<PublisherEndpoint> publisher);
   void put_on(std::shared_ptr<SubscriberEndpoint> subscriber);
   void take_off(std::shared_ptr<PublisherEndpoint> publisher);
@@ -69,15 +61,8 @@ class Topics {
   PublisherCheck& publisher_check_;
   ros::CallbackQueueInterface& queue_;
   CallbackGuard& guard_;
-  EndpointTable<PublisherEndpoint> publishers_;
-  EndpointTable<SubscriberEndpoint> subscribers_;
-  /// The endpoints that yield, and whether each is off: not registered, because its topic currently has another type.
-  std::unordered_map<messages::EndpointId, bool> yielding_;
-  std::set<std::shared_ptr<SubscriberEndpoint>> registered_;  // of the master thread
+  TopicEndpoints<PublisherEndpoint, SubscriberEndpoint> endpoints_;  // what is off is not registered
+  std::set<std::shared_ptr<SubscriberEndpoint>> registered_;         // of the master thread
 };
-
-/// Throws std::invalid_argument if the topic is already `done` with another type.
-void check_same_type(const std::string& topic, const messages::MessageType& type, const char* done,
-                     const messages::MessageType& other);
 
 }  // namespace bubblesim

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bubblesim/signals_blocked.hpp"
 #include "dds/endpoint_qos.hpp"
-#include "dds/quiet_thread.hpp"
 
 namespace bubblesim::ros2 {
 namespace {
@@ -129,6 +129,11 @@ Participant::Participant(const Environment& environment) {
 Participant::~Participant() {
   participant_->delete_contained_entities();
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+int Participant::revision() const {
+  const std::lock_guard lock(mutex_);
+  return endpoints_.revision;
 }
 
 NodeEndpoints Participant::endpoints() const {

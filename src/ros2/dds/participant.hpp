@@ -40,6 +40,8 @@ class Participant {
   Participant& operator=(const Participant&) = delete;
 
   const Guid& guid() const { return participant_->guid(); }
+  /// Changes with each change of endpoints().
+  int revision() const;
   NodeEndpoints endpoints() const;
   /// The types of the remote readers of a topic, sorted.
   std::set<std::string> types_of_readers(const std::string& topic) const;

@@ -31,8 +31,9 @@ NodeAnnouncement::NodeAnnouncement(Participant& participant, std::string node_na
       writer_(participant, kTopic, announcement_qos(), nullptr, false) {}
 
 void NodeAnnouncement::update() {
+  if (participant_.revision() == announced_) return;
   const NodeEndpoints endpoints = participant_.endpoints();
-  if (endpoints.revision == std::exchange(announced_, endpoints.revision)) return;
+  announced_ = endpoints.revision;
   messages::WireBuffer message;
   message.begin(messages::Layout::kCdr);
   put(message, participant_.guid());

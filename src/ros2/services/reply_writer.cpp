@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "dds/quiet_thread.hpp"
+#include "quiet_thread.hpp"
 
 namespace bubblesim::ros2 {
 namespace {

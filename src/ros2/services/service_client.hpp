@@ -14,7 +14,7 @@
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
 #include "dds/participant.hpp"
-#include "services/request_queue.hpp"
+#include "request_queue.hpp"
 
 namespace bubblesim::ros2 {
 

@@ -2,12 +2,12 @@
 #include "services/service_server.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "bubblesim/messages/fields.hpp"
 #include "graph/names.hpp"
+#include "service_answer.hpp"
 
 namespace bubblesim::ros2 {
 namespace {
@@ -82,6 +82,7 @@ ServiceServer::ServiceServer(Participant& participant, std::string name, const m
 ServiceServer::ServiceServer(Participant& participant, std::shared_ptr<Responder> responder, RequestQueue& queue)
     : name_(responder->name),
       type_(responder->type),
+      queue_(queue),
       responder_(std::move(responder)),
       listener_(std::make_unique<Listener>(queue, responder_)),
       requests_(std::make_unique<Reader>(participant, request_topic(name_, type_), messages::Qos(), listener_.get())) {}
@@ -101,27 +102,7 @@ ServiceServer::~ServiceServer() {
   responder_->late.keep(responder_->replies);
 }
 
-WireBuffer ServiceServer::Responder::answer(WireView request) {
-  const auto called = callback;  // the callback may shut down the service
-  if (!called) throw ServiceError("the service was shut down");
-  WireBuffer response;
-  std::optional<std::string> failure;
-  guard.run([&] {
-    try {
-      response = (*called)(request);
-    } catch (const ServiceError& error) {
-      failure = error.what();
-    } catch (const std::exception& error) {
-      failure = error.what();
-      throw;
-    } catch (...) {
-      failure = "unknown error";
-      throw;
-    }
-  });
-  if (failure) throw ServiceError(*failure);
-  return response;
-}
+WireBuffer ServiceServer::Responder::answer(WireView request) { return answer_request(callback, guard, request); }
 
 void ServiceServer::Responder::reply(const RequestId& id, WireView request) {
   if (on_request) {

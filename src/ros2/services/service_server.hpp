@@ -11,8 +11,8 @@
 #include "callback_guard.hpp"
 #include "dds/participant.hpp"
 #include "graph/rosout.hpp"
+#include "request_queue.hpp"
 #include "services/reply_writer.hpp"
-#include "services/request_queue.hpp"
 
 namespace bubblesim::ros2 {
 
@@ -34,6 +34,8 @@ class ServiceServer {
   const messages::ServiceType& type() const { return type_; }
   /// Answers a call of this node itself. Throws ServiceError.
   messages::WireBuffer answer(messages::WireView request) { return responder_->answer(request); }
+  /// Whether the one who serves `queue` answers, and at once: only such a service can be called from there.
+  bool is_answered_by(const RequestQueue& queue) const { return &queue == &queue_ && responder_->callback != nullptr; }
   /// Number of requests that wait. Thread-safe.
   const std::shared_ptr<std::atomic<int>>& waiting() const { return responder_->waiting; }
   /// Does nothing for a request that is answered already.
@@ -71,6 +73,7 @@ class ServiceServer {
 
   const std::string name_;
   const messages::ServiceType& type_;
+  RequestQueue& queue_;
   const std::shared_ptr<Responder> responder_;
   std::unique_ptr<Listener> listener_;
   std::unique_ptr<Reader> requests_;

@@ -37,14 +37,15 @@ std::string seconds_text(double seconds) {
 
 Services::Services(Participant& participant, CallbackGuard& guard, Arrivals& arrivals, Rosout& log,
                    std::function<bool()> interrupted)
-    : participant_(participant), guard_(guard), log_(log), interrupted_(std::move(interrupted)), queue_(&arrivals) {}
+    : participant_(participant), guard_(guard), log_(log), interrupted_(std::move(interrupted)), queue_([&arrivals] {
+        arrivals.note();
+      }) {}
 
 void Services::add_server(EndpointId id, const std::string& name, const ServiceType& type,
                           messages::ServiceCallback callback, RequestQueue* queue) {
   check_free(name);
   servers_.emplace(id, std::make_shared<ServiceServer>(participant_, name, type, std::move(callback),
                                                        queue != nullptr ? *queue : queue_, guard_, late_, log_));
-  if (queue != nullptr) answered_elsewhere_.insert(id);
 }
 
 void Services::add_server_later(EndpointId id, const std::string& name, const ServiceType& type,
@@ -52,7 +53,6 @@ void Services::add_server_later(EndpointId id, const std::string& name, const Se
   check_free(name);
   servers_.emplace(id, std::make_shared<ServiceServer>(participant_, name, type, std::move(on_request), queue_, guard_,
                                                        late_, log_));
-  answered_elsewhere_.insert(id);
 }
 
 void Services::check_free(const std::string& name) const {
@@ -102,9 +102,9 @@ const ServiceType& Services::type(EndpointId id) const {
   return find_endpoint(servers_, id, "service server or client")->second->type();
 }
 
-ServiceServer* Services::find_own(const std::string& name) const {
+std::shared_ptr<ServiceServer> Services::find_own(const std::string& name) const {
   for (const auto& [id, server] : servers_) {
-    if (server->name() == name) return server.get();
+    if (server->name() == name) return server;
   }
   return nullptr;
 }
@@ -142,16 +142,14 @@ WireBuffer Services::call(EndpointId id, WireBuffer request, double timeout) {
   const std::shared_ptr<ServiceClient> client = find_endpoint(clients_, id, "service client")->second;
   if (!(timeout > 0)) throw std::invalid_argument("the timeout of a service call must be positive");
   const std::string& name = client->name();
-  for (const auto& [server_id, server] : servers_) {
-    if (server->name() != name) continue;
-    if (answered_elsewhere_.count(server_id) > 0) {
+  if (const std::shared_ptr<ServiceServer> own = find_own(name)) {
+    if (!own->is_answered_by(queue_)) {
       throw ServiceError("service '" + name +
                          "' is for other nodes: its answer would wait for the step of this script");
     }
-    if (server->type().type_hash != client->type().type_hash) {
-      throw ServiceError("service '" + name + "' is of type " + server->type().name + ", not " + client->type().name);
+    if (own->type().type_hash != client->type().type_hash) {
+      throw ServiceError("service '" + name + "' is of type " + own->type().name + ", not " + client->type().name);
     }
-    const std::shared_ptr<ServiceServer> own = server;
     try {
       return own->answer(WireView(request.data(), request.size()));
     } catch (const ServiceError& error) {

@@ -3,14 +3,14 @@
 
 #include <functional>
 #include <memory>
-#include <set>
 #include <string>
 
+#include "arrivals.hpp"
 #include "bubblesim/messages/bridge.hpp"
 #include "bubblesim/messages/later_services.hpp"
 #include "endpoint_table.hpp"
+#include "request_queue.hpp"
 #include "services/reply_writer.hpp"
-#include "services/request_queue.hpp"
 #include "services/service_client.hpp"
 #include "services/service_server.hpp"
 
@@ -45,7 +45,7 @@ class Services {
   void serve() { queue_.serve(); }
 
  private:
-  ServiceServer* find_own(const std::string& name) const;
+  std::shared_ptr<ServiceServer> find_own(const std::string& name) const;
   void check_free(const std::string& name) const;
   bool wait_until(const std::function<bool()>& done, RequestQueue::Clock::time_point deadline);
   messages::ServiceError not_there(const ServiceClient& client, double timeout) const;
@@ -58,7 +58,6 @@ class Services {
   LateReplies late_;
   int nested_ = 0;  // waiting calls, nested in each other
   EndpointTable<ServiceServer> servers_;
-  std::set<messages::EndpointId> answered_elsewhere_;  // servers of other threads
   EndpointTable<ServiceClient> clients_;
 };
 

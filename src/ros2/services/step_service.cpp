@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "dds/quiet_thread.hpp"
+#include "quiet_thread.hpp"
 
 namespace bubblesim::ros2 {
 

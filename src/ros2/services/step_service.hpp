@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "bubblesim/node_bridge.hpp"
-#include "services/request_queue.hpp"
+#include "request_queue.hpp"
 
 namespace bubblesim::ros2 {
 

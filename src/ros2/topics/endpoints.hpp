@@ -29,7 +29,6 @@ class PublisherEndpoint {
 
   void open(Participant& participant);
   void close();
-  bool is_open() const { return writer_ != nullptr; }
 
  private:
   class Listener;
@@ -62,7 +61,6 @@ class SubscriberEndpoint {
 
   void open(Participant& participant);
   void close();
-  bool is_open() const { return reader_ != nullptr; }
 
  private:
   class Listener;

@@ -4,35 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
+#include "arrivals.hpp"
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
 
 namespace bubblesim::ros2 {
-
-/// Calls a function when input has arrived, on any thread, until it is silenced.
-class Arrivals {
- public:
-  explicit Arrivals(std::function<void()> on_arrival) : on_arrival_(std::move(on_arrival)) {}
-
-  void note() {
-    const std::lock_guard lock(mutex_);
-    if (on_arrival_) on_arrival_();
-  }
-  void silence() {
-    const std::lock_guard lock(mutex_);
-    on_arrival_ = nullptr;
-  }
-
- private:
-  std::mutex mutex_;
-  std::function<void()> on_arrival_;
-};
 
 /// The messages of one subscriber that wait for the simulation's thread.
 struct Mailbox {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <set>
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
-#include "endpoint_table.hpp"
+#include "topic_endpoints.hpp"
 #include "topics/endpoints.hpp"
 
 namespace bubblesim::ros2 {
@@ -24,30 +22,21 @@ class Topics {
   void yield_topic(messages::EndpointId id);
   const PublisherEndpoint& publisher(messages::EndpointId id) const;
   const SubscriberEndpoint& subscriber(messages::EndpointId id) const;
-  bool has_subscriber(messages::EndpointId id) const { return subscribers_.count(id) != 0; }
-  const messages::MessageType& type(messages::EndpointId id) const;
+  bool has_subscriber(messages::EndpointId id) const { return endpoints_.subscribers.count(id) != 0; }
+  const messages::MessageType& type(messages::EndpointId id) const { return endpoints_.type(id); }
   void publish(messages::EndpointId publisher, messages::WireBuffer message);
   void shutdown_publisher(messages::EndpointId publisher);
   void shutdown_subscriber(messages::EndpointId subscriber);
   /// Shuts down the endpoints with this id and later ones.
   void shutdown_from(messages::EndpointId first);
-  /// Number of publishers on a topic.
-  std::size_t publishers_on(const std::string& topic) const;
 
  private:
-  void check_type_on(const std::string& topic, const messages::MessageType& type) const;
-  template <class Endpoint>
-  bool has_script(const EndpointTable<Endpoint>& endpoints, const std::string& topic,
-                  const messages::MessageType* other_than) const;
+  /// Opens the endpoints that yield on this topic, or closes them.
   void settle(const std::string& topic);
-  template <class Endpoint>
-  void settle(EndpointTable<Endpoint>& own_kind, const std::string& topic);
 
   Participant& participant_;
   Inbox& inbox_;
-  EndpointTable<PublisherEndpoint> publishers_;
-  EndpointTable<SubscriberEndpoint> subscribers_;
-  std::set<messages::EndpointId> yielding_;
+  TopicEndpoints<PublisherEndpoint, SubscriberEndpoint> endpoints_;  // what is off is closed
 };
 
 }  // namespace bubblesim::ros2

@@ -4,31 +4,12 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <csignal>
 #include <memory>
 #include <system_error>
 
+#include "bubblesim/signals_blocked.hpp"
+
 namespace bubblesim {
-namespace {
-
-/// Blocks all signals in this thread during its lifetime: threads created meanwhile never handle one.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t before_;
-};
-
-}  // namespace
-
 std::size_t usable_cores() {
   cpu_set_t usable;
   CPU_ZERO(&usable);

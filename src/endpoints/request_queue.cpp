@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "services/request_queue.hpp"
+#include "request_queue.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace bubblesim {
@@ -11,16 +12,16 @@ constexpr std::chrono::milliseconds kAskInterval{20};
 
 }  // namespace
 
-void RequestQueue::addCallback(const ros::CallbackInterfacePtr& request, std::uint64_t owner) {
+void RequestQueue::add(std::function<void()> answer, std::uint64_t owner) {
   {
     const std::lock_guard lock(mutex_);
-    requests_.push_back({request, owner});
+    requests_.push_back({std::move(answer), owner});
   }
   changed_.notify_all();
-  arrivals_->note();
+  if (on_arrival_) on_arrival_();
 }
 
-void RequestQueue::removeByID(std::uint64_t owner) {
+void RequestQueue::remove(std::uint64_t owner) {
   std::deque<Request> removed;  // destroyed after the lock is released
   const std::lock_guard lock(mutex_);
   const auto kept = std::stable_partition(requests_.begin(), requests_.end(),
@@ -35,27 +36,32 @@ void RequestQueue::serve() {
     const Request request = std::move(requests_.front());
     requests_.pop_front();
     lock.unlock();
-    request.callback->call();
+    request.answer();
     lock.lock();
   }
 }
 
 bool RequestQueue::serve_until(const std::function<bool()>& done, Clock::time_point deadline) {
   for (;;) {
+    int seen = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      seen = wakes_;
+    }
     serve();
     if (done()) return true;
     const auto now = Clock::now();
     if (now >= deadline) return false;
     std::unique_lock lock(mutex_);
-    changed_.wait_until(lock, std::min(deadline, now + kAskInterval), [this] { return woken_ || !requests_.empty(); });
-    woken_ = false;
+    changed_.wait_until(lock, std::min(deadline, now + kAskInterval),
+                        [&] { return wakes_ != seen || !requests_.empty(); });
   }
 }
 
 void RequestQueue::wake() {
   {
     const std::lock_guard lock(mutex_);
-    woken_ = true;
+    ++wakes_;
   }
   changed_.notify_all();
 }
