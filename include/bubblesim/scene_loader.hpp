@@ -19,6 +19,9 @@ std::vector<std::filesystem::path> scene_folders();
 /// Names of the scenes in these folders, sorted.
 std::vector<std::string> scene_names();
 
+/// Whether the name ends like that of a file of CoppeliaSim, which has its scripts in itself.
+bool is_foreign_scene(const std::filesystem::path& file);
+
 /// Arguments of a .xacro file, each NAME:=VALUE.
 using XacroArguments = std::vector<std::string>;
 

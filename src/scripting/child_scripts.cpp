@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/scene_loader.hpp"
 #include "python_methods.hpp"
 
 namespace bubblesim {
@@ -35,22 +36,10 @@ void add_placed(const World& world, ObjectId model, ScriptFiles& scripts) {
   const auto add = [&](ObjectId id, const std::optional<TreePlace>& place) {
     if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
   };
-  std::vector<const SensorDescription*> sensors;  // in the order of Object::index
-  for (const LinkDescription& link : description.links) {
-    for (const SensorDescription& sensor : link.sensors) sensors.push_back(&sensor);
-  }
-  for (const JointDescription& joint : description.joints) {
-    for (const SensorDescription& sensor : joint.sensors) sensors.push_back(&sensor);
-  }
   for (const ObjectId id : tree.parts(model, ObjectKind::kLink)) add(id, description.links[tree.at(id).index].place);
   for (const ObjectId id : tree.parts(model, ObjectKind::kJoint)) add(id, description.joints[tree.at(id).index].place);
-  for (const ObjectId id : tree.parts(model, ObjectKind::kSensor)) add(id, sensors[tree.at(id).index]->place);
+  for (const ObjectId id : tree.parts(model, ObjectKind::kSensor)) add(id, world.models().sensor_description(id).place);
   for (const ObjectId id : tree.parts(model, ObjectKind::kFrame)) add(id, description.frames[tree.at(id).index].place);
-}
-
-/// Whether a scene is a file of CoppeliaSim, which has its scripts in itself.
-bool is_foreign(const std::filesystem::path& scene) {
-  return scene.extension() == ".ttt" || scene.extension() == ".ttm";
 }
 
 /// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is
@@ -83,7 +72,7 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
     const std::optional<TreePlace>& place = frames[tree.at(id).index].place;
     if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
   }
-  if (is_foreign(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
+  if (is_foreign_scene(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {

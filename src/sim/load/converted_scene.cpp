@@ -11,14 +11,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/scene_loader.hpp"
 #include "files/file_text.hpp"
 #include "files/library_folder.hpp"
 #include "load/limited_program.hpp"
+#include "load/ttt/write_scene.hpp"
 #include "scene/fnv1a.hpp"
 
 namespace bubblesim {
@@ -48,13 +49,6 @@ std::string key_of(const fs::path& name, const std::string& content, const fs::p
   std::snprintf(text.data(), text.size(), "%016llx-%zu-%llx", static_cast<unsigned long long>(hash.value()),
                 content.size(), static_cast<unsigned long long>(changed));
   return text.data();
-}
-
-std::vector<std::string> lines_of(const fs::path& file) {
-  std::vector<std::string> lines;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 /// An own empty folder beside the others, removed unless it is kept.
@@ -88,9 +82,11 @@ class NewFolder {
   fs::path path_;
 };
 
+/// Converts the copy of `file` that is in the folder: the file itself may change meanwhile.
 void run_converter(const fs::path& program, const fs::path& file, const fs::path& folder) {
   const auto fail = [&file](const std::string& message) { throw SceneError({{file.string(), 0, "", message}}); };
-  const ProgramResult result = run_limited({program.string(), "convert", file.string(), folder.string()}, kTimeLimit);
+  const ProgramResult result =
+      run_limited({program.string(), "convert", (folder / file.filename()).string(), folder.string()}, kTimeLimit);
   if (!result.in_time) fail("its conversion did not end within 60 s and was stopped: the file is too large or damaged");
   if (WIFSIGNALED(result.status)) {
     fail("its conversion was ended by signal " + std::string(::sigabbrev_np(WTERMSIG(result.status))) +
@@ -101,7 +97,7 @@ void run_converter(const fs::path& program, const fs::path& file, const fs::path
 
 /// Compares the whole file: keys of two files can be made equal on purpose, and scenes have programs.
 bool is_conversion_of(const fs::path& folder, const fs::path& name, const std::string& content) {
-  return fs::is_regular_file(folder / "scene.sdf") && fs::is_regular_file(folder / name) &&
+  return fs::is_regular_file(folder / ttt::kSceneFile) && fs::is_regular_file(folder / name) &&
          read_text(folder / name) == content;
 }
 
@@ -116,12 +112,12 @@ ConvertedScene convert_scene(const fs::path& file) {
   const fs::path folder = cache_folder() / key_of(name, content, program);
   if (!is_conversion_of(folder, name, content)) {
     NewFolder made(folder.parent_path());
-    std::ofstream(made.path() / name, std::ios::binary) << content;
+    write_file(made.path() / name, content);
     run_converter(program, file, made.path());
     fs::remove_all(folder);
     made.move_to(folder);
   }
-  return {folder / "scene.sdf", lines_of(folder / "left_out.txt")};
+  return {folder / ttt::kSceneFile, lines_of(read_text(folder / ttt::kLeftOutFile))};
 }
 
 }  // namespace bubblesim

@@ -9,9 +9,6 @@
 
 namespace bubblesim {
 
-/// Whether the name ends like that of a file of CoppeliaSim.
-bool is_foreign_scene(const std::filesystem::path& file);
-
 struct ConvertedScene {
   std::filesystem::path file;         ///< in SDFormat
   std::vector<std::string> left_out;  ///< what does not come over, a line for each

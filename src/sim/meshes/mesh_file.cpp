@@ -5,12 +5,12 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "files/file_text.hpp"
 #include "meshes/finish_mesh.hpp"
 #include "meshes/mesh_error.hpp"
 #include "meshes/mesh_materials.hpp"
@@ -31,13 +31,6 @@ void move_to_middle(TriangleMesh& mesh) {
   for (TriangleMesh::Point& vertex : mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) vertex[axis] -= (low[axis] + high[axis]) / 2;
   }
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 std::shared_ptr<const TriangleMesh> read(const MeshRequest& request, const MeshReader::Content& file,

@@ -4,12 +4,11 @@
 #include <sys/resource.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <new>
-#include <sstream>
 #include <string>
 
+#include "files/file_text.hpp"
 #include "load/ttt/bytes.hpp"
 #include "load/ttt/describe.hpp"
 #include "load/ttt/write_scene.hpp"
@@ -34,11 +33,7 @@ void limit_resources() {
 
 std::string bytes_of(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw FormatError("file not found");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream) throw FormatError(fs::file_size(file) == 0 ? "at byte 0: the file is empty" : "cannot be read");
-  return bytes.str();
+  return read_text(file);
 }
 
 int run(const std::string& command, const fs::path& file, const fs::path& folder) {

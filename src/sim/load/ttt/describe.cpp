@@ -113,12 +113,11 @@ void describe(const SceneFile& file, const Structure& structure, std::ostream& o
     for (auto child = children.rbegin(); child != children.rend(); ++child) open.emplace_back(*child, depth + 1);
   }
   out << "\nScripts:\n";
-  std::map<int, std::string> aliases;
-  for (const Object& object : file.objects) aliases.emplace(object.handle, object.alias);
   for (const Script& script : file.scripts) {
-    const auto owner = aliases.find(script.object);
+    const int owner = structure.place(script.object);
     const auto lines = std::count(script.text.begin(), script.text.end(), '\n') + 1;
-    out << "  " << kind_of(script) << (owner == aliases.end() ? "" : " of " + shown(owner->second)) << ", "
+    out << "  " << kind_of(script)
+        << (owner == kNone ? "" : " of " + shown(file.objects[static_cast<std::size_t>(owner)].alias)) << ", "
         << (script.is_python ? "Python" : "Lua") << ", " << lines << " lines"
         << (script.is_disabled ? ", disabled" : "") << "\n";
   }

@@ -57,9 +57,7 @@ std::vector<std::string> LeftOut::lines() const {
 
 LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   LeftOut left_out;
-  std::map<int, std::string> aliases;
   for (const Object& object : file.objects) {
-    aliases.emplace(object.handle, object.alias);
     if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
     if (const auto* sensor = object.as<VisionSensor>()) {
       if (!sensor->is_perspective) left_out.add("orthographic vision sensor: it sees in perspective", object.alias);
@@ -71,8 +69,8 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   }
   add_joints(file, structure, left_out);
   for (const Script& script : file.scripts) {
-    const auto owner = aliases.find(script.object);
-    const std::string alias = owner == aliases.end() ? "" : owner->second;
+    const int owner = structure.place(script.object);
+    const std::string alias = owner == kNone ? "" : file.objects[static_cast<std::size_t>(owner)].alias;
     if (script.kind == ScriptKind::kMain && !script.is_default_main) {
       left_out.add("main script: the default phases run", "");
     }

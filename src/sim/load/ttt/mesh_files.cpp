@@ -3,22 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <stdexcept>
 
+#include "files/file_text.hpp"
 #include "load/ttt/xml_writer.hpp"
 
 namespace bubblesim::ttt {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_file(const fs::path& file, const std::string& bytes) {
-  fs::create_directories(file.parent_path());
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string() + ": is the disk full?");
-}
 
 /// A BMP with 24 bits a pixel: its rows run from the bottom to the top, as those of the image, and are padded to 4
 /// bytes.

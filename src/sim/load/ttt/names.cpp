@@ -17,7 +17,8 @@ std::string plain_name(const std::string& name) {
 std::string UniqueNames::take(const std::string& name) {
   std::string own = plain_name(name);
   const std::string base = own;
-  for (int number = 2; !taken_.insert(own).second; ++number) own = base + "_" + std::to_string(number);
+  int& number = last_.try_emplace(base, 1).first->second;
+  while (!taken_.insert(own).second) own = base + "_" + std::to_string(++number);
   return own;
 }
 

@@ -2,6 +2,7 @@
 // Names that are safe in paths, files and XML, made of names in foreign files.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -17,6 +18,7 @@ class UniqueNames {
 
  private:
   std::set<std::string> taken_;
+  std::map<std::string, int> last_;  // numbers given, by name
 };
 
 }  // namespace bubblesim::ttt

@@ -62,8 +62,7 @@ Joint read_joint(const TagList& list) {
   joint.lead = list.number("Jsp", "_sp").value_or(0);
   if (const auto per_turn = list.number("", "Sld")) joint.lead = *per_turn / (2 * M_PI);
   if (const auto q = list.numbers("Jst", "_st", 4); !q.empty()) {
-    joint.rotation =
-        unit_rotation(q[0], q[1], q[2], q[3], (list.has("_st") ? list.item("_st") : list.item("Jst"))->offset());
+    joint.rotation = unit_rotation(q[0], q[1], q[2], q[3], list.offset_of("Jst", "_st"));
   }
   const int mode = list.integer("Jmd", 0);
   joint.is_dynamic = mode == kDynamicMode || (bits & 0x40U) != 0;

@@ -29,7 +29,7 @@ void read_inertia(const TagList& body, Shape& shape) {
   }
   const auto n = body.numbers("Ine", "_ne", 10);
   if (n.empty()) return;
-  const Pose frame = pose_of(n, (body.has("_ne") ? body.item("_ne") : body.item("Ine"))->offset());
+  const Pose frame = pose_of(n, body.offset_of("Ine", "_ne"));
   const Matrix3 turn = frame.orientation.toRotationMatrix();
   shape.centre_of_mass = frame.position;
   shape.inertia = turn * Eigen::Vector3d(n[7], n[8], n[9]).asDiagonal() * turn.transpose();

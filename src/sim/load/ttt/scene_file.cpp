@@ -53,13 +53,12 @@ Object read_common(const TagList& list, std::string_view tag, std::size_t offset
   object.handle = ids->i32();
   object.parent = ids->i32();
   object.pose = list.rotation_first("Cfq", "_fq").value_or(Pose());
-  object.old_name = list.text("Nme").value_or("");
-  object.alias = list.text("Ali").value_or(object.old_name.substr(0, object.old_name.find('#')));
+  const std::string old_name = list.text("Nme").value_or("");  // with `#0` for copies
+  object.alias = list.text("Ali").value_or(old_name.substr(0, old_name.find('#')));
   const auto base = list.u8("Va3") ? list.u8("Va3") : list.u8("Va2") ? list.u8("Va2") : list.u8("Var");
   object.is_model = (base.value_or(0) & 1U) != 0;
   object.model_flags = static_cast<unsigned>(list.integer("Mpo", 0));
   if ((object.model_flags & 0xf000U) == 0xf000U) object.is_model = false;
-  object.object_flags = static_cast<unsigned>(list.integer("Omp", 0));
   object.layers = list.u16("Lar").value_or(0xff);
   object.order = list.integer("Cor", -1);
   return object;
@@ -111,15 +110,10 @@ class FileReader {
     const TagList common(bytes);
     const TagList own(bytes);
     Object object = read_common(common, tag, start);
-    object.file_order = file_.objects.size();
     if (!handles_.insert(object.handle).second) {
       fail_at(start, "two objects have the handle " + std::to_string(object.handle) + ": the file is damaged");
     }
-    if (tag == "SHP") {
-      ShapeSources sources{meshes_, materials_, triangles_left_};
-      object.details = read_shape(own, sources);
-      triangles_left_ = sources.triangles_left;
-    }
+    if (tag == "SHP") object.details = read_shape(own, sources_);
     if (tag == "JNT") object.details = read_joint(own);
     if (tag == "SNR") object.details = read_proximity_sensor(own);
     if (tag == "RSN") object.details = read_vision_sensor(own);
@@ -140,7 +134,7 @@ class FileReader {
   MeshData meshes_;
   std::map<int, TagList> materials_;
   std::set<int> handles_;
-  std::size_t triangles_left_ = kMostTriangles;
+  ShapeSources sources_{meshes_, materials_, kMostTriangles};
 };
 
 }  // namespace

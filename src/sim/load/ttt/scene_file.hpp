@@ -131,14 +131,11 @@ struct Object {
   int handle = -1;
   int parent = -1;  ///< handle; -1: none
   std::string alias;
-  std::string old_name;  ///< unique, with `#0` for copies; empty in new files
-  Pose pose;             ///< relative to the parent's moving frame
+  Pose pose;  ///< relative to the parent's moving frame
   bool is_model = false;
   unsigned model_flags = 0;
-  unsigned object_flags = 0;
   unsigned layers = 0;
   int order = -1;  ///< among siblings; -1: not given
-  std::size_t file_order = 0;
   Details details;
 
   template <class Kind>

@@ -2,7 +2,6 @@
 #include "load/ttt/structure.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace bubblesim::ttt {
@@ -19,7 +18,7 @@ class Builder {
 
   Structure build() {
     built_.nodes.resize(file_.objects.size());
-    for (int i = 0; i < count(); ++i) places_.emplace(object(i).handle, i);
+    for (int i = 0; i < count(); ++i) built_.places.emplace(object(i).handle, i);
     find_parents();
     for (const int root : built_.roots) walk(root);
     for (int i = 0; i < count(); ++i) connect(i);
@@ -31,13 +30,8 @@ class Builder {
   int count() const { return static_cast<int>(file_.objects.size()); }
   const Object& object(int i) const { return file_.objects[static_cast<std::size_t>(i)]; }
   Node& node(int i) { return built_.nodes[static_cast<std::size_t>(i)]; }
-  int place(int handle) const {
-    const auto found = places_.find(handle);
-    return found == places_.end() ? kNone : found->second;
-  }
-
   void find_parents() {
-    for (int i = 0; i < count(); ++i) node(i).parent = place(object(i).parent);
+    for (int i = 0; i < count(); ++i) node(i).parent = built_.place(object(i).parent);
     std::vector<int> state(file_.objects.size(), 0);  // 1: on the way up from the current object, 2: leads to the top
     for (int i = 0; i < count(); ++i) {
       std::vector<int> way;
@@ -137,7 +131,7 @@ class Builder {
 
   void close_loop(int i) {
     const Dummy& dummy = *object(i).as<Dummy>();
-    const int partner = place(dummy.linked);
+    const int partner = built_.place(dummy.linked);
     if (partner == kNone || dummy.link_kind != kClosedLoop || object(partner).as<Dummy>() == nullptr) return;
     if (const int joint = joint_of(i); joint != kNone) {
       add({ConnectionKind::kJoint, joint, node(joint).body, node(partner).body});
@@ -176,7 +170,6 @@ class Builder {
 
   const SceneFile& file_;
   Structure built_;
-  std::map<int, int> places_;  // by handle
 };
 
 }  // namespace

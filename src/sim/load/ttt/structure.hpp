@@ -2,6 +2,7 @@
 // What the objects of a file are for a simulation: which are bodies, what moves with them, and what connects them.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "bubblesim/math.hpp"
@@ -48,6 +49,13 @@ struct Structure {
   std::vector<int> roots;   ///< the objects at the top, in their order
   std::vector<Body> bodies;
   std::vector<Connection> connections;
+  std::map<int, int> places;  ///< of the objects, by handle
+
+  /// The place of an object; kNone if there is none of that handle.
+  int place(int handle) const {
+    const auto found = places.find(handle);
+    return found == places.end() ? kNone : found->second;
+  }
 };
 
 /// Broken or circular parents are left out: such objects are at the top.

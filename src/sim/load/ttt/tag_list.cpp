@@ -41,12 +41,8 @@ std::optional<Bytes> TagList::item(std::string_view tag) const {
   return found == nullptr ? std::nullopt : std::make_optional(found->content);
 }
 
-std::vector<Bytes> TagList::all(std::string_view tag) const {
-  std::vector<Bytes> found;
-  for (const Item& item : items_) {
-    if (item.tag == tag) found.push_back(item.content);
-  }
-  return found;
+std::size_t TagList::offset_of(std::string_view floats, std::string_view doubles) const {
+  return item(has(doubles) ? doubles : floats)->offset();
 }
 
 TagList TagList::list(std::string_view tag) const {
@@ -88,14 +84,13 @@ std::optional<double> TagList::number(std::string_view floats, std::string_view 
 std::optional<Pose> TagList::rotation_first(std::string_view floats, std::string_view doubles) const {
   const std::vector<double> n = numbers(floats, doubles, 7);
   if (n.empty()) return std::nullopt;
-  const std::size_t offset = (has(doubles) ? item(doubles) : item(floats))->offset();
-  return Pose(Vector3(n[4], n[5], n[6]), unit_rotation(n[0], n[1], n[2], n[3], offset));
+  return Pose(Vector3(n[4], n[5], n[6]), unit_rotation(n[0], n[1], n[2], n[3], offset_of(floats, doubles)));
 }
 
 std::optional<Pose> TagList::position_first(std::string_view floats, std::string_view doubles) const {
   const std::vector<double> n = numbers(floats, doubles, 7);
   if (n.empty()) return std::nullopt;
-  return pose_of(n, (has(doubles) ? item(doubles) : item(floats))->offset());
+  return pose_of(n, offset_of(floats, doubles));
 }
 
 std::vector<double> TagList::block(std::string_view floats, std::string_view doubles) const {

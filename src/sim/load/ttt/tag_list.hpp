@@ -31,7 +31,8 @@ class TagList {
   bool has(std::string_view tag) const { return find(tag) != nullptr; }
   /// The content of the first item of that tag, at its start; nothing if there is none.
   std::optional<Bytes> item(std::string_view tag) const;
-  std::vector<Bytes> all(std::string_view tag) const;
+  /// Where the numbers begin that a function with two tags returns.
+  std::size_t offset_of(std::string_view floats, std::string_view doubles) const;
   /// An item that is a list; empty if there is none.
   TagList list(std::string_view tag) const;
 

@@ -12,7 +12,6 @@ namespace bubblesim::ttt {
 /// What the joints of a model refer to.
 struct JointSite {
   std::function<std::string(int body)> link;  ///< the name of a body's link, also of the fixed part (kWorld)
-  std::function<Pose(int body)> at_zero;      ///< the pose of a body in the world where all joints are at zero
   bool has_loops = false;                     ///< the joints' zeros are at their positions in the file
   std::map<int, std::string> names;           ///< of the joints, by the handle of their object
 };

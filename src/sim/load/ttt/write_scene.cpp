@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
+#include "files/file_text.hpp"
 #include "load/ttt/groups.hpp"
 #include "load/ttt/script_files.hpp"
 #include "load/ttt/write_joints.hpp"
@@ -233,10 +233,10 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
   if (!document.save_file((folder / kSceneFile).c_str(), "  ")) {
     throw std::runtime_error("cannot write " + (folder / kSceneFile).string() + ": is the disk full?");
   }
-  std::ofstream list(folder / kLeftOutFile);
   std::vector<std::string> lines = conversion.left_out.lines();
-  for (const std::string& line : lines) list << line << "\n";
-  if (!list.flush()) throw std::runtime_error("cannot write " + (folder / kLeftOutFile).string());
+  std::string list;
+  for (const std::string& line : lines) list += line + "\n";
+  write_file(folder / kLeftOutFile, list);
   return lines;
 }
 

@@ -22,8 +22,7 @@ FrameKind read_kind(const SdfElement& object, const std::string& path, LoadConte
     if (given == known.back()) return kind;
   }
   context.report(object.source("kind"), path,
-                 "<kind> is '" + given + "', it must be dummy, shape, camera, light, graph or script" +
-                     did_you_mean(given, known));
+                 "<kind> is '" + given + "', it must be " + joined(known, " or ") + did_you_mean(given, known));
   return FrameKind::kDummy;
 }
 
