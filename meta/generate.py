@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -35,7 +36,7 @@ try:
     from bubblesim.messages.packages import build_index
     from bubblesim.messages.ros2_definitions import Ros2Message
     from bubblesim.messages.ros2_specs import Ros2Specs, without_ros1_only
-    from bubblesim.messages.specs import SpecError, Specs
+    from bubblesim.messages.specs import Specs, load_list
 except ImportError as error:
     sys.exit(f"{error}; install ros-base-dev and use Debian's Python: cmake -DPython3_EXECUTABLE=/usr/bin/python3")
 
@@ -63,7 +64,7 @@ class ServiceTable:
     response: TypeTable
 
 
-def type_table(specs: Specs, spec: Any, kind: str) -> TypeTable:
+def type_table(specs: Specs, spec: Any, kind: str = "msg") -> TypeTable:
     """Return the tables of a genmsg.MsgSpec; kind is "msg" or "srv" and makes the C++ names unique."""
     return TypeTable(
         label=f"{kind}_{split_name(spec.full_name)[1]}",
@@ -99,9 +100,9 @@ def ros2_type_table(specs: Ros2Specs, message: Ros2Message) -> TypeTable:
     )
 
 
-def ros2_service_table(specs: Ros2Specs, name: str) -> ServiceTable:
+def ros2_service_table(specs: Ros2Specs, name: str, parts: tuple[Ros2Message, Ros2Message]) -> ServiceTable:
     """Return the tables of a service of ROS 2."""
-    request, response = (ros2_type_table(specs, part) for part in specs.services[name])
+    request, response = (ros2_type_table(specs, part) for part in parts)
     return ServiceTable(rules.cpp_string(name), specs.service_hash(name), request, response)
 
 
@@ -121,27 +122,15 @@ Tables = dict[str, tuple[list[TypeTable], list[ServiceTable]]]
 """Messages and services by package."""
 
 
-def all_tables(specs: Specs) -> Tables:
-    """Return the tables of all loaded types of ROS 1."""
+def all_tables(specs: Any, of_message: Callable[..., TypeTable], of_service: Callable[..., ServiceTable]) -> Tables:
+    """Return the tables of all loaded types; specs: Specs or Ros2Specs."""
     tables: Tables = {}
     for name in sorted(specs.messages):
         messages, _ = tables.setdefault(split_name(name)[0], ([], []))
-        messages.append(type_table(specs, specs.messages[name], "msg"))
+        messages.append(of_message(specs, specs.messages[name]))
     for name in sorted(specs.services):
         _, services = tables.setdefault(split_name(name)[0], ([], []))
-        services.append(service_table(specs, name, specs.services[name]))
-    return tables
-
-
-def all_ros2_tables(specs: Ros2Specs) -> Tables:
-    """Return the tables of all loaded types of ROS 2."""
-    tables: Tables = {}
-    for name in sorted(specs.messages):
-        messages, _ = tables.setdefault(split_name(name)[0], ([], []))
-        messages.append(ros2_type_table(specs, specs.messages[name]))
-    for name in sorted(specs.services):
-        _, services = tables.setdefault(split_name(name)[0], ([], []))
-        services.append(ros2_service_table(specs, name))
+        services.append(of_service(specs, name, specs.services[name]))
     return tables
 
 
@@ -210,8 +199,8 @@ def main(arguments: list[str]) -> int:
     services = read_list(options.services, shown_path(options.services), problems, warnings)
     more = read_interfaces(options.interfaces, shown_path(options.interfaces), problems, warnings)
     messages, services = united(messages, more[0]), united(services, more[1])
-    specs.load_list(messages, "msg", problems)
-    specs.load_list(services, "srv", problems)
+    load_list(specs.load, messages, "msg", problems)
+    load_list(specs.load, services, "srv", problems)
     ros2 = Ros2Specs(index)
     if options.ros2 and not problems:
         load_ros2(ros2, messages, services, problems)
@@ -223,7 +212,9 @@ def main(arguments: list[str]) -> int:
     own += [*HERE.glob("*.py"), *HERE.glob("templates/*.em")]
     own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]
     inputs = {path.absolute() for path in [*own, *specs.files, *ros2.files, *index.watched]}
-    write_tables(all_tables(specs), all_ros2_tables(ros2), sorted(inputs), options.output)
+    ros1_tables = all_tables(specs, type_table, service_table)
+    ros2_tables = all_tables(ros2, ros2_type_table, ros2_service_table)
+    write_tables(ros1_tables, ros2_tables, sorted(inputs), options.output)
     return 0
 
 
@@ -237,12 +228,8 @@ def load_ros2(specs: Ros2Specs, messages: list[Entry], services: list[Entry], pr
     """Load ROS 2's types of these names, and those that ROS 1 does not have; add errors to `problems`."""
     specs.load_own()
     in_ros2 = set(without_ros1_only(entry.name for entry in messages))
-    for kind, entries in (("msg", [entry for entry in messages if entry.name in in_ros2]), ("srv", services)):
-        for entry in entries:
-            try:
-                specs.load(entry.name, kind)
-            except SpecError as error:
-                problems.append(f"{entry.place}: {error}")
+    load_list(specs.load, [entry for entry in messages if entry.name in in_ros2], "msg", problems)
+    load_list(specs.load, services, "srv", problems)
 
 
 if __name__ == "__main__":

@@ -74,8 +74,7 @@ def ros2_field_row(name: str, kind: ros2_definitions.FieldType) -> FieldRow:
 
 def ros2_constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:
     """Return the row of a constant of a type of ROS 2."""
-    row = constant_row(name, "int8", value)
-    return ConstantRow(row.name, FIELD_KINDS[ros2_definitions.KINDS[base_type]], row.value)
+    return constant_row(name, ros2_definitions.KINDS[base_type], value)
 
 
 def constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:

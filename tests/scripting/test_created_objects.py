@@ -5,19 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from node_support import in_init, run_script
+from node_support import REFUSED, in_init, run_script
 
-HEADER = """
+HEADER = f"""
 import math
 import numpy as np
 near = lambda a, b, tol=1e-9: np.testing.assert_allclose(a, b, atol=tol)
-def refused(call, *arguments):
-    try:
-        call(*arguments)
-    except (ValueError, LookupError, RuntimeError) as error:
-        return str(error)
-    raise AssertionError('accepted')
-"""
+{REFUSED}"""
 
 
 def check(folder: Path, body: str, scene: str = "tricycle", target: str = "/Tricycle", rest: str = "") -> str:

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from node_support import in_init, run_script, write
+from node_support import REFUSED, in_init, run_script, write
 
 SCENE = """\
 <sdf version="1.9" xmlns:bubblesim="https://bubblesim">
@@ -62,19 +62,13 @@ SCENE = """\
 </sdf>
 """
 
-HEADER = """
+HEADER = f"""
 import math
 import numpy as np
 near = lambda a, b: np.testing.assert_allclose(a, b, atol=1e-9)
 def names(handles):
     return [sim.getObjectAlias(handle) for handle in handles]
-def refused(call, *arguments):
-    try:
-        call(*arguments)
-    except (ValueError, LookupError, RuntimeError) as error:
-        return str(error)
-    raise AssertionError('accepted')
-"""
+{REFUSED}"""
 
 
 def check(folder: Path, body: str, target: str = "/Robot/motor/wheel", rest: str = "", name: str = "script.py") -> str:

@@ -71,6 +71,17 @@ def run_script(
     return run
 
 
+# For child scripts: the text of the error with which a call is refused.
+REFUSED = """\
+def refused(call, *arguments):
+    try:
+        call(*arguments)
+    except (ValueError, LookupError, RuntimeError) as error:
+        return str(error)
+    raise AssertionError('accepted')
+"""
+
+
 def in_init(body: str) -> str:
     """Return sysCall_init of a child script with this body."""
     return "def sysCall_init():\n" + "".join(f"    {line}\n" for line in body.strip("\n").splitlines())

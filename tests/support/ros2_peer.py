@@ -8,19 +8,17 @@ node is missing.
 import base64
 import fcntl
 import itertools
-import json
 import os
 import signal
-import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 import pytest
 
 from node_support import clean_environment
-from ros_support import DEADLINE, REPOSITORY, start, stop, wait_until
+from peer_process import PeerProcess
+from ros_support import DEADLINE, REPOSITORY, wait_until
 
 Message = dict[str, Any]
 PEERS = REPOSITORY / ".ws" / "ros2_peers"
@@ -70,20 +68,13 @@ def peer_environment(domain: Domain, **changes: str) -> dict[str, str]:
     return env
 
 
-class Ros2Peer:
+class Ros2Peer(PeerProcess):
     """A node `/peer` that publishes and receives messages as dicts; bytes stay bytes."""
 
     def __init__(self, domain: Domain, log: Path, **env: str) -> None:
-        self._log = log
-        self._read = 0
-        self._received: dict[str, list[Any]] = {}
-        self._subscribed: set[str] = set()
-        environment = peer_environment(domain, **env)
         program = str(Path(__file__).with_name("ros2_peer_node.py"))
-        with log.open("w") as output:
-            self._process = start(
-                [str(PEERS / "bin" / "python"), "-u", program], environment, stdin=subprocess.PIPE, stdout=output
-            )
+        super().__init__([str(PEERS / "bin" / "python"), "-u", program], peer_environment(domain, **env), log)
+        self._subscribed: set[str] = set()
         self._wait_for("ready", 1)
 
     def publish(self, topic: str, message_type: str, message: Message, **qos: Any) -> None:
@@ -153,9 +144,7 @@ class Ros2Peer:
         self._take_in()
         return self._received.setdefault(label, [])
 
-    def requests(self, service: str) -> list[Message]:
-        self._take_in()
-        return self._received.setdefault(service, [])
+    requests = reported  # of a service
 
     def graph(self) -> dict[str, Any]:
         """Return the topics, nodes and services that the peer knows."""
@@ -182,35 +171,8 @@ class Ros2Peer:
 
         wait_until(has_come, label, 2 * DEADLINE)
 
-    def _send(self, **command: Any) -> None:
-        assert self._process.stdin is not None
-        self._process.stdin.write(json.dumps(command) + "\n")
-        self._process.stdin.flush()
-
-    def _take_in(self) -> None:
-        with self._log.open("rb") as log:
-            log.seek(self._read)
-            for line in log:
-                if not line.endswith(b"\n"):
-                    break  # not written completely yet
-                self._read += len(line)
-                topic, message = json.loads(line, object_hook=_with_bytes)
-                self._received.setdefault(topic, []).append(message)
-
-    def __enter__(self) -> "Ros2Peer":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        stop(self._process)
-
 
 @pytest.fixture
 def ros2_peer(ros2_domain: Domain, tmp_path: Path) -> Iterator[Ros2Peer]:
     with Ros2Peer(ros2_domain, tmp_path / "peer.log") as peer:
         yield peer
-
-
-def _with_bytes(found: dict[str, Any]) -> Any:
-    return base64.b64decode(found["base64"]) if found.keys() == {"base64"} else found

@@ -1,35 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A rospy node at the other end of a robot's topics, in its own process."""
 
-import base64
-import json
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
-from ros_support import DEADLINE, RosCore, start, stop, wait_until
+from peer_process import PeerProcess
+from ros_support import DEADLINE, RosCore, wait_until
 
 Message = dict[str, Any]
 
 
-class Peer:
+class Peer(PeerProcess):
     """Publishes and receives messages as dicts; bytes stay bytes."""
 
     def __init__(self, core: RosCore, log: Path) -> None:
-        self._log = log
-        self._read = 0
-        self._received: dict[str, list[Message]] = {}
+        program = str(Path(__file__).with_name("ros_peer_node.py"))
+        super().__init__([sys.executable, "-u", program], core.env, log)
         self._subscribed = {"response"}
-        with log.open("w") as output:
-            self._process = start(
-                [sys.executable, "-u", str(Path(__file__).with_name("ros_peer_node.py"))],
-                core.env,
-                stdin=subprocess.PIPE,
-                stdout=output,
-            )
 
     def publish(self, topic: str, message_type: str, message: Message) -> None:
         """Publish once the topic has a subscriber."""
@@ -63,29 +52,6 @@ class Peer:
         wait_until(lambda: len(self.received("response")) > number, f"a response of {service}")
         return self._received["response"][number]
 
-    def _send(self, **command: Any) -> None:
-        assert self._process.stdin is not None
-        self._process.stdin.write(json.dumps(command) + "\n")
-        self._process.stdin.flush()
-
-    def _take_in(self) -> None:
-        with self._log.open("rb") as log:
-            log.seek(self._read)
-            for line in log:
-                if not line.endswith(b"\n"):
-                    break  # not written completely yet
-                self._read += len(line)
-                topic, message = json.loads(line, object_hook=_with_bytes)
-                self._received.setdefault(topic, []).append(message)
-
-    def __enter__(self) -> "Peer":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        stop(self._process)
-
 
 class Messages:
     """The messages of a topic from the construction on; none is left out between two calls."""
@@ -106,7 +72,3 @@ class Messages:
         wait_until(look, what, 3 * DEADLINE)
         self._seen = found[0] + 1
         return self._peer.received(self._topic)[found[0]]
-
-
-def _with_bytes(found: dict[str, Any]) -> Any:
-    return base64.b64decode(found["base64"]) if found.keys() == {"base64"} else found

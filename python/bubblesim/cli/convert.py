@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
-from bubblesim.running.places import scene_converter
+from bubblesim.cli.foreign_scenes import read_foreign
 
 _DESCRIPTION = """\
 Writes a file of CoppeliaSim (.ttt, .ttm) as a scene in SDFormat: FOLDER/scene.sdf, with its meshes, textures and child
@@ -34,11 +33,7 @@ def _convert(options: argparse.Namespace) -> int:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ValueError(f"{folder} cannot be made: {error.strerror}") from error
-    run = subprocess.run([scene_converter(), "convert", options.file, folder], capture_output=True, check=False)
-    if run.returncode != 0:
-        raise ValueError(f"{options.file}: {run.stderr.decode(errors='replace').strip() or 'the file is damaged'}")
-    left_out = run.stdout.decode(errors="replace").splitlines()
-    if left_out:
+    if left_out := read_foreign("convert", options.file, folder).splitlines():
         print("left out or changed:", *left_out, sep="\n  ", file=sys.stderr)
     print(folder / "scene.sdf")
     return 0

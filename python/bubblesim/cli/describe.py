@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
-from bubblesim.running.places import scene_converter
+from bubblesim.cli.foreign_scenes import read_foreign
 
 _DESCRIPTION = """\
 Prints the objects of a file of CoppeliaSim (.ttt, .ttm), its scripts, and what will be left out or changed when it is
@@ -26,8 +25,5 @@ def add_parser(commands: Any) -> None:
 
 
 def _describe(options: argparse.Namespace) -> int:
-    run = subprocess.run([scene_converter(), "describe", options.file], capture_output=True, check=False)
-    if run.returncode != 0:
-        raise ValueError(f"{options.file}: {run.stderr.decode(errors='replace').strip() or 'the file is damaged'}")
-    sys.stdout.write(run.stdout.decode(errors="replace"))
+    sys.stdout.write(read_foreign("describe", options.file))
     return 0

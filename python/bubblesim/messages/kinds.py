@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-# Spelling of a type in a .msg file -> its kind, as in message_type.hpp and its kind_name(). Any other name is another
-# message.
-KINDS = {
+# Spelling of a type in a .msg file -> its kind, as in message_type.hpp and its kind_name(). Those of ROS 1 and ROS 2:
+COMMON_KINDS = {
     "bool": "bool",
     "int8": "int8",
-    "byte": "int8",
     "uint8": "uint8",
     "char": "uint8",
     "int16": "int16",
@@ -20,9 +18,9 @@ KINDS = {
     "float32": "float32",
     "float64": "float64",
     "string": "string",
-    "time": "time",
-    "duration": "duration",
 }
+# Those of ROS 1. Any other name is another message.
+KINDS = COMMON_KINDS | {"byte": "int8", "time": "time", "duration": "duration"}
 
 HEADER = "std_msgs/Header"
 

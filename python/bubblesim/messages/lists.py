@@ -15,6 +15,7 @@ class Entry:
 
     place: str  # "meta/messages.txt:12"
     name: str  # "geometry_msgs/Twist"
+    is_service: bool = False  # listed as package/srv/Type
 
 
 def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str]) -> list[Entry]:
@@ -31,7 +32,7 @@ def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str
         elif name in entries:
             warnings.append(f"{place}: {name} is listed twice, first at {entries[name].place}; the first line counts")
         else:
-            entries[name] = Entry(place, name)
+            entries[name] = Entry(place, name, "/srv/" in text)
     return list(entries.values())
 
 
@@ -39,15 +40,8 @@ def read_interfaces(
     path: Path, shown_as: str, problems: list[str], warnings: list[str]
 ) -> tuple[list[Entry], list[Entry]]:
     """Return the messages and services of a list that has both, in ROS 2's spelling; nothing without the file."""
-    if not path.is_file():
-        return [], []
-    entries = read_list(path, shown_as, problems, warnings)
-    lines = path.read_text(encoding="utf-8").splitlines()
-
-    def is_service(entry: Entry) -> bool:
-        return "/srv/" in _content(lines[int(entry.place.rpartition(":")[2]) - 1])
-
-    return [entry for entry in entries if not is_service(entry)], [entry for entry in entries if is_service(entry)]
+    entries = read_list(path, shown_as, problems, warnings) if path.is_file() else []
+    return [entry for entry in entries if not entry.is_service], [entry for entry in entries if entry.is_service]
 
 
 def add_to_list(path: Path, name: str) -> str:

@@ -7,28 +7,17 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
+from bubblesim.messages.kinds import COMMON_KINDS
+
 # Spelling of a type in a .msg file -> its kind in message_type.hpp. Any other name is another message.
-KINDS = {
-    "bool": "bool",
+KINDS = COMMON_KINDS | {
     "byte": "uint8",
-    "char": "uint8",
-    "int8": "int8",
-    "uint8": "uint8",
-    "int16": "int16",
-    "uint16": "uint16",
-    "int32": "int32",
-    "uint32": "uint32",
-    "int64": "int64",
-    "uint64": "uint64",
-    "float32": "float32",
-    "float64": "float64",
-    "string": "string",
     "builtin_interfaces/Time": "time",
     "builtin_interfaces/Duration": "duration",
 }
 # ROS 1's spelling of types -> that of ROS 2.
 _OF_ROS1 = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration", "Header": "std_msgs/Header"}
-_BUILTIN = KINDS.keys() - {"builtin_interfaces/Time", "builtin_interfaces/Duration"} | {"wstring"}
+_BUILTIN = COMMON_KINDS.keys() | {"byte", "wstring"}
 
 _TYPE = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)*)(?:<=(\d+))?(?:(\[)(<=)?(\d*)\])?")
 _CONSTANT = re.compile(r"\s*([A-Za-z]\w*)\s*=(.*)", re.DOTALL)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim import _core
+from bubblesim._core.messages import RosVersion
 from bubblesim.messages.kinds import KINDS, has_header
 from bubblesim.messages.names import did_you_mean, nearest_names, type_name
 from bubblesim.messages.packages import machine_index
@@ -44,15 +45,19 @@ def add_action(given_name: str) -> str:
         raise _core.MessageError(
             f"'{given_name}' is not a type name, expected package/Name such as test_msgs/Fibonacci"
         )
+    base = name.replace("/", "/action/")
+    if ("action", name) in _added:
+        return base
     specs = Ros2Specs(machine_index())
     try:
-        base = specs.load_action(name)
+        specs.load_action(name)
     except SpecError as error:
         actions = {each.removesuffix("Goal") for each in specs.index.names("msg") if each.endswith("ActionGoal")}
         known = sorted({*specs.index.names("action"), *(each.removesuffix("Action") for each in actions)})
         raise _core.MessageError(f"{error}{did_you_mean(nearest_names(name, known))}") from error
     with _lock:
         _register_ros2(specs)
+        _added.add(("action", name))
     return base
 
 
@@ -102,19 +107,11 @@ def _add_of_ros2(specs: Ros2Specs, name: str, kind: str) -> None:
 
 
 def _register_ros2(specs: Ros2Specs) -> None:
-    version = _core.messages.RosVersion.ROS2
     services = [
         (name, specs.service_hash(name), *(_ros2_tuple(specs, part) for part in parts))
         for name, parts in specs.services.items()
     ]
-    try:
-        for message in specs.messages.values():
-            _core.messages.add_message(_ros2_tuple(specs, message), version)
-        for service in services:
-            _core.messages.add_service(*service, version)
-    except ValueError as error:
-        cure = "its definition has changed since bubblesim was built or started; rebuild: catkin build bubblesim"
-        raise _core.MessageError(f"{error}: {cure}") from error
+    _register_tuples([_ros2_tuple(specs, each) for each in specs.messages.values()], services, RosVersion.ROS2)
 
 
 def _ros2_tuple(specs: Ros2Specs, message: Ros2Message) -> tuple[Any, ...]:
@@ -142,11 +139,15 @@ def _register(specs: Specs) -> None:
         (name, specs.md5(spec), _message_tuple(specs, spec.request), _message_tuple(specs, spec.response))
         for name, spec in specs.services.items()
     ]
+    _register_tuples(messages, services, RosVersion.ROS1)
+
+
+def _register_tuples(messages: list[tuple[Any, ...]], services: list[tuple[Any, ...]], version: RosVersion) -> None:
     try:
         for message in messages:
-            _core.messages.add_message(message)
+            _core.messages.add_message(message, version)
         for service in services:
-            _core.messages.add_service(*service)
+            _core.messages.add_service(*service, version)
     except ValueError as error:
         cure = "its definition has changed since bubblesim was built or started; rebuild: catkin build bubblesim"
         raise _core.MessageError(f"{error}: {cure}") from error

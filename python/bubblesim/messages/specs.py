@@ -33,14 +33,6 @@ class Specs:
     services: dict[str, Any] = field(default_factory=dict)  # name -> genmsg.SrvSpec
     files: set[Path] = field(default_factory=set)
 
-    def load_list(self, entries: list[Entry], kind: str, problems: list[str]) -> None:
-        """Load listed messages ("msg") or services ("srv"); add errors to `problems`."""
-        for entry in entries:
-            try:
-                self.load(entry.name, kind)
-            except SpecError as error:
-                problems.append(f"{entry.place}: {error}")
-
     def load(self, name: str, kind: str) -> Path:
         """Load one message ("msg") or service ("srv"); return the file that defines it."""
         definition = self.index.find(name, kind)
@@ -107,6 +99,15 @@ class Specs:
             near = difflib.get_close_matches(short.lower(), KINDS, n=1) or near
         cure = did_you_mean(near) or "; install its package or add it to the workspace"
         return f"{name}, used in {' > '.join(inside)} ({place}), is not found{cure}"
+
+
+def load_list(load: Callable[[str, str], object], entries: list[Entry], kind: str, problems: list[str]) -> None:
+    """Load listed messages ("msg") or services ("srv") with Specs.load or Ros2Specs.load; add errors to `problems`."""
+    for entry in entries:
+        try:
+            load(entry.name, kind)
+        except SpecError as error:
+            problems.append(f"{entry.place}: {error}")
 
 
 def _parse(load: Callable[..., Any], context: Any, definition: Definition, name: str) -> Any:

@@ -35,11 +35,7 @@ class ObjectTree:
 
     def contains(self, handle: int) -> bool:
         """Return whether this is the handle of an object."""
-        try:
-            self._world.kind(handle)
-        except LookupError:
-            return False
-        return True
+        return bool(self._world.contains(handle))
 
     def kind(self, handle: int) -> str:
         """Return 'model', 'link', 'joint' or 'sensor'; of an object without a body 'dummy', 'shape', 'camera' ..."""
@@ -135,8 +131,7 @@ class ObjectTree:
         if self.kind(handle) not in ("model", "link", "joint", "sensor", "shape"):
             return
         model = self.model(handle)
-        above = self.parent(handle)
-        is_first = self.kind(handle) in ("model", "link") and (above < 0 or self.model(above) != model)
+        is_first = self.kind(handle) in ("model", "link") and self.model_above(handle) != model
         if model >= 0 and not is_first:
             path = self.short_path(self._world.model_base_of(handle))
             raise ValueError(f"{self.path(handle)} is a part of {path} and stays there: attach the whole model")
@@ -144,6 +139,8 @@ class ObjectTree:
     def _poses_changed(self, handle: int) -> None:
         """Keep the new poses of an object of the scene, and of what moved along, where they are held or stay."""
         edits = self._edits
+        if not edits.holds and not edits.stopped():
+            return
         for each in self.with_all_below(handle):
             kind = str(self._world.kind(each))
             model = self.model(each) if kind in ("model", "link") else -1

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.api.ros.action_endpoints import QUEUE_SIZE
 from bubblesim.scripting.api.ros.action_topics import GOAL_ID, STATUS_ARRAY, ActionTopics, GoalStatus
 from bubblesim.scripting.api.ros.stamps import Message
 
@@ -65,7 +66,7 @@ class ActionServer:
         self._goals: dict[str, _Goal] = {}
         self._last_cancel = (0, 0)  # goals stamped up to this time are cancelled on arrival
         self._next_status = 0.0
-        self._status_publisher = topics.advertise("status", STATUS_ARRAY, latch=True)
+        self._status_publisher = topics.advertise("status", STATUS_ARRAY, _core.Qos(QUEUE_SIZE, transient_local=True))
         self._result_publisher = topics.advertise("result", topics.message_type("Result"))
         self._feedback_publisher = topics.advertise("feedback", topics.message_type("Feedback"))
         topics.subscribe("cancel", GOAL_ID, self._on_cancel)
@@ -105,14 +106,8 @@ class ActionServer:
         self._topics.close()
 
     def _live_goal(self, goal_id: str) -> _Goal:
-        goal = self._goals.get(goal_id)
-        if goal is not None and goal.ended is None:
-            return goal
-        live = [each.id for each in self._goals.values() if each.ended is None]
-        reason = "it is unknown" if goal is None else f"it has ended as {goal.status.name}"
-        raise ValueError(
-            f"action server '{self._topics.name}' has no goal '{goal_id}': {reason}; its goals are {live or 'none'}"
-        )
+        goal: _Goal = live_goal(self._topics.name, self._goals, goal_id)
+        return goal
 
     def _next_of(self, goal: _Goal, changes: dict[str, dict[GoalStatus, GoalStatus]], what: str) -> GoalStatus:
         if goal.status in changes[what]:
@@ -125,7 +120,7 @@ class ActionServer:
 
     def _on_goal(self, message: dict[str, Any]) -> None:
         stamp = message["goal_id"]["stamp"]
-        when = _seconds_and_rest(stamp)
+        when = seconds_and_rest(stamp)
         goal = _Goal(
             message["goal_id"]["id"] or str(uuid.uuid4()),
             stamp if any(when) else self._topics.now(),
@@ -153,10 +148,10 @@ class ActionServer:
         self._handle_accepted(goal.id, content)
 
     def _on_cancel(self, message: dict[str, Any]) -> None:
-        goal_id, until = message["id"], _seconds_and_rest(message["stamp"])
+        goal_id, until = message["id"], seconds_and_rest(message["stamp"])
         everything = not goal_id and not any(until)
         for goal in list(self._goals.values()):
-            up_to_then = any(until) and _seconds_and_rest(goal.stamp) <= until
+            up_to_then = any(until) and seconds_and_rest(goal.stamp) <= until
             if everything or goal.id == goal_id or up_to_then:
                 self._request_cancel(goal)
             if self._topics.closed:
@@ -195,6 +190,16 @@ class ActionServer:
         self._topics.publish(self._status_publisher, {"header": {"stamp": self._topics.now()}, "status_list": statuses})
 
 
+def live_goal(server: str, goals: Mapping[str, Any], goal_id: str) -> Any:
+    """Return a goal that has not ended; raise ValueError if there is none."""
+    goal = goals.get(goal_id)
+    if goal is not None and goal.ended is None:
+        return goal
+    live = [each.id for each in goals.values() if each.ended is None]
+    reason = "it is unknown" if goal is None else f"it has ended as {goal.status.name}"
+    raise ValueError(f"action server '{server}' has no goal '{goal_id}': {reason}; its goals are {live or 'none'}")
+
+
 def response_of(callback: Callable[[str, Message], int], goal_id: str, goal: Message) -> int:
     """Return what a script's callback answers."""
     try:
@@ -203,5 +208,6 @@ def response_of(callback: Callable[[str, Message], int], goal_id: str, goal: Mes
         return REJECT  # the script has failed, which has ended the server
 
 
-def _seconds_and_rest(stamp: Message) -> tuple[int, int]:
-    return stamp["sec"], stamp["nanosec"]
+def seconds_and_rest(stamp: Message) -> tuple[int, int]:
+    """Return a stamp as (sec, nanosec), to compare."""
+    return int(stamp["sec"]), int(stamp["nanosec"])

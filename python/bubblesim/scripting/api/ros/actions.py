@@ -56,7 +56,8 @@ class RosActions(RosContext):
         the values of ROS 2, and _unknown (0) for a goal that the server does not know any more.
         """
         callbacks = map(self._caller.callback, (goal_response_callback, feedback_callback, result_callback))
-        client = self._make_client(name, action_type, *callbacks)
+        made = self._make(ActionClient, Ros2ActionClient, name, action_type, *callbacks)
+        client: ActionClient | Ros2ActionClient = made
         self._action_clients[client.handle] = client
         self._caller.in_each_step["action client", client.handle] = client.send_outgoing
         self._caller.at_end["action client", client.handle] = lambda: self.shutdownActionClient(client.handle)
@@ -95,7 +96,9 @@ class RosActions(RosContext):
         handle_goal = self._caller.answering_callback(handle_goal_callback, _check_goal_response)
         handle_cancel = self._caller.answering_callback(handle_cancel_callback, _check_cancel_response)
         handle_accepted = self._caller.callback(handle_accepted_callback)
-        server = self._make_server(name, action_type, handle_goal, handle_cancel, handle_accepted)
+        callbacks = handle_goal, handle_cancel, handle_accepted
+        made = self._make(ActionServer, Ros2ActionServer, name, action_type, *callbacks)
+        server: ActionServer | Ros2ActionServer = made
         self._action_servers[server.handle] = server
         self._caller.in_each_step["action server", server.handle] = server.publish_status_when_due
         self._caller.at_end["action server", server.handle] = lambda: self.shutdownActionServer(server.handle)
@@ -146,23 +149,11 @@ class RosActions(RosContext):
     def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
         """Do nothing; for older scripts: uint8[] is always bytes."""
 
-    def _make_client(self, name: str, action_type: str, *callbacks: Any) -> ActionClient | Ros2ActionClient:
-        if self._is_ros2:
-            parts = Ros2ActionParts(self._bridge, name, action_type)
-            with parts.closed_on_error():
-                return Ros2ActionClient(parts, *callbacks)
-        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
-        with topics.closed_on_error():
-            return ActionClient(topics, *callbacks)
-
-    def _make_server(self, name: str, action_type: str, *callbacks: Any) -> ActionServer | Ros2ActionServer:
-        if self._is_ros2:
-            parts = Ros2ActionParts(self._bridge, name, action_type)
-            with parts.closed_on_error():
-                return Ros2ActionServer(parts, *callbacks)
-        topics = ActionTopics(self._bridge, name, action_type, self._warn_of_truncation)
-        with topics.closed_on_error():
-            return ActionServer(topics, *callbacks)
+    def _make(self, of_ros1: Any, of_ros2: Any, name: str, action_type: str, *callbacks: Any) -> Any:
+        kind: Any = Ros2ActionParts if self._is_ros2 else ActionTopics
+        endpoints = kind(self._bridge, name, action_type, self._warn_of_truncation)
+        with endpoints.closed_on_error():
+            return (of_ros2 if self._is_ros2 else of_ros1)(endpoints, *callbacks)
 
     def _action_client(self, handle: int) -> ActionClient | Ros2ActionClient:
         if handle not in self._action_clients:

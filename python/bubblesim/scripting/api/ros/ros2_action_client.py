@@ -10,7 +10,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from bubblesim.scripting.api.ros.ros2_action_parts import TIME_FORM, Ros2ActionParts, Status, id_message, id_of
+from bubblesim.scripting.api.ros.action_endpoints import TIME_FORM
+from bubblesim.scripting.api.ros.ros2_action_parts import Ros2ActionParts, Status, id_message, id_of
 from bubblesim.scripting.api.ros.stamps import Message
 
 _NO_TIME = {"sec": 0, "nanosec": 0}

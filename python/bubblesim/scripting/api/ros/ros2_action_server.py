@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting.api.ros.action_server import ACCEPT, REJECT, response_of
+from bubblesim.scripting.api.ros.action_server import ACCEPT, REJECT, live_goal, response_of, seconds_and_rest
 from bubblesim.scripting.api.ros.action_topics import GoalStatus
 from bubblesim.scripting.api.ros.ros2_action_parts import STATUS_ARRAY, Ros2ActionParts, Status, id_message, id_of
 from bubblesim.scripting.api.ros.stamps import Message
@@ -82,8 +82,8 @@ class Ros2ActionServer:
         """Publish feedback on a goal."""
         goal = self._live_goal(goal_id)
         message = {"goal_id": id_message(goal.id), "feedback": feedback}
-        self._parts.bridge.check(self._feedback, message)
-        self._parts.bridge.publish(self._feedback, message)
+        self._parts.check(self._feedback, message)
+        self._parts.publish(self._feedback, message)
 
     def execute(self, goal_id: str) -> None:
         """Start a goal that was accepted for deferred execution."""
@@ -128,14 +128,8 @@ class Ros2ActionServer:
         self._parts.close()
 
     def _live_goal(self, goal_id: str) -> _Goal:
-        goal = self._goals.get(goal_id)
-        if goal is not None and goal.ended is None:
-            return goal
-        live = [each.id for each in self._goals.values() if each.ended is None]
-        reason = "it is unknown" if goal is None else f"it has ended as {goal.status.name}"
-        raise ValueError(
-            f"action server '{self._parts.name}' has no goal '{goal_id}': {reason}; its goals are {live or 'none'}"
-        )
+        goal: _Goal = live_goal(self._parts.name, self._goals, goal_id)
+        return goal
 
     def _on_goal(self, number: int, request: dict[str, Any]) -> None:
         goal = _Goal(id_of(request["goal_id"]), self._parts.now(), request["goal"])
@@ -161,7 +155,7 @@ class Ros2ActionServer:
             goal.waiting.append(number)
 
     def _on_cancel(self, number: int, request: dict[str, Any]) -> None:
-        goal_id, stamp = id_of(request["goal_info"]["goal_id"]), _seconds_and_rest(request["goal_info"]["stamp"])
+        goal_id, stamp = id_of(request["goal_info"]["goal_id"]), seconds_and_rest(request["goal_info"]["stamp"])
         cancelling: list[_Goal] = []
         wanted = [goal for goal in self._goals.values() if _is_meant(goal, goal_id, stamp)]
         for goal in wanted:
@@ -190,15 +184,11 @@ class Ros2ActionServer:
     def _publish_status(self) -> None:
         if not self._parts.closed:
             statuses = [{"goal_info": goal.info, "status": int(goal.status)} for goal in self._goals.values()]
-            self._parts.bridge.publish(self._status, {"status_list": statuses})
-
-
-def _seconds_and_rest(stamp: Message) -> tuple[int, int]:
-    return int(stamp["sec"]), int(stamp["nanosec"])
+            self._parts.publish(self._status, {"status_list": statuses})
 
 
 def _is_meant(goal: _Goal, goal_id: str, until: tuple[int, int]) -> bool:
     """By action_msgs/CancelGoal: this goal, all until a time, or all."""
     if goal_id == _NOBODY and not any(until):
         return True
-    return goal.id == goal_id or (any(until) and _seconds_and_rest(goal.stamp) <= until)
+    return goal.id == goal_id or (any(until) and seconds_and_rest(goal.stamp) <= until)
