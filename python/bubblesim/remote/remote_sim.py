@@ -52,7 +52,8 @@ class RemoteSim(SimApi):
         return self.step()
 
     def wait(self, seconds: float, simulation_time: bool = True) -> Any:
-        """Wait for a number of seconds of simulated time, or of wall time; return the excess time."""
+        """Wait for a number of seconds of simulated time, or of wall time; return the time left: 0, or a
+        negative number."""
         if not simulation_time:
             return self._wait_for_wall_time(seconds)
         if not math.isfinite(seconds):
@@ -69,7 +70,16 @@ class RemoteSim(SimApi):
 
         if is_done():
             return 0.0
-        return Pending(is_done, lambda: float(max(0.0, self._simulation.state_time - end)))
+        return Pending(is_done, lambda: float(min(0.0, end - self._simulation.state_time)))
+
+    def waitForSignal(self, name: str) -> Any:
+        """Wait until a signal is set, of any type, and return it; None (nil) if the simulation stops before."""
+        signals = self._caller.shared.signals
+
+        def value() -> Any:
+            return next((found for kind in (int, float, str) if (found := signals.get((kind, name))) is not None), None)
+
+        return Pending(lambda: value() is not None or self._stopped(), value)
 
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step."""

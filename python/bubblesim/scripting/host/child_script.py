@@ -47,6 +47,8 @@ class ChildScript:
         self.activity = "loading"  # the callback or action that runs
         self.stuck_at = ""  # FILE:LINE where the watchdog found it
         self.shared = host.shared
+        self.stepping = 0  # for the thread that starts after sysCall_init
+        self.uses_old_names = False
         self.programs: list[Program] = []  # started by the script
         self.at_end: dict[Hashable, Hook] = {}  # release the script's other resources, such as publishers
         self.in_each_step: dict[Hashable, Hook] = {}  # updates of such resources; must not raise
@@ -80,6 +82,7 @@ class ChildScript:
         if not self.run("loading", self._code.run):
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
+        self._hooks["sysCall_thread"] = self._hooks["sysCall_thread"] or self._code.function("sysCall_threadmain")
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         self._warn_of_unknown_callbacks()
         if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
@@ -95,7 +98,7 @@ class ChildScript:
 
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):
-            if looks_like_callback(name) and name not in HOOKS:
+            if looks_like_callback(name) and name not in (*HOOKS, "sysCall_threadmain"):
                 self._say(
                     f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
                     log.SCRIPT_WARNING,
@@ -136,6 +139,7 @@ class ChildScript:
         if body is not None and self.alive:
             name = f"{self.object_path} sysCall_thread"
             self._thread = self._code.make_thread(name, body, lambda: script_sockets.record_in(self._sockets))
+            self._thread.stepping = self.stepping
 
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None

@@ -96,7 +96,7 @@ class ObjectFunctions(ApiContext):
             case _:
                 return name
 
-    def isHandle(self, handle: int) -> bool:
+    def isHandle(self, handle: int, object_type: int = -1) -> bool:
         """Return whether there is an object with this handle."""
         return handle >= 0 and self._tree.contains(self._resolve(handle))
 

@@ -14,16 +14,21 @@ from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.matrices import MatrixFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
+from bubblesim.scripting.api.sim.old_functions import OldFunctions
+from bubblesim.scripting.api.sim.old_user_interfaces import OldUserInterfaceFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
 from bubblesim.scripting.api.sim.parameters import ParameterFunctions
 from bubblesim.scripting.api.sim.programs import ProgramFunctions
 from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
 from bubblesim.scripting.api.sim.scene_files import SceneFileFunctions
+from bubblesim.scripting.api.sim.script_parameters import ScriptParameterFunctions
 from bubblesim.scripting.api.sim.scripts import ScriptFunctions
+from bubblesim.scripting.api.sim.selection import SelectionFunctions
 from bubblesim.scripting.api.sim.sensors import SensorFunctions
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 from bubblesim.scripting.api.sim.threads import ThreadFunctions
 from bubblesim.scripting.api.sim.times import TimeFunctions
+from bubblesim.scripting.api.sim.tubes import TubeFunctions
 from bubblesim.scripting.api.sim.vision import VisionFunctions
 
 
@@ -47,8 +52,13 @@ class SimApi(
     RandomFunctions,
     DrawingFunctions,
     GraphFunctions,
+    OldFunctions,
     LogFunctions,
     ProgramFunctions,
     ScriptFunctions,
+    ScriptParameterFunctions,
+    SelectionFunctions,
+    TubeFunctions,
+    OldUserInterfaceFunctions,
 ):
     """All functions and constants of `sim`."""
