@@ -198,7 +198,7 @@ def test_a_created_shape_is_static_and_not_respondable_at_first(sim: Any) -> Non
 
 
 def test_a_shape_that_is_not_respondable_falls_through_the_floor(sim: Any) -> None:
-    ball = sim.createPureShape(sim.pure_primitive_spheroid, 0, [0.1, 0.1, 0.1], 2.0)
+    ball = sim.createPureShape(1, 0, [0.1, 0.1, 0.1], 2.0)
     sim.setObjectPosition(ball, [0, 2, 0.5])
     run(sim, 1.0)
     assert sim.getObjectPosition(ball)[2] < -1

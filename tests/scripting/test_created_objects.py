@@ -229,7 +229,7 @@ def test_lua_has_them_too(tmp_path: Path) -> None:
 CHANGES = """
 def change(phase):
     shape = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.1, 0.1, 0.1])
-    removed = sim.removeObjects([sim.createPureShape(sim.pure_primitive_cuboid, 8, [0.1, 0.1, 0.1], 1)])
+    removed = sim.removeObjects([sim.createPureShape(0, 8, [0.1, 0.1, 0.1], 1)])
     print(phase, sim.getObjectAlias(shape), removed)
 
 def sysCall_init():

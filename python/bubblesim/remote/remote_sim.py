@@ -16,6 +16,7 @@ from bubblesim.scripting.api.functions import variant_of_module
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.api.waiting_functions import Waiting
 
 _TOLERANCE = 1e-6  # of a step
 _CALLS_OF_TEST = 99
@@ -80,6 +81,31 @@ class RemoteSim(SimApi):
             return next((found for kind in (int, float, str) if (found := signals.get((kind, name))) is not None), None)
 
         return Pending(lambda: value() is not None or self._stopped(), value)
+
+    def _run_waiting(self, function: str, waiting: Waiting) -> Any:
+        """Let a function that takes several steps go on with each; in stepping mode it allows them itself."""
+        client = self._caller
+        server = client.server
+        result: Any = None
+        steps = -1
+
+        def is_done() -> bool:
+            nonlocal result, steps
+            if self._stopped():
+                raise RuntimeError(f"sim.{function}: the simulation is stopped, its time does not pass")
+            if server.steps == steps:
+                return False
+            steps = server.steps
+            try:
+                next(waiting)
+            except StopIteration as end:
+                result = end.value
+                return True
+            if client.level:
+                client.granted += 1
+            return False
+
+        return Pending(is_done, lambda: result)
 
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step."""

@@ -35,6 +35,7 @@ class ScriptFunction:
     doc: str
     group: type  # the class that defines the function; its group in the reference
     for_remote_only: bool  # the other callers get an error
+    waits: bool = False  # it takes several steps
 
 
 def script_module(name: str) -> Callable[[Module], Module]:
@@ -81,7 +82,8 @@ def functions(module: type) -> list[ScriptFunction]:
     for name, function in _public_methods(module):
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
         doc = inspect.getdoc(function) or ""
-        found.append(ScriptFunction(name, signature_of(function), doc, group, hasattr(function, "for_remote_only")))
+        marks = hasattr(function, "for_remote_only"), hasattr(function, "waits")
+        found.append(ScriptFunction(name, signature_of(function), doc, group, *marks))
     return found
 
 

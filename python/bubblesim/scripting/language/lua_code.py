@@ -18,6 +18,7 @@ from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
 from bubblesim.scripting.api.ros import no_ros
 from bubblesim.scripting.api.sim.constants import SimConstants
+from bubblesim.scripting.api.waiting_functions import Waiting
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaScriptError, LuaValues
 from bubblesim.scripting.language.script_output import Source, print_line
 from bubblesim.scripting.language.source import ScriptSourceError, find_file
@@ -64,6 +65,8 @@ class LuaCode:
         self._text = text
         self._folders = [file.parent, *search_paths]
         self._modules = modules
+        self._waiting: dict[int, Waiting] = {}  # functions that take several steps, by number
+        self._begun = 0
         self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by chunk name
         self._source = source
@@ -158,6 +161,9 @@ class LuaCode:
         host[b"write"] = callable_from_lua(self._write)
         host[b"find_source"] = callable_from_lua(self._find_source)
         host[b"explain"] = callable_from_lua(_explanation)
+        modules["sim"].run_waiting = self._begin_waiting
+        host[b"waiting"] = self._values.to_lua([f.name for f in functions(type(modules["sim"])) if f.waits])
+        host[b"go_on"] = callable_from_lua(self._go_on)
         host[b"old_name"] = callable_from_lua(self._old_name)
         host[b"v_rep_name"] = callable_from_lua(self._v_rep_name)
         host[b"read_file"] = callable_from_lua(self._read_file)
@@ -179,6 +185,21 @@ class LuaCode:
 
     def _write(self, line: str | bytes) -> None:
         print_line(self._source, _decoded(line))
+
+    def _begin_waiting(self, waiting: Waiting) -> int:
+        """Keep a function that takes several steps; a coroutine lets it go on."""
+        self._begun += 1
+        self._waiting[self._begun] = waiting
+        return self._begun
+
+    def _go_on(self, number: int) -> tuple[Any, ...]:
+        """Carry out a step of such a function; return whether it is done, and then its results."""
+        try:
+            next(self._waiting[number])
+        except StopIteration as end:
+            del self._waiting[number]
+            return (True, *end.value) if isinstance(end.value, tuple) else (True, end.value)
+        return (False,)
 
     def _old_name(self, module: str, name: str) -> str | None:
         """Return the present name of a function of a module, and log it once."""

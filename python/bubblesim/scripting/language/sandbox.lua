@@ -11,6 +11,9 @@
 --   host.explain      returns the error message for an unknown name of a module
 --   host.old_name     returns the present name of an old name of a module, or nil
 --   host.v_rep_name   returns module and name of a global of V-REP, or nil
+--   host.waiting      names of functions of sim that take several steps: they return a number
+--   host.go_on        carries out a step of the function with a number; returns whether it is done, and its results
+--   host.added        by name, functions that make a module from the globals
 --   host.read_file, host.getenv  see libraries.lua
 --   host.libraries    the function of libraries.lua
 --   host.whole        returns a string with the whole paths of the script's files
@@ -291,6 +294,22 @@ function sim.tubeRead(tube, blocking)
     packet = read_tube(tube)
   end
   return packet
+end
+
+-- Functions that take several steps: each resumption of the coroutine carries out one.
+local go_on = checked(host.go_on)
+local function results_when_done(name, number, done, ...)
+  if done then return ... end
+  next_step(name)
+  return results_when_done(name, number, go_on(number))
+end
+for _, name in next, host.waiting do
+  local begin = sim[name]
+  sim[name] = function(...)
+    if running() ~= thread and not isyieldable() then yield_turn(name) end
+    local number = begin(...)
+    return results_when_done(name, number, go_on(number))
+  end
 end
 
 for _, name in next, {"setStepping", "setThreadAutomaticSwitch", "acquireLock", "releaseLock"} do

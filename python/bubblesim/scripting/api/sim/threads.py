@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from typing import Any
 
 from bubblesim._core import RunState
 from bubblesim.scripting.api.checked_calls import any_time
 from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.api.waiting_functions import Waiting
 from bubblesim.scripting.threads.script_thread import AnyThread, current
 
 _TOLERANCE = 1e-6  # of a step
@@ -15,6 +18,9 @@ _TOLERANCE = 1e-6  # of a step
 
 class ThreadFunctions(ApiContext):
     """A script's thread is suspended after 2 ms in each step, or, in stepping mode, only in ``step``."""
+
+    run_waiting: Callable[[Waiting], Any] | None = None
+    """Runs functions that take several steps, for scripts whose threads are none of the operating system."""
 
     @any_time
     def setStepping(self, enable: bool) -> int:
@@ -116,6 +122,19 @@ class ThreadFunctions(ApiContext):
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step, or the simulation has ended after it."""
         return self.getThreadExitRequest() or bool(self._runner.state == RunState.STOPPING)
+
+    def _run_waiting(self, function: str, waiting: Waiting) -> Any:
+        """Return the result of a function that takes several steps."""
+        if self.run_waiting is not None:
+            return self.run_waiting(waiting)
+        thread = self._thread(function)
+        while True:
+            with thread.turn():
+                try:
+                    next(waiting)
+                except StopIteration as end:
+                    return end.value
+            thread.step()
 
     def _thread(self, function: str) -> AnyThread:
         thread = current()
