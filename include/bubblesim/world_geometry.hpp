@@ -50,8 +50,8 @@ class WorldGeometry : public WorldPart {
   /// them: as convex parts, or their triangles. Two links that are the same are not compared.
   std::optional<NearestPoints> nearest(const std::vector<ObjectId>& first, const std::vector<ObjectId>& second,
                                        double limit) const;
-  /// The corners of the smallest box along the axes of `frame` with all collision shapes of some links; none if they have
-  /// no shapes, or a plane.
+  /// The corners of the smallest box along the axes of `frame` with all collision shapes of some links; none if they
+  /// have no shapes, or a plane.
   std::optional<std::pair<Vector3, Vector3>> bounds(const std::vector<ObjectId>& links, const Pose& frame) const;
   /// The lights of links, at their current poses.
   std::vector<Light> link_lights() const;

@@ -137,7 +137,8 @@ void bind_world(py::module_& module) {
                                   found->second);
           },
           py::arg("first"), py::arg("second"), py::arg("limit"),
-          "Return distance, the nearest points in the world and their links, for the shapes of two lists of links; None "
+          "Return distance, the nearest points in the world and their links, for the shapes of two lists of links; "
+          "None "
           "if they are farther apart than the limit, or have no shapes.")
       .def(
           "bounds",

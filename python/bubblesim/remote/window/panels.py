@@ -15,7 +15,8 @@ def get_panels(window: Window, revision: int = -1) -> dict[str, Any] | None:
     A panel has ``handle``, ``kind`` and ``owner``; it and each of its parts have ``path``, ``kind``, ``values`` and
     ``parts``.
     """
-    return window.host.shared.panels.described(revision)
+    panels: dict[str, Any] | None = window.host.shared.panels.described(revision)
+    return panels
 
 
 def send_panel_event(window: Window, handle: int, path: list[int], event: str, value: Any = None) -> None:

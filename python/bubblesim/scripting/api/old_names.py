@@ -99,13 +99,12 @@ RENAMED: dict[str, Mapping[str, str]] = {
         "setIkElementWeights": "setElementWeights",
         "setLinkedDummy": "setTargetDummy",
         "getLinkedDummy": "getTargetDummy",
-        "getConfigForTipPose": "findConfig",
         "generateIkPath": "generatePath",
     },
 }
 
 # Functions of V-REP 3 with names of their own, without `sim`.
-_OF_V_REP = {
+OF_V_REP = {
     "GetInvertedMatrix": "getMatrixInverse",
     "GetObjectLastUniqueIdentifier": "getObjectUid",
     "JointGetForce": "getJointForce",
@@ -113,7 +112,7 @@ _OF_V_REP = {
     "GetSystemTimeInMilliseconds": "getSystemTimeInMs",
 }
 # Beginnings of the functions of V-REP's plugins, which were functions of the global namespace.
-_OF_PLUGINS = {
+OF_PLUGINS = {
     "simExtRosInterface_": "simROS",
     "simExtROS_": "simROS",
     "simExtCustomUI_": "simUI",
@@ -148,7 +147,7 @@ def of_v_rep(name: str, exists: Exists) -> tuple[str, str] | None:
 
 
 def _candidates(name: str) -> Iterator[tuple[str, str]]:
-    for beginning, module in _OF_PLUGINS.items():
+    for beginning, module in OF_PLUGINS.items():
         if name.startswith(beginning):
             rest = name.removeprefix(beginning)
             yield module, rest[:1].lower() + rest[1:]
@@ -157,8 +156,8 @@ def _candidates(name: str) -> Iterator[tuple[str, str]]:
         yield "sim", rest[1:]
     elif rest.startswith("rml_"):
         yield "sim", rest
-    elif rest in _OF_V_REP:
-        yield "sim", _OF_V_REP[rest]
+    elif rest in OF_V_REP:
+        yield "sim", OF_V_REP[rest]
     elif rest.startswith("RML"):
         yield "sim", "rml" + rest[3:]
     else:
@@ -176,6 +175,8 @@ def note_old_name(caller: Caller, old: str, new: str) -> None:
     if caller.uses_old_names:
         return
     caller.uses_old_names = True
-    line = f"{caller.object_path} uses names of older versions: {old} is now {new}; all: docs/child_scripts/old_names.md"
+    line = (
+        f"{caller.object_path} uses names of older versions: {old} is now {new}; all: docs/child_scripts/old_names.md"
+    )
     write_line(sys.stderr, f"info: {line}")
     caller.shared.log.add(log.INFO, caller.object_path, line)

@@ -18,6 +18,7 @@ from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
+from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
@@ -205,7 +206,11 @@ class ScriptHost:
 
     def make_modules(self, script: Caller) -> dict[str, Any]:
         """Return the modules in a script's globals."""
-        modules: dict[str, Any] = {"sim": SimApi(self.runner, script), "simUI": SimUi(script)}
+        modules: dict[str, Any] = {
+            "sim": SimApi(self.runner, script),
+            "simUI": SimUi(script),
+            "simIK": SimIk(self.runner, script),
+        }
         if self.bridge is None:
             return {**modules, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
         return {

@@ -35,7 +35,9 @@ class Chain:
             way.append(each)
         else:
             if base != WORLD:
-                raise ValueError(f"the base {environment.at(base).name} is not above the tip {environment.at(tip).name}")
+                raise ValueError(
+                    f"the base {environment.at(base).name} is not above the tip {environment.at(tip).name}"
+                )
         self.joints: list[IkObject] = []
         self._rigid: list[tuple[IkObject, float]] = []  # passive joints, and where they were
         chain = kdl.Chain()

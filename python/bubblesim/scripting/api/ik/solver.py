@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Solves groups: pseudo-inverse, or damped least squares (Wampler 1986, Nakamura and Hanafusa 1986), with limits of joints.
+"""Solves groups: pseudo-inverse, or damped least squares (Wampler 1986, Nakamura and Hanafusa 1986), with limits of
+joints.
 
 The damping of a search for configurations adapts by Levenberg's and Marquardt's rule.
 """
@@ -18,11 +19,11 @@ from bubblesim.scripting.api.ik.environment import (
     ALPHA_BETA,
     GAMMA,
     WORLD,
-    X,
     Element,
     Environment,
     Group,
     IkObject,
+    X,
 )
 
 NOT_PERFORMED, SUCCESS, FAIL = 0, 1, 2
@@ -43,8 +44,8 @@ class Solver:
         self._structure = -1
 
     def errors(self, group: Group) -> tuple[Array, Array, list[IkObject], Array]:
-        """Return the weighted errors of all constraints, their Jacobian, its joints, and the linear (m) and angular (rad)
-        error of each element."""
+        """Return the weighted errors of all constraints, their Jacobian, its joints, and the linear (m) and angular
+        (rad) error of each element."""
         elements = [each for each in group.elements if each.is_enabled and self._target(each) >= 0]
         parts = [self._element(each) for each in elements]
         joints: list[IkObject] = []
@@ -236,14 +237,17 @@ def _step(group: Group, error: Array, jacobian: Array, joints: list[IkObject]) -
     if group.method == TRANSPOSE:
         way = weighted @ (weighted.T @ error)
         size = float(way @ way)
-        return weights * (weighted.T @ error) * (float(error @ way) / size if size else 0.0)
+        step: Array = weights * (weighted.T @ error) * (float(error @ way) / size if size else 0.0)
+        return step
     damping = group.damping if group.method == DAMPED else 1e-6
     square = weighted @ weighted.T + damping * damping * np.eye(len(error))
     try:
-        result: Array = weights * (weighted.T @ np.linalg.solve(square, error))
+        result: Array = np.asarray(weights * (weighted.T @ np.linalg.solve(square, error)))
     except np.linalg.LinAlgError:
         return None
-    return result if np.isfinite(result).all() else None
+    if not np.isfinite(result).all():
+        return None
+    return result
 
 
 def _move(joints: list[IkObject], step: Array, *, limited: bool) -> None:

@@ -107,7 +107,9 @@ class AcceptedFunctions(LogFunctions):
 
     def setScriptVariable(self, name: str, script: int, value: Any) -> int:
         """Return -1: call a function of the script instead."""
-        self._warn("setScriptVariable", "variables of other scripts cannot be set: call a function with callScriptFunction")
+        self._warn(
+            "setScriptVariable", "variables of other scripts cannot be set: call a function with callScriptFunction"
+        )
         return -1
 
     def getMaterialId(self, name: str) -> int:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bubblesim.scripting.api.kinds import Bytes, Handle, Integers, Numbers, Vector3
+from bubblesim.scripting.api.kinds import Bytes, Handle, Integers, Vector3
 from bubblesim.scripting.api.sim.distances import DistanceFunctions
 from bubblesim.scripting.api.sim.logs import LogFunctions
 
@@ -91,9 +91,11 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         self._tree.kind(self._resolve(light))  # raises
         return 1, [0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]
 
-    def saveImage(self, image: Bytes, resolution: Integers, options: int, file: str, quality: int = -1, reserved: Any = None) -> Any:
-        """Write an image, rows from bottom to top: options 1 for four bytes a pixel. For '.png', '.jpg' or '.bmp' as the
-        name, return the file as bytes. A path needs a caller that may use files."""
+    def saveImage(
+        self, image: Bytes, resolution: Integers, options: int, file: str, quality: int = -1, reserved: Any = None
+    ) -> Any:
+        """Write an image, rows from bottom to top: options 1 for four bytes a pixel. For '.png', '.jpg' or '.bmp' as
+        the name, return the file as bytes. A path needs a caller that may use files."""
         width, height = resolution
         channels = 4 if options & 1 else 3
         if len(image) != width * height * channels or width * height > _MOST_PIXELS:
@@ -137,7 +139,7 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         if not (0 <= from_type < len(_TYPES) and 0 <= to_type & 15 < len(_TYPES)):
             raise ValueError("sim.transformBuffer takes the types sim.buffer_uint8 to buffer_double")
         numbers = np.frombuffer(data, _TYPES[from_type]).astype(np.float64) * factor + offset
-        target = _TYPES[to_type & 15]
+        target: Any = _TYPES[to_type & 15]
         if np.issubdtype(target, np.integer):
             numbers = np.clip(numbers, np.iinfo(target).min, np.iinfo(target).max)
         return numbers.astype(target).tobytes()

@@ -33,11 +33,10 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
     def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
         """Create a shape at the origin and return its handle; not in sysCall_sensing.
 
-        Types: sim.primitiveshape_cuboid, spheroid, cylinder, cone, capsule, plane and disc; ``sizes`` are full lengths along
-        x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable until
-        sim.setObjectInt32Param sets sim.shapeintparam_static to 0 and sim.shapeintparam_respondable to 1. Its mass is
-        that of water.
-        """
+        Types: sim.primitiveshape_cuboid, spheroid, cylinder, cone, capsule, plane and disc; ``sizes`` are full lengths
+        along x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable
+        until sim.setObjectInt32Param sets sim.shapeintparam_static to 0 and sim.shapeintparam_respondable to 1. Its
+        mass is that of water."""
         return self._add_shape(PrimitiveShape(primitive_type, list(sizes)))
 
     def createPureShape(
@@ -52,7 +51,9 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
             self.primitiveshape_cone,
         )
         if not 0 <= primitive_type < len(kinds):
-            raise ValueError(f"{primitive_type} is not a type of createPureShape: 0 to 3, cuboid, sphere, cylinder, cone")
+            raise ValueError(
+                f"{primitive_type} is not a type of createPureShape: 0 to 3, cuboid, sphere, cylinder, cone"
+            )
         if not mass > 0:
             raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
         flags = {"static": bool(options & _STATIC), "respondable": bool(options & _RESPONDABLE)}

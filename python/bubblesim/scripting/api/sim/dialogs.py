@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim.scene_state.panels import Panel, Widget
-from bubblesim.scripting.api.kinds import Integers
+from bubblesim.scripting.api.kinds import StringOrNothing
 from bubblesim.scripting.api.sim.context import ApiContext
 
 _MOST_LINES = 10_000
@@ -14,8 +14,8 @@ _NO_PLACE: list[int] = []
 
 
 class DialogFunctions(ApiContext):
-    """The window shows dialogs and consoles in its panel Dialogs. Nothing waits for a user: a modal dialog is open, too,
-    when the function returns. They end with their script."""
+    """The window shows dialogs and consoles in its panel Dialogs. Nothing waits for a user: a modal dialog is open,
+    too, when the function returns. They end with their script."""
 
     def displayDialog(
         self,
@@ -23,7 +23,7 @@ class DialogFunctions(ApiContext):
         text: str,
         style: int,
         modal: bool = False,
-        initial: str | None = None,
+        initial: StringOrNothing = None,
         title_colours: object = None,
         colours: object = None,
     ) -> int:
@@ -66,7 +66,9 @@ class DialogFunctions(ApiContext):
         with_yes = (self.msgbox_buttons_yesno, self.msgbox_buttons_yesnocancel)
         return self.msgbox_return_yes if buttons in with_yes else self.msgbox_return_ok
 
-    def fileDialog(self, mode: int, title: str, path: str, name: str, extension_name: str, extension: str) -> str | None:
+    def fileDialog(
+        self, mode: int, title: str, path: str, name: str, extension_name: str, extension: str
+    ) -> str | None:
         """Return None (nil), as if a user had cancelled."""
         return None
 
@@ -84,7 +86,7 @@ class DialogFunctions(ApiContext):
         values = {"value": "", "lines": min(max(1, lines), _MOST_LINES), "enabled": True}
         return self._open_panel("console", title, [Widget(1, "textbrowser", values)]).handle
 
-    def auxiliaryConsolePrint(self, console: int, text: str | None = None) -> int:
+    def auxiliaryConsolePrint(self, console: int, text: StringOrNothing = None) -> int:
         """Add a string to a console, or with None (nil) clear it; return 1."""
         panels = self._caller.shared.panels
         values = panels.panel(console, "console").widget(1).values

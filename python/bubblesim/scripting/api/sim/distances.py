@@ -12,7 +12,7 @@ from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 _NO_LIMIT = 1e9  # m
 
 
-class DistanceFunctions(CollectionFunctions, ObjectChangeFunctions):
+class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
     """Entities are shapes, models (with all their links), collections and sim.handle_all, which is all but the other
     entity. They are the shapes that collide, as physics sees them; shapes without the special property collidable or
     measurable are left out."""
@@ -29,9 +29,7 @@ class DistanceFunctions(CollectionFunctions, ObjectChangeFunctions):
         found = self._nearest(first, second, 0.0, self.objectspecialproperty_collidable)
         return (0, []) if found is None else (1, [*found[1], *found[2]])
 
-    def checkDistance(
-        self, first: int, second: int, threshold: float = 0.0
-    ) -> tuple[int, list[float], list[int]]:
+    def checkDistance(self, first: int, second: int, threshold: float = 0.0) -> tuple[int, list[float], list[int]]:
         """Return 1 if two entities are nearer to each other than ``threshold`` (m; 0: any), else 0; the numbers x, y, z
         of the nearest point of the first one, of that of the second one, and their distance; and the two objects.
 
@@ -82,8 +80,9 @@ class DistanceFunctions(CollectionFunctions, ObjectChangeFunctions):
         return [b - a for a, b in zip(low, high, strict=True)]
 
     def getShapeGeomInfo(self, shape: Handle) -> tuple[int, int, list[float]]:
-        """Return flags (1 compound, 2 plain), the kind, sim.primitiveshape_cuboid for example, and x, y, z and the inner
-        size of a shape that was created; of others 0, sim.primitiveshape_none and the sizes of the box around it."""
+        """Return flags (1 compound, 2 plain), the kind, sim.primitiveshape_cuboid for example, and x, y, z and the
+        inner size of a shape that was created; of others 0, sim.primitiveshape_none and the sizes of the box around
+        it."""
         handle = self._resolve(shape)
         made = self._edits.shapes.get(self._tree.model(handle))
         if made is not None:
@@ -91,8 +90,9 @@ class DistanceFunctions(CollectionFunctions, ObjectChangeFunctions):
         return 0, self.primitiveshape_none, [*self.getShapeBB(shape), 0.0]
 
     def getShapeMassAndInertia(self, shape: Handle, matrix: object = None) -> tuple[float, list[float], list[float]]:
-        """Return mass (kg), inertia (kg m^2, a 3x3 matrix about the centre of mass, in the shape's axes) and the centre of
-        mass in the shape's frame (old style). The inertia is that of a box of this size with even density."""
+        """Return mass (kg), inertia (kg m^2, a 3x3 matrix about the centre of mass, in the shape's axes) and the
+        centre of mass in the shape's frame (old style). The inertia is that of a box of this size with even
+        density."""
         handle = self._resolve(shape)
         mass = self.getShapeMass(shape)
         low, high = self._bounds(handle)
@@ -149,7 +149,13 @@ class DistanceFunctions(CollectionFunctions, ObjectChangeFunctions):
             objects = [self._resolve(entity)]
             self._tree.kind(objects[0])  # raises
         settings = self._caller.shared.settings
-        kept = [o for o in objects if settings.get((int, f"special property {o}"), property_bit) & property_bit]
+
+        def has_property(handle: int) -> bool:
+            """Return whether an object has it; parts of a model have not what the model has not."""
+            chain = (handle, self._tree.model(handle))
+            return all(settings.get((int, f"special property {e}"), property_bit) & property_bit for e in chain)
+
+        kept = [handle for handle in objects if has_property(handle)]
         return {link for each in kept for link in self._links(each)}
 
     def _nearest(

@@ -20,8 +20,8 @@ _NOTHING: list[float] = []
 
 
 class MotionFunctions(ObjectFunctions, JointFunctions):
-    """Motions within limits of velocity, acceleration and jerk, by Ruckig. Those named move... take their time: they are
-    for sysCall_thread, coroutines and remote clients. Callbacks are functions or names of functions."""
+    """Motions within limits of velocity, acceleration and jerk, by Ruckig. Those named move... take their time: they
+    are for sysCall_thread, coroutines and remote clients. Callbacks are functions or names of functions."""
 
     @waits
     def moveToConfig(
@@ -42,11 +42,10 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
     ) -> Waiting:
         """Move joints to a configuration; return the last positions, velocities, accelerations and the time left.
 
-        ``callback`` is called in each step with positions, velocities, accelerations and ``data``, and moves the joints;
-        if it returns true, the motion ends. The newer form has one table: ``joints`` (handles, moved without a callback)
-        or ``pos``, and ``maxVel``, ``maxAccel``, ``maxJerk``, ``targetPos``, ``vel``, ``accel``, ``targetVel``,
-        ``callback``, ``auxData``, ``flags``, ``timeStep``; then the result is a table, too.
-        """
+        ``callback`` is called in each step with positions, velocities, accelerations and ``data``, and moves the
+        joints; if it returns true, the motion ends. The newer form has one table: ``joints`` (handles, moved without a
+        callback) or ``pos``, and ``maxVel``, ``maxAccel``, ``maxJerk``, ``targetPos``, ``vel``, ``accel``,
+        ``targetVel``, ``callback``, ``auxData``, ``flags``, ``timeStep``; then the result is a table, too."""
         if isinstance(flags, Mapping):
             return (yield from self._move_by_table(flags))
         if position is None or max_velocity is None or max_acceleration is None or target is None:
@@ -79,11 +78,10 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         """Move a pose (7 numbers, or a matrix of 12) straight to another one; return the last pose and the time left.
 
         Limits are four numbers, for x, y, z and the angle; or one number with a ``metric``: factors of x, y, z and the
-        angle for a common length. ``callback`` is called in each step with pose, velocity, acceleration and ``data``; if
-        it returns true, the motion ends. The newer form has one table: ``object`` (a handle, moved without a callback) or
-        ``pose``, and ``targetPose``, ``maxVel``, ``maxAccel``, ``maxJerk``, ``metric``, ``relObject``, ``callback``,
-        ``auxData``, ``flags``, ``timeStep``; then the result is a table, too.
-        """
+        angle for a common length. ``callback`` is called in each step with pose, velocity, acceleration and ``data``;
+        if it returns true, the motion ends. The newer form has one table: ``object`` (a handle, moved without a
+        callback) or ``pose``, and ``targetPose``, ``maxVel``, ``maxAccel``, ``maxJerk``, ``metric``, ``relObject``,
+        ``callback``, ``auxData``, ``flags``, ``timeStep``; then the result is a table, too."""
         if isinstance(flags, Mapping):
             return (yield from self._move_pose_by_table(flags))
         if pose is None or max_velocity is None or max_acceleration is None or target is None:
@@ -91,7 +89,12 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         call = self._answering(callback)
         return (
             yield from self._move_pose(
-                max(0, int(flags or 0)), pose, target, (max_velocity, max_acceleration, max_jerk), metric, time_step,
+                max(0, int(flags or 0)),
+                pose,
+                target,
+                (max_velocity, max_acceleration, max_jerk),
+                metric,
+                time_step,
                 lambda *state: call(*state, data),
             )
         )
@@ -110,8 +113,7 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         target_velocity: NumbersOrNothing = None,
         direction: object = None,
     ) -> Waiting:
-        """Move joints to target positions (old style); return 0, positions, velocities, accelerations and the time left.
-        """
+        """Move joints to target positions (old style); return 0, positions, velocities, accelerations, time left."""
         if target is None:
             raise TypeError("sim.rmlMoveToJointPositions: target positions are needed")
         count = len(joints)
@@ -229,8 +231,11 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         """Prepare a motion to positions and return its handle: ``state`` has positions, velocities and accelerations,
         ``limits`` velocities, accelerations and jerks, ``target`` positions and velocities, each for all axes."""
         motion = Trajectory(
-            _parts(state, axes, 3), _parts(limits, axes, 3), _parts(target, axes, 2),
-            flags=max(0, flags), selection=_flags(selection),
+            _parts(state, axes, 3),
+            _parts(limits, axes, 3),
+            _parts(target, axes, 2),
+            flags=max(0, flags),
+            selection=_flags(selection),
         )
         return self._keep_motion(motion)
 
@@ -249,14 +254,18 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         velocities."""
         accelerations, jerks = _parts(limits, axes, 2)
         motion = Trajectory(
-            _parts(state, axes, 3), ([0.0] * axes, accelerations, jerks), ([0.0] * axes, target),
-            flags=max(0, flags), selection=_flags(selection), by_velocity=True,
+            _parts(state, axes, 3),
+            ([0.0] * axes, accelerations, jerks),
+            ([0.0] * axes, target),
+            flags=max(0, flags),
+            selection=_flags(selection),
+            by_velocity=True,
         )
         return self._keep_motion(motion)
 
     def ruckigStep(self, motion: int, cycle_time: float) -> tuple[int, list[float], float]:
-        """Advance a motion by a time in s; return 0 (1 at its end), positions, velocities and accelerations of all axes in
-        one list, and the duration of the motion."""
+        """Advance a motion by a time in s; return 0 (1 at its end), positions, velocities and accelerations of all axes
+        in one list, and the duration of the motion."""
         trajectory = self._motion(motion)
         done, positions, velocities, accelerations = trajectory.advance(cycle_time)
         return done, [*positions, *velocities, *accelerations], trajectory.duration
@@ -267,15 +276,29 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
         del self._motions[motion]
 
     def rmlPos(
-        self, axes: int, cycle_time: float, flags: int, state: Numbers, limits: Numbers, selection: Any,
-        target: Numbers, more: object = None,
+        self,
+        axes: int,
+        cycle_time: float,
+        flags: int,
+        state: Numbers,
+        limits: Numbers,
+        selection: Any,
+        target: Numbers,
+        more: object = None,
     ) -> int:
         """Prepare a motion to positions (old name of ruckigPos)."""
         return self.ruckigPos(axes, cycle_time, flags, state, limits, selection, target)
 
     def rmlVel(
-        self, axes: int, cycle_time: float, flags: int, state: Numbers, limits: Numbers, selection: Any,
-        target: Numbers, more: object = None,
+        self,
+        axes: int,
+        cycle_time: float,
+        flags: int,
+        state: Numbers,
+        limits: Numbers,
+        selection: Any,
+        target: Numbers,
+        more: object = None,
     ) -> int:
         """Prepare a motion to velocities (old name of ruckigVel)."""
         return self.ruckigVel(axes, cycle_time, flags, state, limits, selection, target)
@@ -431,7 +454,8 @@ class MotionFunctions(ObjectFunctions, JointFunctions):
     def _motion(self, handle: int) -> Trajectory:
         if handle not in self._motions:
             raise LookupError(f"no motion has the handle {handle}")
-        return self._motions[handle]
+        motion: Trajectory = self._motions[handle]
+        return motion
 
     def _keep_motion(self, motion: Trajectory) -> int:
         kept = self._motions

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.scripting.api.kinds import Handle, Integers, Vector12
+from bubblesim.scripting.api.kinds import Handle, StringOrNothing, Vector12
 from bubblesim.scripting.api.sim.logs import LogFunctions
 
 
@@ -13,7 +13,7 @@ class OldFunctions(LogFunctions):
     """For scripts of V-REP and of CoppeliaSim before 4.3. What main scripts call does nothing: the simulation handles
     sensors, joints and child scripts itself, in each step."""
 
-    def getNameSuffix(self, name: str | None = None) -> tuple[int, str]:
+    def getNameSuffix(self, name: StringOrNothing = None) -> tuple[int, str]:
         """Return the number after '#' of a name, -1 if it has none, and the name without it; without a name, the number
         of the script's object."""
         own = name
@@ -186,10 +186,6 @@ class OldFunctions(LogFunctions):
         """Do nothing (main scripts); return 0."""
         return 0
 
-    def handleGraph(self, handle: int = -2, seconds: float = 0.0) -> int:
-        """Do nothing: graphs are recorded in each step; return 1."""
-        return 1
-
     def resetMilling(self, handle: int = -2) -> int:
         """Do nothing (main scripts); return 1."""
         return 1
@@ -210,11 +206,7 @@ class OldFunctions(LogFunctions):
         """Do nothing (main scripts); return 1."""
         return 1
 
-    def resetGraph(self, handle: int = -2) -> int:
-        """Do nothing (main scripts); return 1."""
-        return 1
-
-    def adjustView(self, view: int, object_handle: int, options: int = 0, label: str | None = None) -> int:
+    def adjustView(self, view: int, object_handle: int, options: int = 0, label: StringOrNothing = None) -> int:
         """Accept a view of the original's window; the window here has its panel Cameras. Return 1."""
         return 1
 
@@ -228,6 +220,6 @@ class OldFunctions(LogFunctions):
         """Accept the handle of a view; return 1."""
         return 1
 
-    def cameraFitToView(self, view: int, handles: Integers | None = None, options: int = 0, scaling: float = 1.0) -> int:
+    def cameraFitToView(self, view: int, handles: Any = None, options: int = 0, scaling: float = 1.0) -> int:
         """Accept a view of the original's window; return 1."""
         return 1

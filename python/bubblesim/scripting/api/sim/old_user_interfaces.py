@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim.scene_state.panels import Panel, Widget
-from bubblesim.scripting.api.kinds import Integers
+from bubblesim.scripting.api.kinds import Integers, StringOrNothing
 from bubblesim.scripting.api.sim.dialogs import DialogFunctions
 
 _MOST_POSITION = 1000  # of a slider
@@ -38,7 +38,7 @@ class OldUserInterfaceFunctions(DialogFunctions):
         """Return the label of a button."""
         return str(self._button(ui, button).values["text"])
 
-    def setUIButtonLabel(self, ui: int, button: int, up: str | None = None, down: str | None = None) -> int:
+    def setUIButtonLabel(self, ui: int, button: int, up: StringOrNothing = None, down: StringOrNothing = None) -> int:
         """Set the label of a button; return 1."""
         if up is not None:
             self._button(ui, button).values["text"] = up
@@ -60,9 +60,7 @@ class OldUserInterfaceFunctions(DialogFunctions):
         self._caller.shared.panels.changed()
         return 1
 
-    def setUIButtonColor(
-        self, ui: int, button: int, up: Any = None, down: Any = None, label: Any = None
-    ) -> int:
+    def setUIButtonColor(self, ui: int, button: int, up: Any = None, down: Any = None, label: Any = None) -> int:
         """Set the colour of a button that is up, three numbers from 0 to 1; return 1."""
         if isinstance(up, list | tuple) and len(up) == 3:
             red, green, blue = (round(255 * min(max(float(part), 0.0), 1.0)) for part in up)
@@ -146,7 +144,12 @@ class OldUserInterfaceFunctions(DialogFunctions):
             if part.number == number:
                 return part
         widget = Widget(number, "button")
-        widget.values = {"text": str(number), "property": self.buttonproperty_enabled, "enabled": True, "checked": False}
+        widget.values = {
+            "text": str(number),
+            "property": self.buttonproperty_enabled,
+            "enabled": True,
+            "checked": False,
+        }
         widget.values |= {"minimum": 0, "maximum": _MOST_POSITION, "value": 0}
         widget.on_event = lambda event, value: self._operated(panel, widget, event, value)
         panel.root.parts.append(widget)

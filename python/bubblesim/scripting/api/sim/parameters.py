@@ -21,8 +21,8 @@ _ODE = 1
 
 class ParameterFunctions(ObjectParameterFunctions, RandomFunctions, LogFunctions):
     """Parameters by their number, sim.intparam_program_version for example. Those without effect here, such as
-    sim.boolparam_browser_visible and sim.intparam_idle_fps, keep what is set; they are 0, false or empty before. Numbers
-    that no constant has raise a ValueError."""
+    sim.boolparam_browser_visible and sim.intparam_idle_fps, keep what is set; they are 0, false or empty before.
+    Numbers that no constant has raise a ValueError."""
 
     def getInt32Param(self, parameter: int) -> int:
         """Return an integer parameter of the simulator."""
@@ -60,14 +60,14 @@ class ParameterFunctions(ObjectParameterFunctions, RandomFunctions, LogFunctions
         return bool(self._get_parameter("boolparam", bool, parameter, self._facts(), self._drawing_flags()))
 
     def setBoolParam(self, parameter: int, value: bool) -> None:
-        """Set a parameter of the simulator; sim.boolparam_realtime_simulation, and what is handled, stay as they are, with
-        a warning: real time depends on the node's option --speed."""
+        """Set a parameter of the simulator; sim.boolparam_realtime_simulation, and what is handled, stay as they are,
+        with a warning: real time depends on the node's option --speed."""
         facts = self._facts()
         if parameter in facts:
             if facts[parameter] != value:
                 self.addLog(
                     self.verbosity_scriptwarnings | self.verbosity_once,
-                    f"sim.{self._name('boolparam', parameter)} stays {facts[parameter]}: it cannot be changed by scripts",
+                    f"sim.{self._name('boolparam', parameter)} stays {facts[parameter]}: see the node's option --speed",
                 )
             return
         self._set_parameter("boolparam", bool, parameter, value)

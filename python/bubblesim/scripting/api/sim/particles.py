@@ -41,7 +41,8 @@ class ParticleFunctions(DrawingFunctions):
         emission: object = None,
     ) -> int:
         """Add particles of a diameter in m and return their handle: they end after ``lifetime`` s (0: never), and the
-        oldest when there are more than ``most``. ``kind``: sim.particle_spheres and sim.particle_ignoresgravity count."""
+        oldest when there are more than ``most``. ``kind``: sim.particle_spheres and sim.particle_ignoresgravity
+        count."""
         shown = list(colour)[:3] if isinstance(colour, list | tuple) and len(colour) >= 3 else _COLOUR
         most = min(max(1, most or _MOST), _MOST)
         drawing = self.addDrawingObject(self.drawing_spherepoints, size, 0.0, -1, most, shown)
@@ -51,8 +52,8 @@ class ParticleFunctions(DrawingFunctions):
         return drawing
 
     def addParticleObjectItem(self, particles: int, item: Any = None, time: float = 0.0) -> int:
-        """Add a particle: x, y, z of its place and of its velocity (m, m/s; in old scripts of a second point where it is
-        after a second); None (nil) removes all. Return 1."""
+        """Add a particle: x, y, z of its place and of its velocity (m, m/s; in old scripts of a second point where it
+        is after a second); None (nil) removes all. Return 1."""
         found = self._particles_at(particles)
         if item is None:
             found.moving.clear()
@@ -125,7 +126,8 @@ class ParticleFunctions(DrawingFunctions):
     def _particles_at(self, handle: int) -> _Particles:
         if handle not in self._particles:
             raise LookupError(f"no particles have the handle {handle}")
-        return self._particles[handle]
+        particles: _Particles = self._particles[handle]
+        return particles
 
     def _cloud(self, handle: int) -> list[list[float]]:
         if handle not in self._clouds:
@@ -141,7 +143,9 @@ class ParticleFunctions(DrawingFunctions):
                 if until <= now:
                     continue
                 after = [v + g * step if each.falls else v for v, g in zip(velocity, gravity, strict=True)]
-                moved.append(([x + (v + w) / 2 * step for x, v, w in zip(at, velocity, after, strict=True)], after, until))
+                moved.append(
+                    ([x + (v + w) / 2 * step for x, v, w in zip(at, velocity, after, strict=True)], after, until)
+                )
             if moved or each.moving:
                 self.addDrawingObjectItem(each.drawing, None)
                 for at, _, _ in moved:

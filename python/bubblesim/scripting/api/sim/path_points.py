@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import bisect
+import itertools
 import math
 from collections.abc import Callable, Sequence
 
@@ -27,7 +28,7 @@ def distance(a: Sequence[float], b: Sequence[float]) -> float:
 def lengths(configs: list[Config], between: Callable[[Config, Config], float] = distance) -> list[float]:
     """Return the length of the path up to each configuration."""
     found = [0.0]
-    for a, b in zip(configs, configs[1:], strict=False):
+    for a, b in itertools.pairwise(configs):
         found.append(found[-1] + between(a, b))
     return found
 
@@ -80,7 +81,8 @@ def rounded(
         reach_before, reach_after = before * strength / 2, after * strength / 2
         if not -reach_before <= offset <= reach_after or reach_before + reach_after <= 0:
             continue
-        start = linear(configs, along, (along[index] - reach_before) % total if index == 0 else along[index] - reach_before, types)
+        begin = along[index] - reach_before
+        start = linear(configs, along, begin % total if index == 0 else begin, types)
         end = linear(configs, along, along[index] + reach_after, types)
         share = (offset + reach_before) / (reach_before + reach_after)
         first, second = mixed(start, configs[index], share, types), mixed(configs[index], end, share, types)

@@ -21,8 +21,8 @@ _UP = [0.0, 0.0, 1.0]
 
 
 class PathFunctions(ObjectFunctions):
-    """A path is a dummy with its points in the custom data 'PATH' (7 numbers each, packed doubles, in its frame); or a list
-    of configurations, one after the other, with the lengths up to each of them."""
+    """A path is a dummy with its points in the custom data 'PATH' (7 numbers each, packed doubles, in its frame); or a
+    list of configurations, one after the other, with the lengths up to each of them."""
 
     def createPath(
         self,
@@ -107,14 +107,12 @@ class PathFunctions(ObjectFunctions):
         return 1
 
     def getClosestPositionOnPath(self, path: Handle, point: Vector3) -> float:
-        """Return the share, 0 to 1, of the length of a path at the place nearest to a point of the world (old style)."""
+        """Return the share, 0 to 1, of the length of a path at the place nearest to a point in the world (old)."""
         configs, along = self._path(path)
         local = poses.transform(poses.inverse(self._tree.pose(self._resolve(path))), point)
         return path_points.nearest(configs, along, local) / along[-1] if along[-1] else 0.0
 
-    def insertPathCtrlPoints(
-        self, path: Handle, options: int, start: int, count: int, points: Numbers
-    ) -> int:
+    def insertPathCtrlPoints(self, path: Handle, options: int, start: int, count: int, points: Numbers) -> int:
         """Insert points into a path, each x, y, z, Euler angles and more numbers (old style); return 1."""
         handle = self._resolve(path)
         size = len(points) // max(1, count)

@@ -23,8 +23,8 @@ class ScriptParameterFunctions(ApiContext):
         """
         if script in (self.handle_all, self.handle_tree, self.handle_chain):
             found = [handle for handle in self._scripts_meant(script) if self._parameter(handle, name) is not None]
-            return [self._read(handle, name, force_string) for handle in found], found
-        return self._read(self._script(script), name, force_string)
+            return [self._parameter_value(handle, name, force_string) for handle in found], found
+        return self._parameter_value(self._script(script), name, force_string)
 
     def setScriptSimulationParameter(self, script: Any, name: str, value: Any, user: object = None) -> int:
         """Set a parameter of a script; return the number of scripts that have it now. ``script``: see
@@ -40,7 +40,7 @@ class ScriptParameterFunctions(ApiContext):
 
     def getUserParameter(self, handle: Handle, name: str) -> Any:
         """Return a parameter of an object's script (old name)."""
-        return self._read(self._resolve(handle), name, False)
+        return self._parameter_value(self._resolve(handle), name, False)
 
     def setUserParameter(self, handle: Handle, name: str, value: Any) -> None:
         """Set a parameter of an object's script (old name)."""
@@ -72,7 +72,7 @@ class ScriptParameterFunctions(ApiContext):
             return known
         return next((value for of, _, value in self._world.script_parameters(handle) if of == name), None)
 
-    def _read(self, handle: int, name: str, force_string: bool) -> Any:
+    def _parameter_value(self, handle: int, name: str, force_string: bool) -> Any:
         text = self._parameter(handle, name)
         return text if text is None or force_string else _value_of(text)
 

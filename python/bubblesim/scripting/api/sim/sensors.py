@@ -34,7 +34,8 @@ class SensorFunctions(CollectionFunctions):
         return self._detected(read_proximity(self._simulation, sensor), sensor)
 
     def handleProximitySensor(self, sensor: Handle) -> Reading:
-        """Measure now. For sim.handle_all, and handle_all_except_explicit, nothing is measured: sensors that are due are."""
+        """Measure now; for sim.handle_all, and handle_all_except_explicit, nothing: sensors measure when they are
+        due."""
         if sensor in (self.handle_all, self.handle_all_except_explicit):
             return _NOTHING
         sensor = self._resolve(sensor)

@@ -62,7 +62,7 @@ class Trajectory:
         try:
             result = self._calculator.calculate(self._given, self._trajectory)
         except Exception as error:
-            raise ValueError(f"there is no such motion: {error}") from None
+            raise ValueError(f"there is no such motion: {' '.join(str(error).split())}") from None
         if result not in (self._ruckig.Result.Working, self._ruckig.Result.Finished):
             raise ValueError(f"there is no such motion: {result.name}: check that limits and targets fit each other")
 

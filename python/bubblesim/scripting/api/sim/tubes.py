@@ -12,8 +12,7 @@ class TubeFunctions(ApiContext):
     this order. An end closes with the script that opened it."""
 
     def tubeOpen(self, header: int, name: str, read_buffer: int = 1, reserved: object = None) -> int:
-        """Open an end of a tube and return its handle; ``read_buffer`` packets wait for being read, older ones are lost.
-        """
+        """Open an end of a tube and return its handle; ``read_buffer`` packets wait at most."""
         tubes = self._caller.shared.tubes
         handle = tubes.open((header, name), max(1, read_buffer))
         self._caller.at_end["tube", handle] = lambda: tubes.close(handle)

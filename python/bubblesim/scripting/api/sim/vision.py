@@ -105,8 +105,8 @@ class VisionFunctions(CollectionFunctions):
         return 0, _statistics(read_camera(self._simulation, self._resolve(sensor)))
 
     def handleVisionSensor(self, sensor: Handle) -> Packets:
-        """Measure now; return the same as readVisionSensor. For sim.handle_all, and handle_all_except_explicit, nothing is
-        measured: cameras that are due are."""
+        """Measure now; return the same as readVisionSensor; for sim.handle_all, and handle_all_except_explicit,
+        nothing: cameras measure when they are due."""
         if sensor in (self.handle_all, self.handle_all_except_explicit):
             return 0, []
         return 0, _statistics(measure_camera(self._simulation, self._resolve(sensor)))

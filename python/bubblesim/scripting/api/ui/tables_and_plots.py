@@ -115,9 +115,7 @@ class TableAndPlotFunctions(UiContext):
         """Add points to a curve over time: times in s, and values."""
         self._add_points(ui, widget, name, times, values)
 
-    def addCurveXYPoints(
-        self, ui: int, widget: int, name: str, sequence: Numbers, xs: Numbers, ys: Numbers
-    ) -> None:
+    def addCurveXYPoints(self, ui: int, widget: int, name: str, sequence: Numbers, xs: Numbers, ys: Numbers) -> None:
         """Add points to a curve in a plane: numbers that order them, x and y."""
         self._add_points(ui, widget, name, xs, ys)
 
@@ -126,9 +124,7 @@ class TableAndPlotFunctions(UiContext):
         curve = self._curve(ui, widget, name)
         return [float(number) for number in range(len(curve["x"]))], list(curve["x"]), list(curve["y"])
 
-    def setPlotRanges(
-        self, ui: int, widget: int, x_least: float, x_most: float, y_least: float, y_most: float
-    ) -> None:
+    def setPlotRanges(self, ui: int, widget: int, x_least: float, x_most: float, y_least: float, y_most: float) -> None:
         """Set the ranges that a plot shows."""
         self._range(ui, widget, "x", x_least, x_most)
         self._range(ui, widget, "y", y_least, y_most)
@@ -166,9 +162,7 @@ class TableAndPlotFunctions(UiContext):
         """Show the names of the curves, or hide them."""
         self._set(self._widget(ui, widget, "plot"), "legend", visible)
 
-    def setMouseOptions(
-        self, ui: int, widget: int, pan_x: bool, pan_y: bool, zoom_x: bool, zoom_y: bool
-    ) -> None:
+    def setMouseOptions(self, ui: int, widget: int, pan_x: bool, pan_y: bool, zoom_x: bool, zoom_y: bool) -> None:
         """Accept what the mouse does in a plot; it has no effect."""
         self._widget(ui, widget, "plot")
 

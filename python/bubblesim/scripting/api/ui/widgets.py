@@ -32,7 +32,8 @@ class WidgetFunctions(UiContext):
     def setSpinboxValue(self, ui: int, widget: int, value: float, suppress: bool = True) -> None:
         """Set the value of a spin box; it is kept within its limits."""
         box = self._widget(ui, widget, "spinbox")
-        self._set(box, "value", _limited(box, value), quietly=suppress)
+        limited = _limited(box, value)
+        self._set(box, "value", limited if value % 1 else int(limited), quietly=suppress)
 
     def getEditValue(self, ui: int, widget: int) -> str:
         """Return the string in an edit field."""
@@ -191,9 +192,7 @@ class WidgetFunctions(UiContext):
             raise ValueError(f"the widget {widget} has no item {index}")
         self._set(box, "value", index, quietly=suppress)
 
-    def setComboboxItems(
-        self, ui: int, widget: int, items: list[str], index: int = 0, suppress: bool = True
-    ) -> None:
+    def setComboboxItems(self, ui: int, widget: int, items: list[str], index: int = 0, suppress: bool = True) -> None:
         """Set the items of a combo box, and the selected one."""
         box = self._widget(ui, widget, "combobox")
         box.values["items"] = [str(item) for item in items]
@@ -227,4 +226,4 @@ def switch_others_off(root: Widget, button: Widget) -> None:
 
 
 def _limited(widget: Widget, value: float) -> float:
-    return min(max(value, widget.values["minimum"]), widget.values["maximum"])
+    return float(min(max(value, widget.values["minimum"]), widget.values["maximum"]))

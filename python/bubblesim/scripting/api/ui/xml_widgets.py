@@ -50,7 +50,6 @@ _ALIASES = {"spin": "spinbox", "slider": "hslider", "combo": "combobox", "radio"
 _UNESCAPED = re.compile(r"&(?!#?\w+;)")
 
 
-
 class UiXmlError(ValueError):
     """The XML string is not a user interface."""
 
