@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from bubblesim.scripting.api import kinds
 from bubblesim.scripting.api.checked_calls import ArgumentError, checked_on_failure, value_first
 from bubblesim.scripting.api.functions import MODULES, functions, script_module
-from bubblesim.scripting.api.reference import page
 from bubblesim.scripting.api.ik.ik_module import SimIk
+from bubblesim.scripting.api.reference import page
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
 from bubblesim.scripting.api.ui.ui_module import SimUi

@@ -141,7 +141,7 @@ sim.setShapeMass(robot, 2 * mass)
 assert sim.getShapeMass(wheel) == 2 * part
 sim.setShapeMass(robot, mass)
 assert 'the mass' in refused(sim.setShapeMass, wheel, 0)
-assert 'the intparam parameter 999 is not supported' in refused(sim.getInt32Param, 999)
+assert 'there is no intparam 999' in refused(sim.getInt32Param, 999)
 motor = sim.getObject('/FrontMotor')
 assert sim.getObjectInt32Param(motor, sim.jointintparam_dynctrlmode) == sim.jointdynctrl_velocity
 assert sim.getObjectInt32Param(motor, sim.jointintparam_motor_enabled) == 1

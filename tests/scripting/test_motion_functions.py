@@ -86,7 +86,8 @@ def test_move_to_pose_goes_straight(tmp_path: Path) -> None:
             start = [0, 0, 0, 0, 0, 0, 1]
             target = [1, 2, 0, 0, 0, math.sin(0.5), math.cos(0.5)]
             poses = []
-            metric = sim.moveToPose(-1, start, [1], [10], [100], target, lambda p, *_: poses.append(p), None, [1, 1, 1, 0.1])
+            metric = sim.moveToPose(-1, start, [1], [10], [100], target, lambda p, *_: poses.append(p), None,
+                                    [1, 1, 1, 0.1])
             free = sim.moveToPose(-1, start, [1, 1, 1, 1], [10] * 4, [100] * 4, target, None)
             print(json.dumps([poses, metric, free]))
     """

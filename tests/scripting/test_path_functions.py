@@ -29,7 +29,8 @@ def test_a_straight_path_has_its_points_as_custom_data(tmp_path: Path) -> None:
             data = sim.unpackDoubleTable(sim.readCustomDataBlock(path, 'PATH'))
             control = sim.unpackDoubleTable(sim.readCustomDataBlock(path, 'PATHCTRLPTS'))
             lengths, total = sim.getPathLengths([x for i in range(31) for x in data[7 * i:7 * i + 3]], 3)
-            print(json.dumps([data, control, lengths, total, sim.getPathLength(path), sim.getPositionOnPath(path, 1.0)]))
+            end = sim.getPositionOnPath(path, 1.0)
+            print(json.dumps([data, control, lengths, total, sim.getPathLength(path), end]))
     """
     data, control, lengths, total, length, last = results(tmp_path, code)
     assert len(data) == 7 * 31

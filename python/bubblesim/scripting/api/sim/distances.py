@@ -67,7 +67,7 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
         return 0, 0.0
 
     def getCollectionHandle(self, name: str) -> int:
-        """Return the handle of a collection of the scene's file, an empty one that is made at the first call: those of
+        """Return the handle of a collection of the scene's file, empty at the first call: those of
         files are not read (old name of createCollection)."""
         made = self._caller.shared.collections.by_name
         if name not in made or made[name] not in self._caller.shared.collections.by_handle:

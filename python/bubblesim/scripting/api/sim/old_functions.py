@@ -57,7 +57,7 @@ class OldFunctions(LogFunctions):
         return -1
 
     def getScriptHandle(self, name: Any = None, target: Any = None) -> int:
-        """Return the handle of the script of an object, by its name; without one that of the calling script (old name
+        """Return the handle of the script of an object, by its name; without a name that of the caller (old name
         of getScript)."""
         wanted = target if target is not None and not isinstance(name, str) else name
         if wanted is None or isinstance(wanted, int):

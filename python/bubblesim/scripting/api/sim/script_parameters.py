@@ -66,11 +66,12 @@ class ScriptParameterFunctions(ApiContext):
         return [each for root in self._tree.children(self.handle_world) for each in self._tree.with_all_below(root)]
 
     def _parameter(self, handle: int, name: str) -> str | None:
-        """Return the string of a parameter: the one that was set last, or that of the file."""
+        """Return the string of a parameter: as it was set last, or that of the file."""
         known: str | None = self._caller.shared.script_parameters.get((handle, name))
         if known is not None:
             return known
-        return next((value for of, _, value in self._world.script_parameters(handle) if of == name), None)
+        of_file = getattr(self._world, "script_parameters", lambda handle: [])(handle)
+        return next((value for of, _, value in of_file if of == name), None)
 
     def _parameter_value(self, handle: int, name: str, force_string: bool) -> Any:
         text = self._parameter(handle, name)

@@ -93,15 +93,15 @@ class WidgetFunctions(UiContext):
         self._set(self._widget(ui, widget, "label"), "text", text)
 
     def getText(self, ui: int, widget: int) -> str:
-        """Return the string of a text browser."""
+        """Return the string of the text browser."""
         return str(self._widget(ui, widget, "textbrowser").values["value"])
 
     def setText(self, ui: int, widget: int, text: str, suppress: object = None) -> None:
-        """Set the string of a text browser."""
+        """Set the string of the text browser."""
         self._set(self._widget(ui, widget, "textbrowser"), "value", text)
 
     def appendText(self, ui: int, widget: int, text: str) -> None:
-        """Add a line to a text browser."""
+        """Add a line to the text browser."""
         browser = self._widget(ui, widget, "textbrowser")
         self._set(browser, "value", f"{browser.values['value']}\n{text}".strip("\n"))
 
@@ -154,7 +154,7 @@ class WidgetFunctions(UiContext):
         self._set(self._widget(ui, widget), "style", style)
 
     def setUrl(self, ui: int, widget: int, url: str) -> None:
-        """Accept the address of a text browser; it has no effect."""
+        """Accept the address of the text browser; it has no effect."""
         self._widget(ui, widget)
 
     def getCurrentEditWidget(self, ui: int) -> int:
