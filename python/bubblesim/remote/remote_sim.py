@@ -13,9 +13,11 @@ from bubblesim._core import RunState, Scene, cbor_decode
 from bubblesim.remote.later_replies import Conversation, Pending
 from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
+from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.api.ui.ui_module import SimUi
 from bubblesim.scripting.api.waiting_functions import Waiting
 
 _TOLERANCE = 1e-6  # of a step
@@ -29,6 +31,18 @@ class RemoteSim(SimApi):
 
     _caller: RemoteClient
     _most_unpacked = 1_000_000
+
+    def __init__(self, runner: Any, caller: RemoteClient) -> None:
+        """Bind the functions to one client."""
+        super().__init__(runner, caller)
+        self._other_modules: dict[str, Any] = {}
+
+    def other_module(self, name: str) -> Any:
+        """Return the client's simUI or simIK."""
+        made = self._other_modules
+        if name not in made:
+            made[name] = SimUi(self._caller) if name == "simUI" else SimIk(self._runner, self._caller)
+        return made[name]
 
     def setStepping(self, enable: bool) -> int:
         """Enable or disable stepping mode, in which a step waits for ``step`` of this client; calls nest."""
