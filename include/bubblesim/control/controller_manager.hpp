@@ -32,6 +32,7 @@ class ControllerManager final : public Device {
   explicit ControllerManager(RobotHardware robot) : robot_(std::move(robot)) {}
 
   const RobotHardware& robot() const { return robot_; }
+  RobotHardware& robot() { return robot_; }
   /// Runs it from the next update on, after those that were started before. Throws InvalidInput when it runs, and when
   /// a running controller has one of its joints.
   void start(std::shared_ptr<Controller> controller);

@@ -48,6 +48,8 @@ class RobotHardware {
   void read(const World& world);
   /// `period`: s since the last call.
   void write(World& world, double period);
+  /// Changes what is commanded of a joint, and releases it.
+  void set_interface(World& world, std::size_t joint, CommandInterface interface);
   /// Holds the positions of the state, and sets velocities and efforts to zero.
   void release(ControlledJoint& joint);
   /// Sets the modes of the motors, and releases all joints; after a reset of the world.

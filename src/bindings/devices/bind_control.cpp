@@ -60,7 +60,7 @@ Manager make_manager(World& world, ObjectId model, const std::vector<JointTuple>
 
 /// A class of controllers, which a manager makes with `make`.
 template <class Kind, class... Arguments>
-py::class_<Loaded<Kind>> bind_kind(py::module_& module, const char* name, const char* text) {
+py::class_<Loaded<Kind>> bind_controller(py::module_& module, const char* name, const char* text) {
   py::class_<Loaded<Kind>> kind(module, name, text);
   kind.def(py::init([](const Manager& manager, Arguments... arguments) {
              return Loaded<Kind>{manager.world, std::make_shared<Kind>(std::move(arguments)...)};
@@ -120,12 +120,12 @@ void bind_base(py::class_<Loaded<Kind>>& kind) {
 }
 
 void bind_joint_controllers(py::module_& module) {
-  auto forward = bind_kind<ForwardCommand, std::vector<std::size_t>>(module, "ForwardCommand",
+  auto forward = bind_controller<ForwardCommand, std::vector<std::size_t>>(module, "ForwardCommand",
                                                                      "Passes commands on to the joints.");
   Guarded(forward).def("set_commands", [](const Loaded<ForwardCommand>& loaded, Numbers commands) {
     loaded.controller->set_commands(std::move(commands));
   });
-  auto pid = bind_kind<PidController, std::size_t, PidController::Kind, PidGains>(
+  auto pid = bind_controller<PidController, std::size_t, PidController::Kind, PidGains>(
       module, "PidController", "Commands a joint by the error of its position or velocity.");
   Guarded(pid)
       .def("set_command", [](const Loaded<PidController>& loaded,
@@ -150,7 +150,7 @@ void bind_base_controllers(py::module_& module) {
                                                 right_radius};
            }),
            py::arg("left"), py::arg("right"), py::arg("separation"), py::arg("left_radius"), py::arg("right_radius"));
-  auto diff = bind_kind<DiffDriveController, DiffDriveController::Wheels, BaseController::Settings>(
+  auto diff = bind_controller<DiffDriveController, DiffDriveController::Wheels, BaseController::Settings>(
       module, "DiffDriveController", "Drives wheels on two sides.");
   bind_base(diff);
   py::class_<AckermannSteeringController::Wheels>(module, "AckermannWheels", "A driven and a steered joint.")
@@ -158,7 +158,7 @@ void bind_base_controllers(py::module_& module) {
              return AckermannSteeringController::Wheels{rear, steer, wheel_base, radius};
            }),
            py::arg("rear"), py::arg("steer"), py::arg("wheel_base"), py::arg("radius"));
-  auto ackermann = bind_kind<AckermannSteeringController, AckermannSteeringController::Wheels, BaseController::Settings>(
+  auto ackermann = bind_controller<AckermannSteeringController, AckermannSteeringController::Wheels, BaseController::Settings>(
       module, "AckermannSteeringController", "Drives one joint and steers another.");
   bind_base(ackermann);
 }
@@ -198,7 +198,7 @@ void bind_trajectory_controller(py::module_& module) {
                                                    std::move(wraps), stop_duration};
            }),
            py::arg("joints"), py::arg("gains"), py::arg("velocity_feed"), py::arg("wraps"), py::arg("stop_duration"));
-  auto kind = bind_kind<TrajectoryController, TrajectoryController::Settings>(module, "TrajectoryController",
+  auto kind = bind_controller<TrajectoryController, TrajectoryController::Settings>(module, "TrajectoryController",
                                                                               "Joints follow splines.");
   Guarded(kind)
       .def(
@@ -263,6 +263,7 @@ void bind_control(py::module_& core) {
           "joint_states",
           [](const Manager& m) {
             std::array<Numbers, 3> columns;
+            m.device->robot().read(m.world);
             for (const ControlledJoint& joint : m.device->robot().joints()) {
               columns[0].push_back(joint.position);
               columns[1].push_back(joint.velocity);
@@ -270,7 +271,9 @@ void bind_control(py::module_& core) {
             }
             return columns;
           },
-          "Return positions, velocities and efforts at the start of the last substep.")
+          "Return positions, velocities and efforts.")
+      .def("set_interface", [](const Manager& m, std::size_t joint,
+                               CommandInterface interface) { m.device->robot().set_interface(m.world, joint, interface); })
       .def("is_continuous",
            [](const Manager& m, std::size_t joint) { return m.device->robot().joints().at(joint).is_continuous; })
       .def("remove", &Manager::remove, "Remove it from the world.");

@@ -76,6 +76,14 @@ void RobotHardware::write(World& world, double period) {
   }
 }
 
+void RobotHardware::set_interface(World& world, std::size_t index, CommandInterface interface) {
+  ControlledJoint& joint = joints_.at(index);
+  joint.interface = interface;
+  if (joint.pid) joint.pid->reset();
+  world.joints().set_motor_mode(joint.id, mode_of(joint));
+  release(joint);
+}
+
 void RobotHardware::release(ControlledJoint& joint) {
   joint.command = joint.interface == CommandInterface::kPosition ? joint.position : 0;
 }
@@ -94,7 +102,7 @@ void RobotHardware::reset(World& world) {
 void RobotHardware::transfer(StateArchive& archive) {
   archive.require(joints_.size(), "number of joints of a robot");
   for (ControlledJoint& joint : joints_) {
-    archive(joint.position, joint.velocity, joint.effort, joint.command);
+    archive(joint.interface, joint.position, joint.velocity, joint.effort, joint.command);
     if (joint.pid) archive(*joint.pid);
   }
 }
