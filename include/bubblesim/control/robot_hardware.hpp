@@ -11,6 +11,8 @@
 
 namespace bubblesim::control {
 
+constexpr double kTurn = 2 * 3.14159265358979323846;  ///< rad
+
 /// What a controller commands of a joint.
 enum class CommandInterface { kPosition, kVelocity, kEffort };
 

@@ -149,7 +149,9 @@ def controller_manager(arguments: Sequence[str]) -> int:
 def _carry_out(manager: ControllerManager, command: str, controllers: Sequence[str]) -> bool:
     if command == "list":
         for state in manager.controllers():
-            claimed = "; ".join(f"{each.hardware_interface}: {', '.join(each.resources)}" for each in state.claimed_resources)
+            claimed = "; ".join(
+                f"{each.hardware_interface}: {', '.join(each.resources)}" for each in state.claimed_resources
+            )
             print(f"'{state.name}' - '{state.type}' ( {state.state} ) {claimed}".rstrip())
         return True
     if command == "list-types":

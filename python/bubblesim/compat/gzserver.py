@@ -32,7 +32,7 @@ def main(arguments: Sequence[str], *, window: bool) -> int:
     except (FileNotFoundError, RunError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    os.execv(command[0], command)  # noqa: S606  (no shell is wanted)
+    os.execv(command[0], command)
 
 
 def node_command(arguments: Sequence[str], options: Sequence[str], *, window: bool) -> list[str]:
@@ -88,7 +88,9 @@ def _is_world(word: str) -> bool:
 
 
 class _Ignored(argparse.Action):
-    def __call__(self, parser: object, namespace: argparse.Namespace, values: object, option: str | None = None) -> None:
+    def __call__(
+        self, parser: object, namespace: argparse.Namespace, values: object, option: str | None = None
+    ) -> None:
         namespace.ignored = [*namespace.ignored, option]
 
 
@@ -102,7 +104,13 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-e", "--physics", help="accepted; the physics is ODE")
     parser.add_argument("--verbose", action="store_true", help="accepted; all messages are written anyway")
     parser.add_argument("--minimal_comms", action="store_true", help="accepted")
-    for names in (["-s", "--server-plugin"], ["-g", "--gui-plugin"], ["-o", "--profile"], ["--iters"], ["-p", "--play"]):
+    for names in (
+        ["-s", "--server-plugin"],
+        ["-g", "--gui-plugin"],
+        ["-o", "--profile"],
+        ["--iters"],
+        ["-p", "--play"],
+    ):
         parser.add_argument(*names, action=_Ignored, help="ignored with a warning")
     for names in (["-r", "--record"], ["--lockstep-physics"]):
         parser.add_argument(*names, action=_Ignored, nargs=0, help="ignored with a warning")

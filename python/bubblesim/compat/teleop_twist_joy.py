@@ -63,7 +63,9 @@ _DEFAULT_AXES = {"linear": 1.0, "angular": 0.0}
 
 def _values(parameter: str, first: str, default: float) -> dict[str, float]:
     given = rospy.get_param(parameter, default)
-    return {str(name): float(value) for name, value in given.items()} if isinstance(given, dict) else {first: float(given)}
+    return (
+        {str(name): float(value) for name, value in given.items()} if isinstance(given, dict) else {first: float(given)}
+    )
 
 
 def _held(buttons: Sequence[int], button: int) -> bool:

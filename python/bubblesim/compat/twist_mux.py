@@ -47,7 +47,9 @@ class Choice:
     def passes(self, source: Source, now: float) -> bool:
         """Return whether a command that comes from this source now is passed on."""
         source.time = now
-        others = [each.priority for each in self.commands if each is not source and each.time > 0 and each.is_current(now)]
+        others = [
+            each.priority for each in self.commands if each is not source and each.time > 0 and each.is_current(now)
+        ]
         return source.priority >= max(self.lock_priority(now), *others, 0) and source.priority > 0
 
 

@@ -125,6 +125,7 @@ NOT_NEEDED = frozenset(
     }
 )
 
+
 def library(filename: str) -> str:
     """Return the library of a file name without the parts that depend on system and version.
 

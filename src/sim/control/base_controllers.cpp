@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "check/checks.hpp"
 #include "scene/describe.hpp"
 
 namespace bubblesim::control {

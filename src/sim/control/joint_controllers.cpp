@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "check/checks.hpp"
 
 namespace bubblesim::control {
 namespace {

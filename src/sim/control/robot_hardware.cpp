@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "check/checks.hpp"
 
 namespace bubblesim::control {
 namespace {
-
-constexpr double kTurn = 2 * 3.14159265358979323846;
 
 MotorMode mode_of(const ControlledJoint& joint) {
   return joint.interface == CommandInterface::kEffort || joint.pid ? MotorMode::kEffort : MotorMode::kVelocity;

@@ -11,8 +11,6 @@
 namespace bubblesim::control {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
-
 bool within_limit(double error, double limit) { return !(limit > 0) || std::abs(error) <= limit; }
 
 bool within_tolerance(const JointState& error, const JointTolerance& tolerance) {

@@ -106,11 +106,13 @@ class Controller:
             joint = self.robot.joints.get(name)
             if joint is None:
                 hint = did_you_mean(nearest_names(name, sorted(self.robot.joints)))
-                raise ControllerError(f"{self.parameters.name}: the robot has no joint '{name}' with a <transmission>{hint}")
+                raise ControllerError(
+                    f"{self.parameters.name}: the robot has no joint '{name}' with a <transmission>{hint}"
+                )
             if kind not in joint.kinds:
                 has = ", ".join(map(interface_name, joint.kinds)) or "none"
                 raise ControllerError(
-                    f"{self.parameters.name}: the joint '{name}' has no {interface_name(kind)}; its <transmission> gives {has}"
+                    f"{self.parameters.name}: '{name}' has no {interface_name(kind)}; its <transmission> has {has}"
                 )
             indices.append(joint.index)
             self.claimed.setdefault(kind, []).append(name)

@@ -70,7 +70,10 @@ class ControllerManager:
         return answer
 
     def _list_types(self, _: Message) -> Message:
-        return {"types": sorted(CONTROLLERS), "base_classes": ["controller_interface::ControllerBase"] * len(CONTROLLERS)}
+        return {
+            "types": sorted(CONTROLLERS),
+            "base_classes": ["controller_interface::ControllerBase"] * len(CONTROLLERS),
+        }
 
     def _list(self, _: Message) -> Message:
         return {
@@ -155,5 +158,7 @@ class ControllerManager:
 
     def _named(self, name: str) -> Controller:
         if name not in self._controllers:
-            raise ControllerError(f"there is no controller '{name}'; loaded are {', '.join(self._controllers) or 'none'}")
+            raise ControllerError(
+                f"there is no controller '{name}'; loaded are {', '.join(self._controllers) or 'none'}"
+            )
         return self._controllers[name]

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from bubblesim._core.control import ForwardCommand, PidController, PidKind
 from bubblesim.gazebo_plugins.control.controller import Controller, Robot, read_gains
 from bubblesim.gazebo_plugins.control.ros_parameters import ControllerParameters
@@ -81,7 +84,7 @@ class GripperAction(Controller):
             goal, self._goal = self._goal, None
             self._actions.finish(goal, how, self._result(stalled=stalled))
 
-    def _on_goal(self, goal_id: str, goal: Message) -> int:
+    def _on_goal(self, goal_id: str, goal: Mapping[str, Any]) -> int:
         if self.state != "running":
             self.warn("a goal is rejected: the controller does not run")
             return REJECT
@@ -96,7 +99,7 @@ class GripperAction(Controller):
         self._moved = float(self.robot.plugin.simulation.state_time)
         return ACCEPT
 
-    def _on_cancel(self, goal_id: str, _: Message) -> int:
+    def _on_cancel(self, goal_id: str, _: Mapping[str, Any]) -> int:
         if goal_id == self._goal:
             self._command(self._state()[0])
             self._finish("be canceled", stalled=False)

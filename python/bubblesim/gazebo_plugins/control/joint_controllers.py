@@ -21,7 +21,8 @@ class JointStateController(Controller):
         self._names = sorted(robot.joints)
         extra = parameters.dictionaries("extra_joints")
         self._extra = [
-            (each.text("name"), *(each.number(key, 0.0) for key in ("position", "velocity", "effort"))) for each in extra
+            (each.text("name"), *(each.number(key, 0.0) for key in ("position", "velocity", "effort")))
+            for each in extra
         ]
         self._publisher = self.advertise(f"{robot.namespace.rstrip('/')}/joint_states", "sensor_msgs/JointState")
 
@@ -72,7 +73,9 @@ class ForwardGroupController(Controller):
         """Read the parameter joints."""
         super().__init__(robot, name, parameters)
         self.core = ForwardCommand(robot.manager, self.claim(self.kind, parameters.names("joints")))
-        self.subscribe("command", "std_msgs/Float64MultiArray", lambda message: self.core.set_commands(list(message["data"])))
+        self.subscribe(
+            "command", "std_msgs/Float64MultiArray", lambda message: self.core.set_commands(list(message["data"]))
+        )
 
 
 class PidJointController(Controller):
@@ -125,7 +128,8 @@ class PidGroupController(Controller):
         indices = self.claim(self.kind, joints)
         gains = [read_gains(parameters.below(joint, "pid")) for joint in joints]
         self._controllers = [
-            PidController(robot.manager, index, PidKind.POSITION, each) for index, each in zip(indices, gains, strict=True)
+            PidController(robot.manager, index, PidKind.POSITION, each)
+            for index, each in zip(indices, gains, strict=True)
         ]
         self.subscribe("command", "std_msgs/Float64MultiArray", self._on_command)
 
@@ -150,4 +154,6 @@ class PidGroupController(Controller):
 
 def of_kind(base: type[Controller], kind: str, controls: str = "position") -> type[Controller]:
     """Return the class of controllers that command by an interface, "position", "velocity" or "effort"."""
-    return type(f"{kind.capitalize()}{base.__name__}", (base,), {"kind": kind, "controls": controls, "__doc__": base.__doc__})
+    return type(
+        f"{kind.capitalize()}{base.__name__}", (base,), {"kind": kind, "controls": controls, "__doc__": base.__doc__}
+    )

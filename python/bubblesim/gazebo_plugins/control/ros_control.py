@@ -39,7 +39,9 @@ class RosControl(Plugin):
         joints = self._joints()
         gains = self._gains(namespace)
         entries = [
-            (name, joint.handle, INTERFACES[joint.kinds[0]], gains.get(name)) for name, joint in joints.items() if joint.kinds
+            (name, joint.handle, INTERFACES[joint.kinds[0]], gains.get(name))
+            for name, joint in joints.items()
+            if joint.kinds
         ]
         manager = control.ControllerManager(self.world, context.model, entries)
         context.endpoints.append(manager.remove)
@@ -86,6 +88,6 @@ class RosControl(Plugin):
         gains: dict[str, control.PidGains] = {}
         for place in dict.fromkeys((f"{namespace.rstrip('/')}/{_GAINS}", f"/{_GAINS}")):
             parameters = ControllerParameters(place, read_parameter(place))
-            for name in parameters.keys():
+            for name in parameters.names_given():
                 gains.setdefault(name, read_gains(parameters.below(name)))
         return gains

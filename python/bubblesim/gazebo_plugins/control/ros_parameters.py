@@ -56,7 +56,7 @@ class ControllerParameters:
         """Return whether a parameter is given."""
         return key in self._values
 
-    def keys(self) -> list[str]:
+    def names_given(self) -> list[str]:
         """Return the names of the parameters."""
         return list(self._values)
 
@@ -106,7 +106,11 @@ class ControllerParameters:
     def numbers(self, key: str, count: int, default: list[float]) -> list[float]:
         """Return a list of ``count`` numbers."""
         value = self._values.get(key, default)
-        if not isinstance(value, list) or len(value) != count or not all(isinstance(each, int | float) for each in value):
+        if (
+            not isinstance(value, list)
+            or len(value) != count
+            or not all(isinstance(each, int | float) for each in value)
+        ):
             raise self.fail(key, f"{count} numbers")
         return [float(each) for each in value]
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bubblesim import _core
@@ -21,7 +21,7 @@ _POINTS = ("positions", "velocities", "accelerations")
 _Tolerance = tuple[float, float, float]
 
 
-class _Refused(ValueError):
+class _RefusedError(ValueError):
     def __init__(self, code: int, text: str) -> None:
         super().__init__(text)
         self.code = code
@@ -41,7 +41,11 @@ class JointTrajectory(Controller):
         has_gains = p.has("gains")
         if self.kind == "effort" and not has_gains:
             raise ControllerError(f"parameter {p.name}/gains is missing: the gains p, i and d of each joint")
-        gains = [read_gains(p.below("gains", joint)) for joint in self._joints] if has_gains and self.kind != "position" else []
+        gains = (
+            [read_gains(p.below("gains", joint)) for joint in self._joints]
+            if has_gains and self.kind != "position"
+            else []
+        )
         feed = [p.below("velocity_ff").number(joint, 0.0) for joint in self._joints]
         wraps = [bool(robot.manager.is_continuous(index)) for index in indices]
         settings = TrajectorySettings(indices, gains, feed, wraps, p.number("stop_trajectory_duration", 0.0))
@@ -127,7 +131,7 @@ class JointTrajectory(Controller):
             return
         self._follow(message, None, _float)
 
-    def _on_goal(self, goal_id: str, goal: Message) -> int:
+    def _on_goal(self, goal_id: str, goal: Mapping[str, Any]) -> int:
         if self.state != "running":
             self.warn("a goal is rejected: the controller does not run")
             return REJECT
@@ -141,13 +145,13 @@ class JointTrajectory(Controller):
         self._goal = goal_id
         return ACCEPT
 
-    def _on_cancel(self, goal_id: str, _: Message) -> int:
+    def _on_cancel(self, goal_id: str, _: Mapping[str, Any]) -> int:
         if goal_id == self._goal:
             self.core.hold(self._now())
             self._end_goal("be canceled", _SUCCESSFUL, "")
         return REJECT  # which leaves the state as it is
 
-    def _tolerances(self, goal: Message) -> tuple[list[_Tolerance], list[_Tolerance], float]:
+    def _tolerances(self, goal: Mapping[str, Any]) -> tuple[list[_Tolerance], list[_Tolerance], float]:
         path, end = list(self._path), list(self._end)
         for tolerances, given in ((path, goal["path_tolerance"]), (end, goal["goal_tolerance"])):
             for each in given:
@@ -163,12 +167,15 @@ class JointTrajectory(Controller):
         names = list(trajectory["joint_names"])
         unknown = [name for name in names if name not in self._joints]
         if unknown or len(set(names)) != len(names) or (len(names) < len(self._joints) and not self._partial):
-            raise _Refused(_INVALID_JOINTS, f"its joints are {', '.join(names)}, not {', '.join(self._joints)}")
+            raise _RefusedError(_INVALID_JOINTS, f"its joints are {', '.join(names)}, not {', '.join(self._joints)}")
         if not trajectory["points"]:
-            raise _Refused(_INVALID_GOAL, "it has no points")
+            raise _RefusedError(_INVALID_GOAL, "it has no points")
         now = self._now()
         start = seconds(trajectory["header"]["stamp"]) or now
-        knots = [_knots(trajectory["points"], names.index(name), start, seconds) if name in names else [] for name in self._joints]
+        knots = [
+            _knots(trajectory["points"], names.index(name), start, seconds) if name in names else []
+            for name in self._joints
+        ]
         end = knots[self._joints.index(names[0])][-1][0]
         for index, of_joint in enumerate(knots):
             if not of_joint:  # it stays where it is
@@ -196,7 +203,7 @@ def _knots(points: Sequence[Message], index: int, start: float, seconds: Any) ->
     for number, point in enumerate(points):
         position, velocity, acceleration = (_value(point[key], index) for key in _POINTS)
         if position is None:
-            raise _Refused(_INVALID_GOAL, f"point {number} has no position of each joint")
+            raise _RefusedError(_INVALID_GOAL, f"point {number} has no position of each joint")
         knots.append((start + seconds(point["time_from_start"]), position, velocity, acceleration))
     return knots
 
