@@ -131,8 +131,8 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
   scripts_ = std::make_unique<ChildScripts>(python, how);
   simulation_->add(*scripts_);
   if (with_ros) {
-    services_ = std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat,
-                                               node.bridges.front()->node_name());
+    services_ =
+        std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat, node.bridges.front()->node_name());
     simulation_->add(*services_);
   }
   if (observers_) simulation_->add(*observers_);

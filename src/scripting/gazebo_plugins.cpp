@@ -5,8 +5,7 @@
 
 namespace bubblesim {
 
-GazeboPlugins::GazeboPlugins(PythonEngine& engine, bool follows_rates)
-    : PythonSystem(engine, "Gazebo plugins") {
+GazeboPlugins::GazeboPlugins(PythonEngine& engine, bool follows_rates) : PythonSystem(engine, "Gazebo plugins") {
   with_python([&] {
     const auto& [interpreter, runner, bridge] = engine.objects();
     const pybind11::module_ plugins = pybind11::module_::import("bubblesim.gazebo_plugins.robots");

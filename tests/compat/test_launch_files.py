@@ -102,7 +102,7 @@ def test_an_unknown_joint_is_refused_with_those_that_are_there(robot: tuple[RosC
 
 def test_the_node_gazebo_has_no_service_twice(robot: tuple[RosCore, ServiceCaller, Path]) -> None:
     core, call, log = robot
-    assert call("/gazebo/reset_simulation") == {}
+    assert call("/gazebo/reset_simulation") is None  # std_srvs/Empty
     assert core.state()["services"]["/gazebo/reset_simulation"] == ["/gazebo"]
     assert "already advertised" not in log.read_text()
 

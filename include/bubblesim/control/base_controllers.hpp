@@ -16,8 +16,8 @@ namespace bubblesim::control {
 class BaseController : public Controller {
  public:
   struct Settings {
-    double timeout = 0.5;  ///< s without a command after which the robot stops; 0: none
-    bool open_loop = false;  ///< odometry from the commands instead of the wheels
+    double timeout = 0.5;     ///< s without a command after which the robot stops; 0: none
+    bool open_loop = false;   ///< odometry from the commands instead of the wheels
     std::size_t window = 10;  ///< of the odometry's velocities
     SpeedLimits linear;       ///< m/s
     SpeedLimits angular;      ///< rad/s; of the steering angle, rad, for steered robots
@@ -56,8 +56,8 @@ class BaseController : public Controller {
   Command command_;
   Command last_;
   Command second_last_;
-  bool is_new_ = false;   // the command came after the last update
-  double received_ = 0;   // s
+  bool is_new_ = false;  // the command came after the last update
+  double received_ = 0;  // s
 };
 
 /// diff_drive_controller/DiffDriveController.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs controllers before each physics substep: reads the joints, updates the controllers, gives commands to the motors.
+// Runs controllers before each physics substep: reads the joints, updates the controllers, gives commands to the
+// motors.
 #pragma once
 
 #include <memory>

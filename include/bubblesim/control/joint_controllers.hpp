@@ -9,8 +9,8 @@
 
 namespace bubblesim::control {
 
-/// position_controllers, velocity_controllers and effort_controllers: the joint and group controllers that pass commands
-/// on to the interfaces of their joints.
+/// position_controllers, velocity_controllers and effort_controllers: the joint and group controllers that pass
+/// commands on to the interfaces of their joints.
 class ForwardCommand final : public Controller {
  public:
   /// `joints`: indices into RobotHardware::joints().

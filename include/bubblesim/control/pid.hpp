@@ -10,7 +10,7 @@ struct PidGains {
   double p = 0;
   double i = 0;
   double d = 0;
-  double i_max = 0;         ///< limits of the integral's part of the command
+  double i_max = 0;  ///< limits of the integral's part of the command
   double i_min = 0;
   bool antiwindup = false;  ///< the integral itself is limited, not only its part of the command
 };

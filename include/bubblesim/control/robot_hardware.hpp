@@ -20,8 +20,8 @@ struct ControlledJoint {
   std::string name;
   ObjectId id = kNoObject;
   CommandInterface interface = CommandInterface::kEffort;
-  /// Turns the error of a position or velocity into an effort, as gazebo_ros_control does with gains; without it a motor
-  /// follows the command.
+  /// Turns the error of a position or velocity into an effort, as gazebo_ros_control does with gains; without it a
+  /// motor follows the command.
   std::optional<Pid> pid{};
   // Read at the start: whether it turns without limits, and what the file limits.
   bool is_continuous = false;

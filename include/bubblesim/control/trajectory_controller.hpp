@@ -29,19 +29,19 @@ enum class GoalStatus : std::uint8_t { kNone, kActive, kReached, kPathViolated, 
 class TrajectoryController final : public Controller {
  public:
   struct Settings {
-    std::vector<std::size_t> joints;      ///< indices into RobotHardware::joints()
-    std::vector<PidGains> gains;          ///< of each joint; empty: the positions or velocities are commanded
-    std::vector<double> velocity_feed;    ///< factor of the desired velocity in the command, of each joint
-    std::vector<bool> wraps;              ///< whether the joint turns without limits: full turns of points do not matter
-    double stop_duration = 0;             ///< s
+    std::vector<std::size_t> joints;    ///< indices into RobotHardware::joints()
+    std::vector<PidGains> gains;        ///< of each joint; empty: the positions or velocities are commanded
+    std::vector<double> velocity_feed;  ///< factor of the desired velocity in the command, of each joint
+    std::vector<bool> wraps;            ///< whether the joint turns without limits: full turns of points do not matter
+    double stop_duration = 0;           ///< s
   };
   /// Points of each joint, in the order of the joints; each has one at least.
   using Knots = std::vector<std::vector<JointKnot>>;
 
   explicit TrajectoryController(Settings settings);
 
-  /// Follows new points from `start` on, s of simulation time; before it the present trajectory goes on. Points that are
-  /// over are dropped. `goal`: its end and its tolerances are watched; it replaces a goal that is active. Throws
+  /// Follows new points from `start` on, s of simulation time; before it the present trajectory goes on. Points that
+  /// are over are dropped. `goal`: its end and its tolerances are watched; it replaces a goal that is active. Throws
   /// InvalidInput when nothing is left, and for times that do not increase.
   void follow(const Knots& knots, double start, double now, const std::optional<GoalTolerances>& goal);
   /// Ends the goal and the trajectory: within Settings::stop_duration the joints come to rest.

@@ -121,15 +121,15 @@ void bind_base(py::class_<Loaded<Kind>>& kind) {
 
 void bind_joint_controllers(py::module_& module) {
   auto forward = bind_controller<ForwardCommand, std::vector<std::size_t>>(module, "ForwardCommand",
-                                                                     "Passes commands on to the joints.");
+                                                                           "Passes commands on to the joints.");
   Guarded(forward).def("set_commands", [](const Loaded<ForwardCommand>& loaded, Numbers commands) {
     loaded.controller->set_commands(std::move(commands));
   });
   auto pid = bind_controller<PidController, std::size_t, PidController::Kind, PidGains>(
       module, "PidController", "Commands a joint by the error of its position or velocity.");
   Guarded(pid)
-      .def("set_command", [](const Loaded<PidController>& loaded,
-                             double command) { loaded.controller->set_command(command); })
+      .def("set_command",
+           [](const Loaded<PidController>& loaded, double command) { loaded.controller->set_command(command); })
       .def(
           "state",
           [](const Loaded<PidController>& loaded) {
@@ -158,8 +158,9 @@ void bind_base_controllers(py::module_& module) {
              return AckermannSteeringController::Wheels{rear, steer, wheel_base, radius};
            }),
            py::arg("rear"), py::arg("steer"), py::arg("wheel_base"), py::arg("radius"));
-  auto ackermann = bind_controller<AckermannSteeringController, AckermannSteeringController::Wheels, BaseController::Settings>(
-      module, "AckermannSteeringController", "Drives one joint and steers another.");
+  auto ackermann =
+      bind_controller<AckermannSteeringController, AckermannSteeringController::Wheels, BaseController::Settings>(
+          module, "AckermannSteeringController", "Drives one joint and steers another.");
   bind_base(ackermann);
 }
 
@@ -191,7 +192,8 @@ void bind_trajectory_controller(py::module_& module) {
       .value("REACHED", GoalStatus::kReached)
       .value("PATH_VIOLATED", GoalStatus::kPathViolated)
       .value("GOAL_MISSED", GoalStatus::kGoalMissed);
-  py::class_<TrajectoryController::Settings>(module, "TrajectorySettings", "Joints and gains of a trajectory controller.")
+  py::class_<TrajectoryController::Settings>(module, "TrajectorySettings",
+                                             "Joints and gains of a trajectory controller.")
       .def(py::init([](std::vector<std::size_t> joints, std::vector<PidGains> gains, Numbers velocity_feed,
                        std::vector<bool> wraps, double stop_duration) {
              return TrajectoryController::Settings{std::move(joints), std::move(gains), std::move(velocity_feed),
@@ -199,7 +201,7 @@ void bind_trajectory_controller(py::module_& module) {
            }),
            py::arg("joints"), py::arg("gains"), py::arg("velocity_feed"), py::arg("wraps"), py::arg("stop_duration"));
   auto kind = bind_controller<TrajectoryController, TrajectoryController::Settings>(module, "TrajectoryController",
-                                                                              "Joints follow splines.");
+                                                                                    "Joints follow splines.");
   Guarded(kind)
       .def(
           "follow",
@@ -224,7 +226,8 @@ void bind_trajectory_controller(py::module_& module) {
 
 :param joints: for each joint points of time, position, velocity and acceleration, the last two may be None.
 :param goal: tolerances of each joint on the path and at the end, and s after the end; None for no goal.)")
-      .def("hold", [](const Trajectory& loaded, double now) { loaded.controller->hold(now); }, py::arg("now"))
+      .def(
+          "hold", [](const Trajectory& loaded, double now) { loaded.controller->hold(now); }, py::arg("now"))
       .def("goal_status", [](const Trajectory& loaded) { return loaded.controller->goal_status(); })
       .def("violating_joint", [](const Trajectory& loaded) { return loaded.controller->violating_joint(); })
       .def("desired", [](const Trajectory& loaded) { return to_columns(loaded.controller->desired()); })
@@ -272,8 +275,10 @@ void bind_control(py::module_& core) {
             return columns;
           },
           "Return positions, velocities and efforts.")
-      .def("set_interface", [](const Manager& m, std::size_t joint,
-                               CommandInterface interface) { m.device->robot().set_interface(m.world, joint, interface); })
+      .def("set_interface",
+           [](const Manager& m, std::size_t joint, CommandInterface interface) {
+             m.device->robot().set_interface(m.world, joint, interface);
+           })
       .def("is_continuous",
            [](const Manager& m, std::size_t joint) { return m.device->robot().joints().at(joint).is_continuous; })
       .def("remove", &Manager::remove, "Remove it from the world.");

@@ -66,7 +66,8 @@ void TrajectoryController::follow(const Knots& knots, double start, double now,
     }
     JointKnot last = knot_of(state_of(segments_[joint], splice), splice);
     if (segments.empty()) segments.emplace_back(last, last);
-    const double turns = settings_.wraps[joint] ? std::round((last.position - knots[joint].front().position) / kTurn) : 0;
+    const double turns =
+        settings_.wraps[joint] ? std::round((last.position - knots[joint].front().position) / kTurn) : 0;
     for (JointKnot knot : knots[joint]) {
       if (knot.time < now) continue;
       knot.position += turns * kTurn;

@@ -69,8 +69,8 @@ class BaseController(Controller):
         found = wheel_radius(self.robot.plugin, self.robot.joints[joint].handle)
         if found is None:
             raise ControllerError(
-                f"parameter {self.parameters.name}/wheel_radius is missing, and the wheel of '{joint}' collides neither "
-                "as a cylinder nor as a sphere"
+                f"parameter {self.parameters.name}/wheel_radius is missing, and the wheel of '{joint}' is neither "
+                "a cylinder nor a sphere"
             )
         return float(found)
 

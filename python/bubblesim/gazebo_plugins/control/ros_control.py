@@ -37,6 +37,8 @@ class RosControl(Plugin):
             raise p.fail("filename", "needs ROS 1, which has a parameter server")
         namespace = f"/{self.namespace}"
         joints = self._joints()
+        if not joints:
+            write_line(sys.stderr, f"warning: {p.title}: the model has no <transmission> of a joint")
         gains = self._gains(namespace)
         entries = [
             (name, joint.handle, INTERFACES[joint.kinds[0]], gains.get(name))
