@@ -27,16 +27,16 @@ _ENDLESS = 0.0
 class ControllerManager:
     """The services of the controller manager in a namespace."""
 
-    def __init__(self, namespace: str, patience: float) -> None:
-        """:param patience: s to wait for the services; 0 without a limit."""
+    def __init__(self, namespace: str, timeout: float) -> None:
+        """:param timeout: s to wait for the services; 0 without a limit."""
         prefix = f"{namespace.rstrip('/')}/" if namespace else ""
         self._prefix = f"{prefix}controller_manager/"
-        self._patience = patience
+        self._timeout = timeout
 
     def _call(self, name: str, kind: Any, *request: Any) -> Any:
         service = self._prefix + name
         try:
-            rospy.wait_for_service(service, self._patience or None)
+            rospy.wait_for_service(service, self._timeout or None)
         except rospy.ROSException:
             if rospy.is_shutdown():
                 raise

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from bubblesim.web.address_file import newest_address_file
 
-_PATIENCE = 30.0  # s
+_TIMEOUT = 30.0  # s
 _PERIOD = 0.2  # s
 
 
@@ -34,7 +34,7 @@ def main() -> int:
 
 
 def _wait_for_window() -> Path | None:
-    until = time.monotonic() + _PATIENCE
+    until = time.monotonic() + _TIMEOUT
     while time.monotonic() < until:
         if (file := newest_address_file()) is not None:
             return file

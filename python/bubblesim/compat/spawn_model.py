@@ -13,7 +13,7 @@ from typing import Any
 
 import rospy
 
-PATIENCE = 60.0  # s to wait for the simulator and for the parameter
+TIMEOUT = 60.0  # s to wait for the simulator and for the parameter
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -97,7 +97,7 @@ def _model_xml(options: argparse.Namespace) -> str:
         )
     if options.file:
         return Path(os.path.expandvars(options.file)).expanduser().read_text(encoding="utf-8")
-    until = rospy.get_rostime().to_sec() + PATIENCE
+    until = rospy.get_rostime().to_sec() + TIMEOUT
     while not rospy.has_param(options.param):
         if rospy.is_shutdown() or rospy.get_rostime().to_sec() > until:
             raise LookupError(f"there is no parameter {rospy.resolve_name(options.param)}")
@@ -149,7 +149,7 @@ def _call(options: argparse.Namespace, name: str, kind: str, **request: Any) -> 
     import roslib.message
 
     service = f"{options.gazebo_namespace.rstrip('/')}/{name}"
-    rospy.wait_for_service(service, PATIENCE)
+    rospy.wait_for_service(service, TIMEOUT)
     answer = rospy.ServiceProxy(service, roslib.message.get_service_class(kind))(**request)
     if not getattr(answer, "success", True):
         raise ValueError(answer.status_message)
