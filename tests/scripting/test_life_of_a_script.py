@@ -93,7 +93,9 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
             except ImportError as error:
                 print(error)
     """
-    assert lines(tmp_path, code) == ["module 'simOMPL' not found; require supports sim, simUI, simIK, simROS, simROS2"]
+    assert lines(tmp_path, code) == [
+        "module 'simOMPL' not found; require supports sim, simUI, simIK, simVision, simRemoteApi, simROS, simROS2"
+    ]
 
 
 def test_header_includes_files_from_the_script_folder_and_the_script_path(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 """The panel with dialogs and user interfaces of scripts, in a real browser."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -56,7 +55,9 @@ def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ToolsPage]:
 
 
 def dialog(title: str) -> str:
-    return f"[...document.querySelectorAll('.dialog')].find((each) => each.querySelector('b').textContent === '{title}')"
+    return (
+        f"[...document.querySelectorAll('.dialog')].find((each) => each.querySelector('b').textContent === '{title}')"
+    )
 
 
 def in_log(window: ToolsPage, line: str) -> bool:

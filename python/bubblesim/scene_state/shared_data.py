@@ -62,6 +62,8 @@ class SharedData:
     tubes: Tubes = field(default_factory=Tubes)
     selected: list[int] = field(default_factory=list)
     """Handles of the objects that scripts have selected."""
+    vision_results: dict[int, tuple[bool, list[Any]]] = field(default_factory=dict)
+    """By camera: whether its script's sysCall_vision has reported a trigger, and its packets of packed floats."""
     floating_views: int = 0
     """Number of views that scripts have opened."""
     script_parameters: StoredValues[tuple[int, str]] = field(default_factory=lambda: StoredValues("script parameters"))
@@ -83,3 +85,4 @@ class SharedData:
         self.collections.end_run()
         self.edits.end_run(world)
         self.cleared_scans.clear()
+        self.vision_results.clear()

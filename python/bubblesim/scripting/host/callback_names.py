@@ -15,6 +15,7 @@ HOOKS = (
     "sysCall_sensing",
     "sysCall_reset",
     "sysCall_cleanup",
+    "sysCall_vision",
     *PAUSE_HOOKS,
 )
 
@@ -30,7 +31,6 @@ _IN_PLACE_OF = {
     "sysCall_joint": "sysCall_actuation",
     "sysCall_jointCallback": "sysCall_actuation",
     "sysCall_trigger": "sysCall_sensing",
-    "sysCall_vision": "sysCall_sensing",
 }
 
 

@@ -29,6 +29,12 @@ from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
 
 
+def sensor_kind_of(simulation: Any, handle: int) -> str:
+    """Return the kind of a sensor; an empty string for another object."""
+    is_sensor = str(simulation.world.kind(handle)) == "sensor"
+    return str(_core.sensor_kind(simulation, handle)) if is_sensor else ""
+
+
 class ChildScript:
     """A script attached to an object. After an error, the script is reported once and disabled."""
 
@@ -56,7 +62,7 @@ class ChildScript:
         self._thread: AnyThread | None = None
         self._sockets = script_sockets.Sockets()
         self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
-        self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
+        self._hooks: dict[str, Callable[..., Any] | None] = dict.fromkeys(HOOKS)
         try:
             self._load()
         except BaseException:  # not the script's: nothing else would end it
@@ -147,8 +153,34 @@ class ChildScript:
             self._say(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
 
     def sense(self) -> None:
-        """Run sysCall_sensing."""
+        """Run sysCall_vision of a camera's script, and sysCall_sensing."""
+        if self._hooks["sysCall_vision"] is not None and self.alive and not interruption.requested:
+            self._process_image()
         self._call("sysCall_sensing")
+
+    def _process_image(self) -> None:
+        """Let the script process the image of its camera; keep what readVisionSensor returns."""
+        simulation, handle, process = self.host.simulation, self.object_handle, self._hooks["sysCall_vision"]
+        if process is None or sensor_kind_of(simulation, handle) != "camera":
+            return
+        image = _core.read_camera(simulation, handle)
+        columns, rows, angle = _core.camera_optics(simulation, handle)
+        about = {
+            "handle": handle,
+            "resolution": [columns, rows],
+            "clippingPlanes": [image.near, image.far],
+            "viewAngle": angle,
+            "orthoSize": 0.0,
+            "perspectiveOperation": True,
+        }
+        results: list[Any] = []
+        self.run("sysCall_vision", lambda: results.append(process(about)))
+        if results and isinstance(results[0], dict):
+            packets = results[0].get("packedPackets")
+            self.shared.vision_results[handle] = (
+                bool(results[0].get("trigger")),
+                list(packets) if isinstance(packets, list | tuple) else [],
+            )
 
     def call_hook(self, hook: str) -> None:
         """Run one of PAUSE_HOOKS or sysCall_reset."""

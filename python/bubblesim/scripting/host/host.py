@@ -21,8 +21,10 @@ from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
+from bubblesim.scripting.api.sim.remote_api_module import SimRemoteApi
 from bubblesim.scripting.api.sim.sim_module import SimApi
 from bubblesim.scripting.api.ui.ui_module import SimUi
+from bubblesim.scripting.api.vision.vision_module import SimVision
 from bubblesim.scripting.caller import Caller
 from bubblesim.scripting.host import interruption, process_calls
 from bubblesim.scripting.host.child_script import ChildScript
@@ -210,6 +212,8 @@ class ScriptHost:
             "sim": SimApi(self.runner, script),
             "simUI": SimUi(script),
             "simIK": SimIk(self.runner, script),
+            "simVision": SimVision(self.runner, script),
+            "simRemoteApi": SimRemoteApi(script),
         }
         if self.bridge is None:
             return {**modules, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}

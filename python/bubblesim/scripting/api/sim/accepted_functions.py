@@ -112,6 +112,49 @@ class AcceptedFunctions(LogFunctions):
         )
         return -1
 
+    def getIkGroupHandle(self, name: str) -> int:
+        """Accept the name of an IK group of old scenes, which are not read, with a warning: use simIK. Return 0."""
+        self._warn("getIkGroupHandle", f"the IK group '{name}' is not read from old scenes: use simIK")
+        return 0
+
+    def handleIkGroup(self, group: int = -2) -> int:
+        """Return sim.ikresult_not_performed: IK groups of old scenes are not read; use simIK."""
+        return self.ikresult_not_performed
+
+    def setIkGroupProperties(self, group: int, method: int, iterations: int, damping: float, more: Any = None) -> int:
+        """Accept the settings of an IK group of old scenes; return 1."""
+        return 1
+
+    def setIkElementProperties(
+        self, group: int, tip: int, constraints: int, precision: Any = None, weight: Any = None, more: Any = None
+    ) -> int:
+        """Accept the settings of an element of an IK group of old scenes; return 1."""
+        return 1
+
+    def computeJacobian(self, group: int, options: int = 0, more: Any = None) -> int:
+        """Return -1: IK groups of old scenes are not read; use simIK.computeJacobian."""
+        self._warn("computeJacobian", "IK groups are not read from old scenes: use simIK")
+        return -1
+
+    def getIkGroupMatrix(self, group: int, options: int = 0) -> tuple[list[float], list[int]]:
+        """Return an empty matrix: IK groups of old scenes are not read; use simIK.getJacobian."""
+        self._warn("getIkGroupMatrix", "IK groups are not read from old scenes: use simIK")
+        return [], [0, 0]
+
+    def addObjectCustomData(self, handle: Handle, header: int, data: Any, size: Any = None) -> int:
+        """Attach bytes or a string to an object by a number (old name of writeCustomDataBlock); return 1."""
+        owner = self._resolve(handle)
+        self._tree.kind(owner)  # raises
+        if not isinstance(data, str | bytes):
+            raise TypeError(f"the data of an object are a string or bytes, found {type(data).__name__}")
+        self._caller.shared.custom_data[owner, f"#{header}"] = data
+        return 1
+
+    def getObjectCustomData(self, handle: Handle, header: int) -> str | bytes | None:
+        """Return what was attached with addObjectCustomData; None (nil) if there is nothing."""
+        data: str | bytes | None = self._caller.shared.custom_data.get((self._resolve(handle), f"#{header}"))
+        return data
+
     def getMaterialId(self, name: str) -> int:
         """Return -1: materials are those of the file."""
         return -1

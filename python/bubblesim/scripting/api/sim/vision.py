@@ -100,9 +100,15 @@ class VisionFunctions(CollectionFunctions):
         """Return the image as an array of height x width x 3 without a copy, rows from top to bottom."""
         return self._picture(read_camera(self._simulation, self._resolve(sensor)), sensor)
 
-    def readVisionSensor(self, sensor: Handle) -> Packets:
-        """Return 0, and minimum, maximum and mean of the last image's intensity, red, green, blue and depth."""
-        return 0, _statistics(read_camera(self._simulation, self._resolve(sensor)))
+    def readVisionSensor(self, sensor: Handle) -> tuple[Any, ...]:
+        """Return 0, and minimum, maximum and mean of the last image's intensity, red, green, blue and depth.
+
+        A sysCall_vision of the camera's script may set the result to 1, and add lists of numbers.
+        """
+        handle = self._resolve(sensor)
+        triggered, packets = self._caller.shared.vision_results.get(handle, (False, []))
+        more = [np.frombuffer(_raw(packet), np.float32).tolist() for packet in packets]
+        return (int(triggered), _statistics(read_camera(self._simulation, handle)), *more)
 
     def handleVisionSensor(self, sensor: Handle) -> Packets:
         """Measure now; return the same as readVisionSensor; for sim.handle_all, and handle_all_except_explicit,
@@ -208,3 +214,8 @@ def _statistics(image: Any) -> list[float]:
     pixels = np.zeros((*depth.shape, 3)) if image.rgb is None else image.rgb / 255
     channels = np.dstack([pixels.mean(axis=2), pixels, depth]).reshape(-1, 5)
     return [float(value) for of in (np.min, np.max, np.mean) for value in of(channels, axis=0)]
+
+
+def _raw(packet: Any) -> bytes:
+    data = packet.encode("latin-1") if isinstance(packet, str) else bytes(packet)
+    return data[: len(data) // 4 * 4]
