@@ -218,7 +218,9 @@ def test_all_kinds_of_shapes_are_created(sim: Any, kind: int, sizes: list[float]
 
 
 def test_shapes_without_sense_are_refused(sim: Any) -> None:
-    assert "not a supported primitive shape" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cone, [1, 1, 1])
+    assert "not a supported primitive shape" in refusal(
+        sim.createPrimitiveShape, sim.primitiveshape_heightfield, [1, 1, 1]
+    )
     assert "three lengths" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cuboid, [1, 1, 0])
     assert "equal sizes along x and y" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cylinder, [1, 2, 1])
     box = sim.getObject("/box")

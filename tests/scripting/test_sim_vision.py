@@ -82,7 +82,8 @@ def test_the_script_of_a_camera_processes_its_image(tmp_path: Path) -> None:
         end
         function sysCall_cleanup()
             local result, standard, blobs, points = sim.readVisionSensor(sim.getObject('.'))
-            print(result, #standard, blobs[1], blobs[2], math.abs(blobs[5] - 0.5) < 0.05, math.abs(blobs[7] - 0.25) < 0.05)
+            print(result, #standard, blobs[1], blobs[2], math.abs(blobs[5] - 0.5) < 0.05,
+                math.abs(blobs[7] - 0.25) < 0.05)
             print(points[1], points[2], math.abs(points[3 + 4 * 4 + 2] - 2) < 0.01)
         end
     """

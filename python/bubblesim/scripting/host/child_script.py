@@ -17,7 +17,7 @@ from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
 from bubblesim.scripting.host import interruption, process_calls
-from bubblesim.scripting.host.callback_names import HOOKS, PAUSE_HOOKS, looks_like_callback, never_called
+from bubblesim.scripting.host.callback_names import HOOKS, IN_PLACE_OF, PAUSE_HOOKS, looks_like_callback, never_called
 from bubblesim.scripting.host.file_stamps import FileStamps
 from bubblesim.scripting.host.protocols import Host
 from bubblesim.scripting.host.started_programs import Program, end_programs
@@ -91,12 +91,17 @@ class ChildScript:
         self._hooks["sysCall_thread"] = self._hooks["sysCall_thread"] or self._code.function("sysCall_threadmain")
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         self._warn_of_unknown_callbacks()
-        if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
+        known = ("sysCall_init", "sysCall_thread", "sysCall_vision")
+        if not any(self._hooks[name] for name in known) and not self._has_events():
             why = "it defines neither sysCall_init nor sysCall_thread; a script needs one of these functions"
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: {why}",
                 self._problem("error", why),
             )
+
+    def _has_events(self) -> bool:
+        """Return whether the script has callbacks for events that are never reported here, such as sysCall_trigger."""
+        return any(name in IN_PLACE_OF for name in self._code.functions_by_name())
 
     def _read(self, file: Path) -> str:
         self._stamps.note(file)

@@ -65,15 +65,16 @@ class MatrixFunctions(ApiContext):
         return poses.inverse(pose)
 
     def multiplyVector(self, frame: Numbers, points: Numbers) -> Vector:
-        """Transform one or several points, 3 numbers each, by a matrix (12 or 16 numbers) or a pose (7 numbers)."""
+        """Transform one or several points, 3 numbers each, by a matrix (12 or 16 numbers) or a pose (7 numbers).
+        Numbers after the last point are ignored."""
         if len(frame) not in (7, 12, 16):
             raise ValueError(f"sim.multiplyVector: expected a pose or a matrix, found {len(frame)} numbers")
-        if len(points) % 3:
+        if len(points) < 3:
             raise ValueError(f"sim.multiplyVector: expected 3 numbers per point, found {len(points)}")
         rows = rotations.matrix_of_pose(frame) if len(frame) == 7 else frame
         return [
             sum(rows[4 * row + k] * points[start + k] for k in range(3)) + rows[4 * row + 3]
-            for start in range(0, len(points), 3)
+            for start in range(0, len(points) - 2, 3)
             for row in range(3)
         ]
 

@@ -155,6 +155,10 @@ class OldFunctions(LogFunctions):
         """Do nothing (main scripts); return 0."""
         return 0
 
+    def delegateChildScriptExecution(self) -> int:
+        """Do nothing (old scripts); return 0."""
+        return 0
+
     def resumeThreads(self, location: int = 0) -> int:
         """Do nothing (main scripts); return 0."""
         return 0
