@@ -306,8 +306,8 @@ end
 for _, name in next, host.waiting do
   local begin = sim[name]
   sim[name] = function(...)
+    local number = begin(...)  -- checks the arguments
     if running() ~= thread and not isyieldable() then yield_turn(name) end
-    local number = begin(...)
     return results_when_done(name, number, go_on(number))
   end
 end
