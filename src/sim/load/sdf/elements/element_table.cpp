@@ -192,11 +192,26 @@ const char* const kElementTable = R"TABLE(
   order integer 0
   model flag false
   script text
+  parameter text
+    @name text
+    @unit text
+  data text
+    @name text
 
 =object
   @name text
   kind text dummy
   link text
+  joint none
+    @type text revolute
+    position number 0
+    lower number -1e16
+    upper number 1e16
+    screw_thread_pitch number 0
+    mimic none
+      @joint text
+      multiplier number 1
+      offset number 0
   pose pose
     &pose
   bubblesim:alias text
@@ -299,6 +314,7 @@ const char* const kElementTable = R"TABLE(
   battery any ! batteries are not simulated
   particle_emitter any ! particles are not simulated
   bubblesim:alias text
+  bubblesim:carrier text
   bubblesim:place none
     &place
 
