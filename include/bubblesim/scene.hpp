@@ -205,6 +205,7 @@ struct TreePlace {
   int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
   bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
   std::filesystem::path child_script{};  ///< empty: none
+  std::string old_name{};                ///< unique in its file, such as `wheel#0`; empty: none
   std::vector<ScriptParameter> parameters{};
   std::map<std::string, std::string> data{};  ///< bytes that the file attaches to the object, by name
 };

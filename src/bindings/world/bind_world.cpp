@@ -75,6 +75,14 @@ const TreePlace* place_of(const World& world, ObjectId id) {
   }
 }
 
+ObjectId find_old_name(const World& world, const std::string& name) {
+  for (const ObjectId id : world.tree().objects()) {
+    const TreePlace* place = place_of(world, id);
+    if (place != nullptr && place->old_name == name) return id;
+  }
+  return kNoObject;
+}
+
 std::vector<std::tuple<std::string, std::string, std::string>> script_parameters(const World& world, ObjectId object) {
   std::vector<std::tuple<std::string, std::string, std::string>> found;
   if (const TreePlace* place = place_of(world, object)) {
@@ -306,6 +314,15 @@ void bind_world(py::module_& module) {
            "Set the force or torque on the child of an effort-controlled joint; its force limit applies.")
       .def("is_kinematic", of_joints(&WorldJoints::is_kinematic), py::arg("joint"),
            "Return whether a joint has no physics: it moves what is below it only when its position is set.")
+      .def(
+          "old_name",
+          [](const World& w, ObjectId id) {
+            const TreePlace* place = place_of(w, id);
+            return place == nullptr ? std::string() : place->old_name;
+          },
+          py::arg("object"), "Return the unique name of an object in an old scene, such as 'wheel#0'; '' if it has none.")
+      .def("find_old_name", &find_old_name, py::arg("name"),
+           "Return the object with a unique name of an old scene, -1 if there is none.")
       .def("script_parameters", &script_parameters, py::arg("object"),
            "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
       .def("file_data", &file_data, py::arg("object"),

@@ -126,17 +126,27 @@ struct Other {};
 
 using Details = std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp>;
 
+/// A parameter of a script, as text.
+struct Parameter {
+  std::string name;
+  std::string unit;
+  std::string value;
+};
+
 struct Object {
   std::string tag;  ///< SHP, JNT ...
   int handle = -1;
   int parent = -1;  ///< handle; -1: none
   std::string alias;
+  std::string old_name;  ///< unique, such as `wheel#0`; empty: not given
   Pose pose;  ///< relative to the parent's moving frame
   bool is_model = false;
   unsigned model_flags = 0;
   unsigned layers = 0;
   int order = -1;  ///< among siblings; -1: not given
   Details details;
+  std::vector<Parameter> parameters{};        ///< of its script
+  std::map<std::string, std::string> data{};  ///< custom data, by name
 
   template <class Kind>
   const Kind* as() const {
@@ -155,6 +165,22 @@ struct Script {
   bool is_disabled = false;
   bool is_default_main = false;
   std::string text;
+  std::vector<Parameter> parameters{};
+};
+
+/// What an element of a collection stands for. Others are not known.
+enum class ElementKind { kObject = 0, kTree = 1, kChain = 2, kAll = 5 };
+
+/// A collection that the file has saved: its elements add objects to it or remove them, one after the other.
+struct Collection {
+  struct Element {
+    ElementKind kind = ElementKind::kObject;
+    int object = -1;  ///< handle
+    bool adds = true;
+  };
+  int handle = -1;
+  std::string name;
+  std::vector<Element> elements;
 };
 
 struct Image {
@@ -182,6 +208,7 @@ struct SceneFile {
   std::vector<Object> objects;
   std::vector<Script> scripts;
   std::vector<Image> images;
+  std::vector<Collection> collections;
   Settings settings;
   std::map<std::string, int> left_out;  ///< what has no counterpart and is not an object, with its number
 };

@@ -6,7 +6,6 @@
 #include "load/ttt/xml_writer.hpp"
 
 namespace bubblesim::ttt {
-namespace {
 
 const char* type_of(const Joint& joint) {
   if (joint.type == JointType::kSpherical) return "ball";
@@ -14,6 +13,8 @@ const char* type_of(const Joint& joint) {
   if (joint.lead != 0) return "screw";
   return joint.is_cyclic ? "continuous" : "revolute";
 }
+
+namespace {
 
 const char* motor_of(const Joint& joint) {
   switch (joint.control) {
@@ -69,7 +70,7 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
   const Object& object = conversion.object(connection.object);
   const Node& node = conversion.node(connection.object);
   const Joint* joint = object.as<Joint>();
-  const std::string alias = plain_name(object.alias);
+  const std::string alias = path_name(object.alias);
   const auto known = site.names.find(object.handle);
   const std::string name = connection.kind != ConnectionKind::kWeld && known != site.names.end()
                                ? known->second

@@ -192,6 +192,7 @@ const char* const kElementTable = R"TABLE(
   order integer 0
   model flag false
   script text
+  old_name text
   parameter text
     @name text
     @unit text

@@ -87,6 +87,7 @@ std::optional<TreePlace> read_place(const SdfElement& element) {
   if (const std::string script = place.text("script"); !script.empty()) {
     read.child_script = std::filesystem::path(element.source().file).parent_path() / script;
   }
+  read.old_name = place.text("old_name");
   for (const SdfElement& parameter : place.children("parameter")) {
     read.parameters.push_back({parameter.name(), parameter.attribute("unit"), parameter.as_text()});
   }
