@@ -14,7 +14,7 @@ namespace bubblesim {
 
 /// Which objects the rows of frames are of. Constant until models are added or removed.
 struct FrameLayout {
-  std::uint64_t revision = 0;   ///< World::revision()
+  std::uint64_t revision = 0;  ///< World::revision()
   /// Of models that are not static, and those of others that were moved, in the order of the models.
   std::vector<ObjectId> links;
   /// An axis of a joint that has a position.

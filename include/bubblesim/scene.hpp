@@ -326,8 +326,8 @@ struct FrameDescription {
   Pose pose;         ///< in the frame of that link, or in the world
   Source source;
   std::optional<TreePlace> place{};
-  /// Of a joint: its name, type (revolute, continuous, prismatic, screw, ball), limits, and its leader, a joint anywhere
-  /// in the scene, as the mimic of its axis. It turns about the z axis of the frame, or slides along it.
+  /// Of a joint: its name, type (revolute, continuous, prismatic, screw, ball), limits, and its leader, a joint
+  /// anywhere in the scene, as the mimic of its axis. It turns about the z axis of the frame, or slides along it.
   std::optional<JointDescription> joint{};
   double joint_position = 0;  ///< of a joint, at the start: rad or m
 };

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bubblesim
-from cli.ttt_reader import FileObject, roots
+from ttt_reader import FileObject, roots
 from ros_support import REPOSITORY
 
 

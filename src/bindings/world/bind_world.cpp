@@ -320,11 +320,13 @@ void bind_world(py::module_& module) {
             const TreePlace* place = place_of(w, id);
             return place == nullptr ? std::string() : place->old_name;
           },
-          py::arg("object"), "Return the unique name of an object in an old scene, such as 'wheel#0'; '' if it has none.")
+          py::arg("object"),
+          "Return the unique name of an object in an old scene, such as 'wheel#0'; '' if it has none.")
       .def("find_old_name", &find_old_name, py::arg("name"),
            "Return the object with a unique name of an old scene, -1 if there is none.")
-      .def("script_parameters", &script_parameters, py::arg("object"),
-           "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
+      .def(
+          "script_parameters", &script_parameters, py::arg("object"),
+          "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
       .def("file_data", &file_data, py::arg("object"),
            "Return the bytes that the scene's file attaches to an object, by name.")
       .def("joint_type", [](const World& w, ObjectId joint) { return w.joints().description(joint).type; })

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "load/ttt/names.hpp"
+#include "load/ttt/write_joints.hpp"
 
 namespace bubblesim::ttt {
 namespace {
@@ -31,6 +32,9 @@ void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left
     const Joint* joint = file.objects[i].as<Joint>();
     if (joint == nullptr) continue;
     const std::string& alias = file.objects[i].alias;
+    if (simulated.count(static_cast<int>(i)) > 0 && is_left_over(*joint)) {
+      left_out.add("joint with a target velocity that is left over from a run: it starts at rest", alias);
+    }
     if (simulated.count(static_cast<int>(i)) > 0 && joint->control == JointControl::kCallback) {
       left_out.add("joint controlled by a callback: it moves freely", alias);
     }

@@ -37,7 +37,8 @@ std::string path_name(const std::string& name) {
   for (std::size_t i = 0; i < name.size() && kept.size() < kLongest;) {
     const std::size_t size = character_at(name, i);
     const auto sign = static_cast<unsigned char>(name[i]);
-    const bool is_special = sign < ' ' || sign == 0x7f || std::string_view("/[]{}*").find(name[i]) != std::string::npos ||
+    const bool is_special = sign < ' ' || sign == 0x7f ||
+                            std::string_view("/[]{}*").find(name[i]) != std::string::npos ||
                             (kept.empty() && (sign == '.' || sign == ':'));
     if (size == 0 || is_special) {
       kept += '_';

@@ -139,7 +139,7 @@ struct Object {
   int parent = -1;  ///< handle; -1: none
   std::string alias;
   std::string old_name;  ///< unique, such as `wheel#0`; empty: not given
-  Pose pose;  ///< relative to the parent's moving frame
+  Pose pose;             ///< relative to the parent's moving frame
   bool is_model = false;
   unsigned model_flags = 0;
   unsigned layers = 0;

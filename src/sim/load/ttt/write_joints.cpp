@@ -7,6 +7,15 @@
 
 namespace bubblesim::ttt {
 
+bool is_left_over(const Joint& joint) {
+  constexpr double kSlow = 1;    // rad/s
+  constexpr double kSoon = 0.5;  // s
+  const double speed = std::abs(joint.target_velocity);
+  if (joint.control != JointControl::kVelocity || joint.type != JointType::kRevolute || joint.is_cyclic) return false;
+  const double way = joint.target_velocity > 0 ? joint.upper - joint.position : joint.position - joint.lower;
+  return speed > kSlow && way < kSoon * speed;
+}
+
 const char* type_of(const Joint& joint) {
   if (joint.type == JointType::kSpherical) return "ball";
   if (joint.type == JointType::kPrismatic) return "prismatic";
@@ -60,7 +69,9 @@ void write_axis(pugi::xml_node element, const Joint& joint, double zero, const J
     return;
   }
   if (const char* motor = motor_of(joint)) put(axis, "bubblesim:motor", motor);
-  if (joint.control == JointControl::kVelocity) put(axis, "bubblesim:target", joint.target_velocity);
+  if (joint.control == JointControl::kVelocity) {
+    put(axis, "bubblesim:target", is_left_over(joint) ? 0 : joint.target_velocity);
+  }
   if (joint.control == JointControl::kPosition) put(axis, "bubblesim:target", joint.target_position - zero);
 }
 

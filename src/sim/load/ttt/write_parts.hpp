@@ -21,12 +21,12 @@ struct Conversion {
   const Structure& structure;
   MeshFiles meshes;
   LeftOut left_out;
-  UniqueNames names;                     ///< of all that has a name
-  std::map<int, std::string> scripts{};  ///< the files of the scripts, by object
+  UniqueNames names;                                   ///< of all that has a name
+  std::map<int, std::string> scripts{};                ///< the files of the scripts, by object
   std::map<int, std::vector<Parameter>> parameters{};  ///< of the scripts, by object
-  std::set<int> placed{};                ///< the objects that have a place in the tree
-  std::map<int, std::string> joints{};   ///< the names of the joints, by object
-  std::map<int, std::string> links{};    ///< the names of the links that are shapes, or have them, by object
+  std::set<int> placed{};                              ///< the objects that have a place in the tree
+  std::map<int, std::string> joints{};                 ///< the names of the joints, by object
+  std::map<int, std::string> links{};  ///< the names of the links that are shapes, or have them, by object
   std::vector<std::pair<int, pugi::xml_node>> entities{};  ///< what proximity sensors detect, and their elements
 
   const Object& object(int i) const { return file.objects[static_cast<std::size_t>(i)]; }

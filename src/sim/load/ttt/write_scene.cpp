@@ -229,6 +229,7 @@ void write_settings(pugi::xml_node world, const Settings& settings) {
   pugi::xml_node physics = named(world, "physics", "engine");
   physics.append_attribute("type").set_value("ode");
   put(physics, "max_step_size", substep_of(settings));
+  put(physics, "bubblesim:substeps", "auto");  // ropes of many links need shorter ones
   pugi::xml_node scene = world.append_child("scene");
   put(scene, "ambient", color_text(settings.ambient));
   put(scene, "background", color_text(settings.background));

@@ -146,9 +146,7 @@ void write_entities(Conversion& conversion) {
     if (!objects) continue;  // all
     // The sensor's own model is not detected anyway.
     const int own = conversion.node(sensor).body;
-    const auto model_of = [&](int body) {
-      return conversion.structure.bodies[static_cast<std::size_t>(body)].model;
-    };
+    const auto model_of = [&](int body) { return conversion.structure.bodies[static_cast<std::size_t>(body)].model; };
     std::set<std::string> detected;
     bool is_all = true;
     for (const auto& [object, link] : conversion.links) {

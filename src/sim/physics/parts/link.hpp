@@ -22,9 +22,9 @@ struct Sweep {
 /// Static links have no body and stay at `pose`, or move with another link.
 struct Link {
   ode::BodyHandle body;
-  double mass = 0;         // kg, at present; 0 without a body
-  Vector3 centre_of_mass;  // body's origin, in the link's frame
-  Pose pose;               // of static links, in the world
+  double mass = 0;               // kg, at present; 0 without a body
+  Vector3 centre_of_mass;        // body's origin, in the link's frame
+  Pose pose;                     // of static links, in the world
   ObjectId carrier = kNoObject;  // of a static link: with which it moves
   Pose in_carrier;
   ObjectId object = kNoObject;

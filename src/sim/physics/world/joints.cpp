@@ -68,7 +68,8 @@ std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& jo
 }  // namespace
 
 Pose WorldJoints::child_pose(ObjectId joint) const {
-  if (const PlacedFrame* frame = kinematic_joint(state(), joint)) return frame_pose(state(), *frame) * motion_of(*frame);
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint))
+    return frame_pose(state(), *frame) * motion_of(*frame);
   const PlacedJoint& placed = placed_joint(state(), joint);
   return link_pose(state().link(placed.child)) * placed.in_child;
 }
@@ -180,7 +181,8 @@ const JointDescription& WorldJoints::description(ObjectId joint) const {
 
 void WorldJoints::set_position(ObjectId joint, double position) {
   if (is_kinematic(joint)) {
-    if (description(joint).axes.empty()) throw WrongObject(state().shown(joint) + " is a ball joint: it has no position");
+    if (description(joint).axes.empty())
+      throw WrongObject(state().shown(joint) + " is a ball joint: it has no position");
     check_target(state(), joint, "position", position);
     set_kinematic_position(state(), joint, position);
     return;

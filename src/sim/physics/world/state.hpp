@@ -56,7 +56,7 @@ struct PlacedFrame {
   ObjectId link = kNoObject;  // that carries it; kNoObject: it stays in the world
   Pose pose;                  // in the frame of that link, or in the world
   FrameKind kind = FrameKind::kDummy;
-  bool is_added = false;  // by WorldFrames::add_dummy(): it is in no description
+  bool is_added = false;                    // by WorldFrames::add_dummy(): it is in no description
   const FrameDescription* joint = nullptr;  // of a joint without physics; otherwise null
   double position = 0;                      // of that joint, rad or m
   double velocity = 0;                      // with which it moves, rad/s or m/s
@@ -98,8 +98,8 @@ struct WorldState {
   std::deque<StateSample> history;    // of the last calls of advance()
   std::vector<ObjectId> lost_models;  // models that diverged
   bool diverged = false;
-  bool interrupted = false;    // ODE threw in the middle of a step
-  bool statics_stale = false;  // a static model was removed since gather_statics()
+  bool interrupted = false;          // ODE threw in the middle of a step
+  bool statics_stale = false;        // a static model was removed since gather_statics()
   std::set<ObjectId> moved_statics;  // links of static models that were ever moved
 
   const SceneTree& tree() const { return *shared_tree; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera: an image of a pinhole, or of parallel rays, with depth and visible objects. The centre of pixel (column, row) is at column + 0.5, row +
-// 0.5 from the upper left corner; the optical axis is at the centre of the image.
+// Camera: an image of a pinhole, or of parallel rays, with depth and visible objects. The centre of pixel (column, row)
+// is at column + 0.5, row + 0.5 from the upper left corner; the optical axis is at the centre of the image.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,8 +35,8 @@ class Camera final : public Sensor {
         id_(id),
         shading_(environment),
         is_parallel_(description.orthographic_width > 0),
-        focal_(description.width / (is_parallel_ ? description.orthographic_width
-                                                 : 2 * std::tan(description.horizontal_fov / 2))) {
+        focal_(description.width /
+               (is_parallel_ ? description.orthographic_width : 2 * std::tan(description.horizontal_fov / 2))) {
     const std::size_t padded = columns_per_packet(static_cast<std::size_t>(description.width));
     const auto fill = [&](double part, std::vector<double>& left) {
       for (std::size_t column = 0; column < padded; ++column) {
@@ -136,9 +136,8 @@ class Camera final : public Sensor {
     }
   }
 
-  /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length, or
-  /// in m for parallel rays.
-  /// Directions have length 1 along the camera's axis: distances are depths.
+  /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length,
+  /// or in m for parallel rays. Directions have length 1 along the camera's axis: distances are depths.
   void trace(const View& view, double down, const double* left, std::size_t count, rays::RayPacket& packet) const {
     // Surfaces nearer than the near plane are clipped, as by a graphics card.
     packet.start(view.eye, static_cast<float>(description_.near), static_cast<float>(description_.far), count);

@@ -18,7 +18,8 @@ constexpr const char* kAxisConvention = "bubblesim:axis_convention";
 bool is_alias(const std::string& text) {
   return !text.empty() && text.front() != '.' && text.front() != ':' &&
          std::all_of(text.begin(), text.end(), [](unsigned char sign) {
-           return sign >= ' ' && sign != 0x7f && std::string_view("/[]{}*").find(static_cast<char>(sign)) == std::string_view::npos;
+           return sign >= ' ' && sign != 0x7f &&
+                  std::string_view("/[]{}*").find(static_cast<char>(sign)) == std::string_view::npos;
          });
 }
 
@@ -27,8 +28,9 @@ bool is_alias(const std::string& text) {
 std::string read_alias(const SdfElement& element, const std::string& path, LoadContext& context) {
   const std::optional<std::string> given = own_text(element, kAlias);
   if (!given || is_alias(*given)) return given.value_or("");
-  context.report(element.source(kAlias), path,
-                 "<" + std::string(kAlias) + "> is '" + *given + "', it must not have / [ ] { } * or begin with . or :");
+  context.report(
+      element.source(kAlias), path,
+      "<" + std::string(kAlias) + "> is '" + *given + "', it must not have / [ ] { } * or begin with . or :");
   return "";
 }
 

@@ -14,9 +14,8 @@ namespace {
 
 constexpr const char* kPlace = "bubblesim:place";
 constexpr const char* kObject = "bubblesim:object";
-constexpr FrameKind kKinds[] = {FrameKind::kDummy, FrameKind::kShape, FrameKind::kCamera,
-                                FrameKind::kLight, FrameKind::kGraph,  FrameKind::kScript,
-                                FrameKind::kJoint};
+constexpr FrameKind kKinds[] = {FrameKind::kDummy, FrameKind::kShape,  FrameKind::kCamera, FrameKind::kLight,
+                                FrameKind::kGraph, FrameKind::kScript, FrameKind::kJoint};
 constexpr double kNoLimit = 1e15;  // SDFormat has +-1e16
 
 FrameKind read_kind(const SdfElement& object, const std::string& path, LoadContext& context) {
