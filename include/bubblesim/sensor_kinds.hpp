@@ -43,8 +43,8 @@ struct SonarDescription {
   double max_range = 1;   ///< m
   double half_angle = 0;  ///< rad, between the axis and the volume's side
   ProximityVolume volume = ProximityVolume::kCone;
-  double max_normal_angle = 0;       ///< rad, between a ray and the normal of a surface that it detects; 0: any
-  std::vector<std::string> detects;  ///< names of the links that it detects; empty: all
+  double max_normal_angle = 0;         ///< rad, between a ray and the normal of a surface that it detects; 0: any
+  std::vector<std::string> detects{};  ///< names of the links that it detects; empty: all
 
   static const MemberTable& members();
 };

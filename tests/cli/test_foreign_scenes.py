@@ -12,7 +12,8 @@ import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
 from ros_support import REPOSITORY
-from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, joint, obscured, script, text, thing, write
+from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, script, thing, write
+
 
 @pytest.fixture(autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:

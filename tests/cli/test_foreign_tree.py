@@ -9,7 +9,7 @@ import pytest
 
 import bubblesim
 from node_support import run_sim
-from ttt_files import BOX, FLOOR, IDENTITY, arm, cuboid, item, joint, script, text, thing, write
+from ttt_files import BOX, FLOOR, IDENTITY, arm, cuboid, item, script, text, thing, write
 
 
 @pytest.fixture(autouse=True)
@@ -229,7 +229,9 @@ def with_data(name: str, data: bytes, parameter: tuple[str, str, str]) -> bytes:
 
 def test_data_and_parameters_of_the_file_are_there(tmp_path: Path) -> None:
     data = bytes(range(256))
-    world = bubblesim.Simulation(str(write(tmp_path / "data.ttt", with_data("tag", data, ("speed", "m/s", "0.5"))))).world
+    world = bubblesim.Simulation(
+        str(write(tmp_path / "data.ttt", with_data("tag", data, ("speed", "m/s", "0.5"))))
+    ).world
     store = world.find("/Store")
     assert world.file_data(store) == {"tag": data}
     assert world.script_parameters(store) == [("speed", "m/s", "0.5")]

@@ -31,7 +31,16 @@ class PlaceCheck {
       if (is_whole && place.parent >= 0 && places_.count(place.parent) == 0) {
         checker_.report("its parent in the tree, " + std::to_string(place.parent) + ", is the place of no object");
       }
-      if (is_below_itself(id)) checker_.report("it is below itself in the tree");
+      switch (way_up(id)) {
+        case Way::kEnds:
+          break;
+        case Way::kReturns:
+          checker_.report("it is below itself in the tree");
+          break;
+        case Way::kTooLong:
+          checker_.report("it is more than 1000 levels deep in the tree");
+          return;  // those below are deeper
+      }
     }
   }
 
@@ -42,14 +51,18 @@ class PlaceCheck {
     std::string path;
   };
 
-  bool is_below_itself(int id) const {
+  enum class Way { kEnds, kReturns, kTooLong };
+
+  Way way_up(int id) const {
+    constexpr std::size_t kDeepest = 1000;
     std::set<int> passed;
     for (auto place = places_.find(places_.at(id).parent); place != places_.end();
          place = places_.find(place->second.parent)) {
-      if (place->first == id) return true;
-      if (!passed.insert(place->first).second) return false;  // others go round: they report it
+      if (place->first == id) return Way::kReturns;
+      if (!passed.insert(place->first).second) return Way::kEnds;  // others go round: they report it
+      if (passed.size() > kDeepest) return Way::kTooLong;
     }
-    return false;
+    return Way::kEnds;
   }
 
   Checker& checker_;
@@ -74,6 +87,26 @@ void add_places(PlaceCheck& places, const ModelDescription& model) {
   for (const FrameDescription& frame : model.frames) places.add(frame, path + frame.name);
 }
 
+/// The links that carry those of static models.
+void check_carriers(Checker& checker, const SceneDescription& scene) {
+  std::set<std::string> links;
+  for (const ModelDescription& model : scene.models) {
+    for (const LinkDescription& link : model.links) {
+      if (!model.is_static) links.insert(link.name);
+    }
+  }
+  for (const ModelDescription& model : scene.models) {
+    for (const LinkDescription& link : model.links) {
+      if (link.carrier.empty()) continue;
+      checker.at(link.source, "/" + model.name + "/" + link.name);
+      if (!model.is_static)
+        checker.report("only links of static models are carried by others: remove <bubblesim:carrier>");
+      if (links.count(link.carrier) == 0)
+        checker.report("its carrier '" + link.carrier + "' is no link of a model that moves");
+    }
+  }
+}
+
 }  // namespace
 
 void check_places(Checker& checker, const SceneDescription& scene) {
@@ -81,6 +114,7 @@ void check_places(Checker& checker, const SceneDescription& scene) {
   for (const ModelDescription& model : scene.models) add_places(places, model);
   for (const FrameDescription& frame : scene.frames) places.add(frame, "/" + frame.name);
   places.finish(true);
+  check_carriers(checker, scene);
 }
 
 void check_places(Checker& checker, const ModelDescription& model) {

@@ -56,7 +56,7 @@ std::vector<Parameter> read_parameters(const TagList& list) {
   std::vector<Parameter> parameters;
   auto bytes = list.item("Par");
   if (!bytes) return parameters;
-  constexpr std::size_t kLeast = 16;  // bytes of three empty texts and the flags
+  constexpr std::size_t kLeast = 16;  // bytes of three empty strings and the flags
   for (std::size_t count = bytes->count(kLeast); count > 0; --count) {
     Parameter& parameter = parameters.emplace_back();
     parameter.name = bytes->text();

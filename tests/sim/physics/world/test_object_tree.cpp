@@ -268,6 +268,17 @@ std::string problem(SceneDescription described) {
   return "none";
 }
 
+TEST(Places, ThatAreNestedTooDeepAreRefused) {
+  SceneDescription described = tree_scene();
+  for (int i = 0; i < 200000; ++i) {
+    FrameDescription frame;
+    frame.name = "frame_" + std::to_string(i);
+    frame.place = TreePlace{1000 + i, i == 0 ? -1 : 999 + i};
+    described.frames.push_back(frame);
+  }
+  EXPECT_NE(problem(described).find("more than 1000 levels deep"), std::string::npos);
+}
+
 TEST(Places, ThatContradictEachOtherAreRefused) {
   SceneDescription described = tree_scene();
   described.models[0].links[1].place->id = 10;
@@ -284,6 +295,11 @@ TEST(Places, ThatContradictEachOtherAreRefused) {
   described = tree_scene();
   described.models[0].links[0].place->parent = 13;
   EXPECT_NE(problem(described).find("/body/base: it is below itself in the tree"), std::string::npos)
+      << problem(described);
+
+  described = tree_scene();
+  described.models[0].links[0].carrier = "none";
+  EXPECT_NE(problem(described).find("/body/base: its carrier 'none' is no link"), std::string::npos)
       << problem(described);
 
   described = tree_scene();

@@ -101,8 +101,8 @@ class JointFunctions(ApiContext):
     def setJointMode(self, joint: Handle, mode: int, options: int = 0) -> None:
         """Let physics move a joint (sim.jointmode_dynamic), or only setJointPosition (sim.jointmode_kinematic).
 
-        A kinematic joint that connects bodies is held at its position with any force that this takes; the end of the run
-        brings back its mode. A joint that moves no body stays kinematic.
+        A kinematic joint that connects bodies is held at its position with any force that this takes. The end of the
+        run brings back its mode. A joint that moves no body stays kinematic.
         """
         joint = self._resolve(joint)
         is_dynamic = mode == self.jointmode_dynamic

@@ -30,7 +30,7 @@ FrameKind read_kind(const SdfElement& object, const std::string& path, LoadConte
   return FrameKind::kDummy;
 }
 
-/// The bytes of a text in base64; signs that are not of base64 are skipped.
+/// The bytes of a string in base64; signs that are not of base64 are skipped.
 std::string from_base64(const std::string& text) {
   static const std::string kSigns = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
