@@ -32,6 +32,7 @@ struct Part {
   Vector3 size;           ///< of the primitive, full lengths
   bool has_hole = false;  ///< in the primitive
   bool is_convex = false;
+  bool is_wireframe = false;  ///< only its edges are drawn
   Rgb color{0.7, 0.7, 0.7};  ///< ambient and diffuse
   Rgb emission{0, 0, 0};
   double opacity = 1;
