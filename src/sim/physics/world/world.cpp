@@ -32,6 +32,7 @@ void take_statics(WorldState& state, WorldState& from) {
       if (state.moved_statics.count(link.object) == 0) continue;
       place_static(state, link.object, state.models[i]->description.pose * state.models[i]->description.links[k].pose);
     }
+    place_frames(state, *state.models[i]);
   }
 }
 
@@ -113,7 +114,6 @@ void World::reset() {
     }
   }
   if (keeps_statics) take_statics(*built, *state_);
-  for (const auto& model : built->models) place_frames(*built, *model);
   place_frames(*built, *state_->scene_frames);
   built->scene_frames = std::move(state_->scene_frames);
   if (!keeps_statics || state_->statics_stale) gather_statics(*built);

@@ -268,17 +268,6 @@ std::string problem(SceneDescription described) {
   return "none";
 }
 
-TEST(Places, ThatAreNestedTooDeepAreRefused) {
-  SceneDescription described = tree_scene();
-  for (int i = 0; i < 200000; ++i) {
-    FrameDescription frame;
-    frame.name = "frame_" + std::to_string(i);
-    frame.place = TreePlace{1000 + i, i == 0 ? -1 : 999 + i};
-    described.frames.push_back(frame);
-  }
-  EXPECT_NE(problem(described).find("more than 1000 levels deep"), std::string::npos);
-}
-
 TEST(Places, ThatContradictEachOtherAreRefused) {
   SceneDescription described = tree_scene();
   described.models[0].links[1].place->id = 10;
