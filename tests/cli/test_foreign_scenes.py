@@ -4,6 +4,8 @@
 import functools
 import math
 import os
+import pty
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ import pytest
 import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
-from ros_support import REPOSITORY
+from ros_support import DEADLINE, REPOSITORY, built
 from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, script, thing, write
 
 
@@ -160,6 +162,42 @@ def test_python_scripts_run_only_if_that_is_allowed(tmp_path: Path) -> None:
     assert "--allow-python-scripts" in run.stderr
     run = run_sim(file, "--no-ros", "--speed", "max", "--until", "0.1", "--allow-python-scripts")
     assert "python runs" in run.stdout
+
+
+def on_a_terminal(file: Path, answer: bytes) -> str:
+    """Run a scene on a terminal, where this is typed; return what scripts print."""
+    terminal, end = pty.openpty()
+    os.write(terminal, answer)
+    command = [str(built("sim")), str(file), "--no-ros", "--speed", "max", "--until", "0.1"]
+    run = subprocess.run(
+        command, stdin=end, stderr=end, stdout=subprocess.PIPE, text=True, timeout=3 * DEADLINE, check=False
+    )
+    os.close(end)
+    os.close(terminal)
+    return run.stdout
+
+
+def test_on_a_terminal_it_is_asked_once_for_each_content_of_a_file(tmp_path: Path) -> None:
+    file = write(tmp_path / "box.ttt", FLOOR, BOX, script(2, PYTHON, "python"))
+    assert "python runs" not in on_a_terminal(file, b"n\n")
+    assert "python runs" in on_a_terminal(file, b"y\n")
+    assert "python runs" in on_a_terminal(file, b"")
+    write(file, FLOOR, BOX, script(2, PYTHON + "# more\n", "python"))
+    assert "python runs" not in on_a_terminal(file, b"n\n")
+
+
+def test_old_conversions_make_room_for_new_ones(tmp_path: Path) -> None:
+    folder = Path(os.environ["XDG_CACHE_HOME"]) / "bubblesim" / "converted"
+    for age, name in enumerate(("young", "old")):
+        (folder / name).mkdir(parents=True)
+        with (folder / name / "large").open("wb") as large:
+            large.truncate(700_000_000)  # sparse: it takes no space
+        os.utime(folder / name, (1e9 - age, 1e9 - age))
+    bubblesim.Simulation(str(write(tmp_path / "box.ttt", BOX)))
+    left = {each.name for each in folder.iterdir()}
+    assert "old" not in left
+    assert "young" in left
+    assert len(left) == 2
 
 
 def public_files() -> list[Path]:

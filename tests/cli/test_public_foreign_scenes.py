@@ -112,3 +112,36 @@ def test_bodies_keep_together_and_stand(file: Path) -> None:
         for link in bound:
             assert math.hypot(*world.velocity(link)[0]) < FASTEST, (world.name(link), simulation.time)
     assert [world.name(link) for link in bound if world.pose(link)[2] < heights[link] - 0.3] == []
+
+
+PIONEERS = [
+    file for file in FILES if file.name in ("pioneer_p3dx.ttm", "scene_pioneer.ttt", "pioneer_python_control.ttt")
+]
+RADIUS, TRACK = 0.0975, 0.331
+"""m, of the wheels and between them, from the manufacturer's data sheet."""
+
+
+@pytest.mark.parametrize("file", PIONEERS, ids=named)
+def test_pioneers_drive_and_turn_by_their_kinematics(file: Path) -> None:
+    simulation = bubblesim.Simulation(str(file))
+    world = simulation.world
+    joints = [joint for model in world.models for joint in world.parts(model, "joint")]
+    left, right = (
+        next(joint for joint in joints if world.alias(joint).endswith(end)) for end in ("leftMotor", "rightMotor")
+    )
+    base = world.joint_links(left)[0]
+    speed = 3.0  # rad/s
+    seconds = round(1 / simulation.time_step)
+    for sign in (1, -1):  # straight, on the spot
+        world.set_target_velocity(left, sign * speed)
+        world.set_target_velocity(right, speed)
+        simulation.step(seconds)
+        before = world.pose(base)
+        simulation.step(seconds)
+        after = world.pose(base)
+        way = math.dist(before[:2], after[:2])
+        turn = (matrix(before)[:3, :3].T @ matrix(after)[:3, :3])[1, 0]
+        if sign > 0:
+            assert way == pytest.approx(speed * RADIUS, rel=0.01)
+        else:
+            assert math.asin(turn) == pytest.approx(math.pi - 2 * speed * RADIUS / TRACK, rel=0.02)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "load/ttt/write_parts.hpp"
 #include "load/ttt/xml_writer.hpp"
@@ -145,16 +146,16 @@ void write_entities(Conversion& conversion) {
     const auto objects = objects_of(conversion.object(sensor).as<ProximitySensor>()->entity, conversion);
     if (!objects) continue;  // all
     // The sensor's own model is not detected anyway.
-    const int own = conversion.node(sensor).body;
-    const auto model_of = [&](int body) { return conversion.structure.bodies[static_cast<std::size_t>(body)].model; };
+    pugi::xml_node model = sonar;
+    while (std::string_view(model.name()) != "model") model = model.parent();
+    std::set<std::string> own;
+    for (const pugi::xml_node link : model.children("link")) own.insert(link.attribute("name").value());
     std::set<std::string> detected;
     bool is_all = true;
     for (const auto& [object, link] : conversion.links) {
-      const int body = conversion.node(object).body;
-      const bool is_own = body != kWorld && own != kWorld && model_of(body) == model_of(own);
       if (objects->count(object) > 0) {
         detected.insert(link);
-      } else if (!is_own) {
+      } else if (own.count(link) == 0) {
         is_all = false;
       }
     }
