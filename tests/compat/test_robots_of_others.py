@@ -119,3 +119,62 @@ def test_mobile_robots_drive_and_turn_as_their_odometry_reports(
         for reported, true in (moved["distances"], moved["angles"]):
             assert reported == pytest.approx(true, rel=0.03), moved
         assert moved["distances"][1] >= 1.9
+
+
+def follow(env: dict[str, str], controller: str, **goal: Any) -> dict[str, Any]:
+    run = subprocess.run(
+        ["/usr/bin/python3", str(SUPPORT / "follow_trajectory.py"), controller, json.dumps(goal)],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=6 * DEADLINE,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
+    return result
+
+
+def running(call: ServiceCaller, namespace: str, *controllers: str) -> bool:
+    listed = call(f"{namespace}/controller_manager/list_controllers").get("controller", [])
+    return set(controllers) <= {each["name"] for each in listed if each["state"] == "running"}
+
+
+def test_an_arm_moves_through_a_trajectory(tmp_path: Path) -> None:
+    with RosCore(tmp_path / "roslog") as core:
+        env = environment(core, tmp_path / "packages")
+        launch = ["ur_gazebo", "ur5_bringup.launch", "gui:=false"]
+        ready = "/controller_manager/load_controller"
+        with launched(core, env, tmp_path / "log", *launch, ready=ready), ServiceCaller(core) as call:
+            wait_until(lambda: running(call, "", "eff_joint_traj_controller"), "the controller", 3 * DEADLINE)
+            names = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
+            goal = [0.5, -1.2, 1.0, -0.5, 0.4, 0.3]
+            points = [[3.0, [0.0, -1.57, 0.0, -1.57, 0.0, 0.0], [0.0] * 6], [6.0, goal, [0.0] * 6]]
+            joints = [f"{name}_joint" for name in names]
+            result = follow(env, "/eff_joint_traj_controller", names=joints, points=points)
+            assert (result["state"], result["error_code"]) == (3, 0), result
+            assert [result["positions"][name] for name in joints] == pytest.approx(goal, abs=0.1)
+
+
+def test_a_pendulum_is_held_by_its_position_controllers(tmp_path: Path) -> None:
+    with RosCore(tmp_path / "roslog") as core:
+        env = environment(core, tmp_path / "packages")
+        world = ["rrbot_gazebo", "rrbot_world.launch", "gui:=false"]
+        control = ["rrbot_control", "rrbot_control.launch"]
+        with (
+            launched(core, env, tmp_path / "log", *world, ready="/rrbot/controller_manager/load_controller"),
+            launched(core, env, tmp_path / "log2", *control, ready="/rrbot/joint1_position_controller/state"),
+            ServiceCaller(core) as call,
+        ):
+            wait_until(lambda: running(call, "/rrbot", "joint1_position_controller"), "the controllers", 3 * DEADLINE)
+            assert "ranges" in topic(core, "/rrbot/laser/scan")
+            command = "/rrbot/joint1_position_controller/command"
+            with core.publishing(command, "std_msgs/Float64", "data: 0.8"):
+                wait_until(lambda: abs(rrbot_error(core)) < 0.15, "the position", 2 * DEADLINE)
+
+
+def rrbot_error(core: RosCore) -> float:
+    text = topic(core, "/rrbot/joint1_position_controller/state")
+    (line,) = (line for line in text.splitlines() if line.startswith("error:"))
+    (goal,) = (line for line in text.splitlines() if line.startswith("set_point:"))
+    return float(line.split()[1]) if goal.split()[1] == "0.8" else 1.0
