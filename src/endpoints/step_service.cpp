@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "services/step_service.hpp"
+#include "step_service.hpp"
 
+#include <chrono>
 #include <utility>
 
+#include "bubblesim/messages/bridge.hpp"
 #include "quiet_thread.hpp"
 
-namespace bubblesim::ros2 {
+namespace bubblesim {
 
-StepService::StepService(Action action) : action_(std::move(action)) {
+StepService::StepService(Action action, messages::Layout layout) : action_(std::move(action)), layout_(layout) {
   for (std::thread& thread : threads_) {
     thread = start_without_signals([this] {
       const auto is_ending = [this] { return ending_.load(); };
-      while (!queue_.serve_until(is_ending, RequestQueue::Clock::now() + std::chrono::hours(1))) continue;
+      while (!queue_->serve_until(is_ending, RequestQueue::Clock::now() + std::chrono::hours(1))) continue;
     });
   }
 }
 
-StepService::~StepService() { stop(); }
-
 void StepService::stop() {
   ending_ = true;
-  queue_.wake();
+  queue_->wake();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
@@ -31,11 +31,11 @@ messages::WireBuffer StepService::answer(messages::WireView request) const {
   if (request.left() < sizeof(std::uint32_t)) throw messages::ServiceError("the request must be 4 bytes: uint32 steps");
   const StepAnswer answer = action_(request.get<std::uint32_t>());
   messages::WireBuffer response;
-  response.begin(messages::Layout::kCdr);
+  response.begin(layout_);
   response.put<std::uint8_t>(answer.problem.empty() ? 1 : 0);
   response.put_string(answer.problem);
   response.put(answer.time);
   return response;
 }
 
-}  // namespace bubblesim::ros2
+}  // namespace bubblesim
