@@ -14,8 +14,9 @@ namespace bubblesim {
 
 /// Which objects the rows of frames are of. Constant until models are added or removed.
 struct FrameLayout {
-  std::uint64_t revision = 0;   ///< World::revision()
-  std::vector<ObjectId> links;  ///< of models that are not static, in the order of their handles
+  std::uint64_t revision = 0;  ///< World::revision()
+  /// Of models that are not static, and those of others that were moved, in the order of the models.
+  std::vector<ObjectId> links;
   /// An axis of a joint that has a position.
   struct Axis {
     ObjectId joint = kNoObject;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -187,6 +188,13 @@ struct GzTopic {
   std::string frame;       ///< its <gz_frame_id>, or a camera's <optical_frame_id>; empty: MODEL/LINK/SENSOR
 };
 
+/// A parameter that a foreign scene gives to the script of an object, as text.
+struct ScriptParameter {
+  std::string name;
+  std::string unit;
+  std::string value;
+};
+
 /// The place of an object in the tree that scripts see, for formats whose tree is not SDFormat's nesting:
 /// CoppeliaSim's, in which a joint is the parent of the shape that it moves. An object without a place is where
 /// SDFormat nests it: a link, joint or frame below its model, a sensor below its link or joint. A place changes nothing
@@ -197,6 +205,9 @@ struct TreePlace {
   int order = 0;          ///< among its siblings, lower first; equal ones are in the order of the description
   bool is_model = false;  ///< the base of a model: where `:` in paths leads from the objects below
   std::filesystem::path child_script{};  ///< empty: none
+  std::string old_name{};                ///< unique in its file, such as `wheel#0`; empty: none
+  std::vector<ScriptParameter> parameters{};
+  std::map<std::string, std::string> data{};  ///< bytes that the file attaches to the object, by name
 };
 
 struct SensorDescription {
@@ -234,6 +245,9 @@ struct LinkDescription {
   std::vector<Light> lights;  ///< positions and directions in the link's frame
   Source source;
   std::optional<TreePlace> place{};
+  /// Of a static model: the link of another model with which it moves, by name; empty: it stays. Names of links that
+  /// carry others are unique in the scene.
+  std::string carrier{};
 
   Matrix3 inertia() const {
     const Vector3& d = inertia_diagonal;
@@ -297,6 +311,7 @@ enum class FrameKind {
   kLight,
   kGraph,
   kScript,
+  kJoint,  ///< without physics: what is below it in the tree moves when its position is set
 };
 
 /// 'dummy', 'shape' ...
@@ -311,6 +326,10 @@ struct FrameDescription {
   Pose pose;         ///< in the frame of that link, or in the world
   Source source;
   std::optional<TreePlace> place{};
+  /// Of a joint: its name, type (revolute, continuous, prismatic, screw, ball), limits, and its leader, a joint
+  /// anywhere in the scene, as the mimic of its axis. It turns about the z axis of the frame, or slides along it.
+  std::optional<JointDescription> joint{};
+  double joint_position = 0;  ///< of a joint, at the start: rad or m
 };
 
 struct TransmissionJoint {

@@ -43,6 +43,8 @@ struct SonarDescription {
   double max_range = 1;   ///< m
   double half_angle = 0;  ///< rad, between the axis and the volume's side
   ProximityVolume volume = ProximityVolume::kCone;
+  double max_normal_angle = 0;         ///< rad, between a ray and the normal of a surface that it detects; 0: any
+  std::vector<std::string> detects{};  ///< names of the links that it detects; empty: all
 
   static const MemberTable& members();
 };
@@ -101,11 +103,12 @@ using Point = std::array<float, 3>;
 /// Returns the points that the rays of a lidar hit, ring by ring; rays without a hit are left out.
 std::vector<Point> to_point_cloud(const LidarScan& scan);
 
-/// A pinhole camera that looks along x, with y to the left and z up.
+/// A camera that looks along x, with y to the left and z up: a pinhole, or parallel rays.
 struct CameraDescription {
   int width = 320;                ///< pixels
   int height = 240;               ///< pixels
   double horizontal_fov = 1.047;  ///< rad
+  double orthographic_width = 0;  ///< m that the image shows from left to right, by parallel rays; 0: a pinhole
   double near = 0.1;              ///< m along the axis
   double far = 100;               ///< m along the axis
   bool color = true;              ///< false: depth camera

@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ class World {
   /// handles remain valid.
   const SceneTree& tree() const;
 
-  /// Another number after each addition and removal of a model.
+  /// Another number after each addition and removal of a model, and after the first move of a static link.
   std::uint64_t revision() const;
 
   WorldModels& models() { return models_; }
@@ -88,6 +89,9 @@ class World {
   /// values.
   void write_last_states(std::ostream& out) const;
 
+  /// The links of static models that were moved since they were built.
+  const std::set<ObjectId>& moved_statics() const;
+
   /// Pose in the world. The pose of a model is that of its frame, which moves with its canonical link. The pose of a
   /// joint is attached to the joint's parent, WorldJoints::child_pose() to its child.
   Pose pose(ObjectId object) const;
@@ -95,8 +99,8 @@ class World {
   Twist velocity(ObjectId object) const;
   /// Acceleration of the object's origin, world axes: mean over the last advance(), including jumps of the velocity.
   Vector3 acceleration(ObjectId object) const;
-  /// Moves a model (with all its links), a link or a frame to a pose, and what is below it in the tree along, except
-  /// static links; velocities are kept.
+  /// Moves a model (with all its links), a link, a sensor of a link or a frame to a pose, and what is below it in the
+  /// tree along; velocities are kept. Static models may be moved, too: they stay where they are put.
   void set_pose(ObjectId object, const Pose& pose);
   /// Sets the velocity of a model or of a link, with what is below it in the tree: they move as one rigid body.
   void set_velocity(ObjectId object, const Twist& velocity);

@@ -22,8 +22,11 @@ class WorldFrames : public WorldPart {
   FrameKind kind(ObjectId frame) const;
   /// The link that carries a frame, kNoObject for the world. Throws WrongObject for other objects.
   ObjectId link(ObjectId frame) const;
-  /// Changes the tree: the object becomes the last child of `parent`, kNoObject is the top. Nothing moves. A frame is
-  /// carried from now on by what carries the parent, below a joint by the joint's child; physics does not change.
+  /// The place of a frame in its file's tree; null for a dummy that was added, and where the file has none.
+  const TreePlace* place(ObjectId frame) const;
+  /// Changes the tree: the object becomes the last child of `parent`, kNoObject is the top. Nothing moves. A frame, or
+  /// a link of a static model, is carried from now on by what carries the parent, below a joint by the joint's child;
+  /// physics does not change.
   /// Throws InvalidInput when the parent is the object itself or below it. Resets keep the tree.
   void set_parent(ObjectId object, ObjectId parent);
   /// Sets the name in paths; resets keep it.

@@ -50,6 +50,9 @@ class WorldJoints : public WorldPart {
   /// Moves the links below a revolute, continuous or prismatic joint so that the joint has this position; the joint
   /// velocity is kept. Throws InvalidInput for other joint types and for a joint in a closed chain of links.
   void set_position(ObjectId joint, double position);
+  /// Whether it is a joint without physics, a frame: setting its position, or its targets, moves what is below it in
+  /// the tree at once. It has no motor: its mode is kNone, its forces are 0.
+  bool is_kinematic(ObjectId joint) const;
   /// The joint's description in the scene.
   const JointDescription& description(ObjectId joint) const;
 };

@@ -3,8 +3,13 @@
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <string>
 #include <utility>
 
 #include "bubblesim/error.hpp"
@@ -42,6 +47,25 @@ void add_placed(const World& world, ObjectId model, ScriptFiles& scripts) {
   for (const ObjectId id : tree.parts(model, ObjectKind::kFrame)) add(id, description.frames[tree.at(id).index].place);
 }
 
+/// Asks on the terminal, once for the content of a file: the answer is kept with its conversion, which is found by all
+/// of its bytes. Without a terminal the answer is no.
+bool allows_python(const ScriptFiles& scripts) {
+  const auto script =
+      std::find_if(scripts.begin(), scripts.end(), [](const auto& each) { return each.second.extension() == ".py"; });
+  if (script == scripts.end()) return false;
+  const std::filesystem::path answer = script->second.parent_path().parent_path() / "python_scripts_allowed";
+  if (std::filesystem::exists(answer)) return true;
+  if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDERR_FILENO) == 0) return false;
+  std::fprintf(stderr,
+               "This scene has Python scripts, which may do whatever you may. They are in %s: read them first.\n"
+               "Run them, now and whenever this file is loaded? [y/N] ",
+               script->second.parent_path().c_str());
+  std::string line;
+  if (!std::getline(std::cin, line) || (line != "y" && line != "Y" && line != "yes")) return false;
+  std::ofstream(answer) << "yes\n";
+  return true;
+}
+
 /// Says which programs a foreign scene starts. Those in Lua run in the sandbox; those in Python only if that is
 /// allowed.
 ScriptFiles trusted_of(const ScriptFiles& scripts, bool with_python) {
@@ -72,7 +96,9 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
     const std::optional<TreePlace>& place = frames[tree.at(id).index].place;
     if (place && !place->child_script.empty()) scripts.emplace_back(tree.path(id), place->child_script);
   }
-  if (is_foreign_scene(simulation.scene().file)) scripts = trusted_of(scripts, options.python_of_foreign_scenes);
+  if (is_foreign_scene(simulation.scene().file)) {
+    scripts = trusted_of(scripts, options.python_of_foreign_scenes || allows_python(scripts));
+  }
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {

@@ -4,7 +4,8 @@
 import functools
 import math
 import os
-import struct
+import pty
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -12,92 +13,14 @@ import pytest
 import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
-from ros_support import REPOSITORY
-
-IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+from ros_support import DEADLINE, REPOSITORY, built
+from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, script, thing, write
 
 
 @pytest.fixture(autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
     """Keep conversions out of the user's cache."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
-def item(tag: str, content: bytes) -> bytes:
-    return tag.encode() + struct.pack("<i", len(content)) + content
-
-
-def text(value: str) -> bytes:
-    return struct.pack("<i", len(value)) + value.encode()
-
-
-def thing(tag: str, handle: int, parent: int, alias: str, own: bytes, pose: tuple[float, ...] = IDENTITY) -> bytes:
-    """Return an object; the pose is w x y z and then x y z."""
-    common = item("Ids", struct.pack("<2i", handle, parent)) + item("_fq", struct.pack("<7d", *pose))
-    return item(tag, common + item("Ali", text(alias)) + b"NXT" + own + b"EOO")
-
-
-def cuboid(size: tuple[float, float, float], mass: float | None = None) -> bytes:
-    """Return the second half of a cuboid, static without a mass; its inertia is that of a homogeneous one."""
-    x, y, z = size
-    moments = ((y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12)
-    matrix = (moments[0], 0, 0, 0, moments[1], 0, 0, 0, moments[2])
-    body = item("_as", struct.pack("<d", mass or 0)) + item("Com", bytes(24)) + item("Imx", struct.pack("<9d", *matrix))
-    mesh = item("_pr", struct.pack("<i3d", 3, *size))
-    shape = item("Ge2", item("Gst", body + b"EOO" + mesh + b"EOO") + b"EOO")
-    return shape + item("Sss", bytes([0x80 if mass else 0])) + item("Ss3", b"\1") + item("Dc2", b"\xff\xff")
-
-
-def joint(position: float, control: int, target: float) -> bytes:
-    """Return the second half of a revolute joint in dynamic mode, from -2 to 2 rad."""
-    return (
-        item("Jtt", struct.pack("<i", 10))
-        + item("_rt", struct.pack("<d", position))
-        + item("_mr", struct.pack("<2d", -2, 4))
-        + item("Jmd", struct.pack("<i", 5))
-        + item("Dcm", struct.pack("<i", control))
-        + item("_mp", struct.pack("<2d", target, 100))
-        + item("_tp", struct.pack("<d", target))
-    )
-
-
-def obscured(script: str) -> bytes:
-    """Return the text as the format has it: the inverse of the rule by which it is read."""
-    data = bytearray(script.encode())
-    signed = [value - 256 if value > 127 else value for value in (data[0], data[-1])]
-    s, e = int(signed[0] / 2), 3 * signed[1]
-    for i in range(1, len(data) - 1):
-        change = (i + s + e if i & 1 else 0) - (3 * i + s if i & 2 else 0) + (i // 2 + e if i & 4 else 0)
-        data[i] = (data[i] - change) % 256
-    return bytes(data)
-
-
-def script(owner: int, content: str, language: str = "lua", kind: int = 1) -> bytes:
-    fields = item("Si2", struct.pack("<3i", 900 + owner + kind, owner, kind)) + item("Ste", obscured(content))
-    return item("LST", fields + item("Va2", b"\x08") + item("Lne", text(language)) + b"EOO")
-
-
-def write(file: Path, *parts: bytes) -> Path:
-    """Write a scene that is not packed."""
-    content = b"".join(parts) + item("ENV", b"EOO") + b"EOF"
-    header = b"VREP" + struct.pack("<iiBiiH", 25, 24, 0, len(content), 0, 41000)
-    file.write_bytes(header.ljust(1021, b"\0") + content)
-    return file
-
-
-FLOOR = thing("SHP", 1, -1, "Floor", cuboid((5, 5, 0.1)), (1, 0, 0, 0, 0, 0, -0.05))
-BOX = thing("SHP", 2, -1, "Box", cuboid((0.2, 0.2, 0.2), 2), (1, 0, 0, 0, 0, 0, 0.5))
-LUA = "sim=require'sim'\nfunction sysCall_init()\n  print('it is '..sim.getObjectAlias(sim.getObject('.')))\nend\n"
-PYTHON = "def sysCall_init():\n    print('python runs')\n"
-
-
-def arm(position: float, control: int, target: float) -> bytes:
-    """Return a static base and an arm of 1 m that turns about the vertical."""
-    return (
-        thing("SHP", 10, -1, "Base", cuboid((0.1, 0.1, 0.1)))
-        + thing("JNT", 11, 10, "motor", joint(position, control, target))
-        + thing("SHP", 12, 11, "Arm", cuboid((1, 0.05, 0.05), 1), (1, 0, 0, 0, 0.5, 0, 0))
-    )
 
 
 def test_a_box_falls_on_the_floor(tmp_path: Path) -> None:
@@ -239,6 +162,42 @@ def test_python_scripts_run_only_if_that_is_allowed(tmp_path: Path) -> None:
     assert "--allow-python-scripts" in run.stderr
     run = run_sim(file, "--no-ros", "--speed", "max", "--until", "0.1", "--allow-python-scripts")
     assert "python runs" in run.stdout
+
+
+def on_a_terminal(file: Path, answer: bytes) -> str:
+    """Run a scene on a terminal, where this is typed; return what scripts print."""
+    terminal, end = pty.openpty()
+    os.write(terminal, answer)
+    command = [str(built("sim")), str(file), "--no-ros", "--speed", "max", "--until", "0.1"]
+    run = subprocess.run(
+        command, stdin=end, stderr=end, stdout=subprocess.PIPE, text=True, timeout=3 * DEADLINE, check=False
+    )
+    os.close(end)
+    os.close(terminal)
+    return run.stdout
+
+
+def test_on_a_terminal_it_is_asked_once_for_each_content_of_a_file(tmp_path: Path) -> None:
+    file = write(tmp_path / "box.ttt", FLOOR, BOX, script(2, PYTHON, "python"))
+    assert "python runs" not in on_a_terminal(file, b"n\n")
+    assert "python runs" in on_a_terminal(file, b"y\n")
+    assert "python runs" in on_a_terminal(file, b"")
+    write(file, FLOOR, BOX, script(2, PYTHON + "# more\n", "python"))
+    assert "python runs" not in on_a_terminal(file, b"n\n")
+
+
+def test_old_conversions_make_room_for_new_ones(tmp_path: Path) -> None:
+    folder = Path(os.environ["XDG_CACHE_HOME"]) / "bubblesim" / "converted"
+    for age, name in enumerate(("young", "old")):
+        (folder / name).mkdir(parents=True)
+        with (folder / name / "large").open("wb") as large:
+            large.truncate(700_000_000)  # sparse: it takes no space
+        os.utime(folder / name, (1e9 - age, 1e9 - age))
+    bubblesim.Simulation(str(write(tmp_path / "box.ttt", BOX)))
+    left = {each.name for each in folder.iterdir()}
+    assert "old" not in left
+    assert "young" in left
+    assert len(left) == 2
 
 
 def public_files() -> list[Path]:

@@ -57,7 +57,7 @@ def test_files_beside_the_script_can_be_read(tmp_path: Path) -> None:
         ("io.popen('ls')", "sim.launchExecutable"),
     ],
 )
-def test_the_rest_says_why_not(tmp_path: Path, call: str, why: str) -> None:
+def test_the_rest_reports_why_not(tmp_path: Path, call: str, why: str) -> None:
     (tmp_path / ".hidden").mkdir()
     (tmp_path / ".hidden" / "key").write_text("secret")
     run = run_script(tmp_path, f"function sysCall_init() {call} end", "--strict", name="script.lua")

@@ -46,6 +46,12 @@ class ObjectTree:
         """Return whether it is a part of a model that physics knows: a model, link, joint or sensor."""
         return str(self._world.kind(handle)) != "frame"
 
+    def is_kinematic(self, handle: int) -> bool:
+        """Return whether physics does not hold an object: a joint that moves only when it is set, a static link."""
+        if self.kind(handle) == "link":
+            return bool(self._world.is_static(handle))
+        return bool(self._world.is_kinematic(handle))
+
     def name(self, handle: int) -> str:
         """Return the name without an index."""
         return str(self._world.alias(handle))
@@ -128,7 +134,7 @@ class ObjectTree:
 
     def _check_free(self, handle: int) -> None:
         """Raise ValueError for a part of a model, which stays where physics holds it."""
-        if self.kind(handle) not in ("model", "link", "joint", "sensor", "shape"):
+        if self.kind(handle) not in ("model", "link", "joint", "sensor", "shape") or self.is_kinematic(handle):
             return
         model = self.model(handle)
         is_first = self.kind(handle) in ("model", "link") and self.model_above(handle) != model

@@ -43,6 +43,8 @@ class SceneEdits:
     """Names of the file's models of which others are copies."""
     colours: SetColours = field(default_factory=SetColours)
     numbers: SetNumbers = field(default_factory=SetNumbers)
+    held_joints: dict[int, tuple[Any, float]] = field(default_factory=dict)
+    """Joints in kinematic mode, with the motor mode and largest force that they had; for a run."""
     replaced: dict[int, int] = field(default_factory=dict)
     """Present handles of created shapes that were built anew, by the handle that callers know."""
     stopped: Callable[[], bool] = lambda: False
@@ -79,6 +81,7 @@ class SceneEdits:
 
     def end_run(self, world: Any) -> None:
         """Take back the changes of the run that has ended."""
+        self.held_joints.clear()
         if self._before is None:
             return
         names, parents, self.static, self.holds = self._before

@@ -3,7 +3,10 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <variant>
 
 #include "bindings.hpp"
@@ -52,6 +55,48 @@ std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
     default:
       return {};
   }
+}
+
+/// The place of an object in its file's tree; null if it has none.
+const TreePlace* place_of(const World& world, ObjectId id) {
+  const Object& object = world.tree().at(id);
+  const auto of_part = [](const auto& part) { return part.place ? &*part.place : nullptr; };
+  switch (object.kind) {
+    case ObjectKind::kLink:
+      return of_part(world.models().description(id).links[object.index]);
+    case ObjectKind::kJoint:
+      return of_part(world.models().description(id).joints[object.index]);
+    case ObjectKind::kSensor:
+      return of_part(world.models().sensor_description(id));
+    case ObjectKind::kFrame:
+      return world.frames().place(id);
+    default:
+      return nullptr;
+  }
+}
+
+ObjectId find_old_name(const World& world, const std::string& name) {
+  for (const ObjectId id : world.tree().objects()) {
+    const TreePlace* place = place_of(world, id);
+    if (place != nullptr && place->old_name == name) return id;
+  }
+  return kNoObject;
+}
+
+std::vector<std::tuple<std::string, std::string, std::string>> script_parameters(const World& world, ObjectId object) {
+  std::vector<std::tuple<std::string, std::string, std::string>> found;
+  if (const TreePlace* place = place_of(world, object)) {
+    for (const ScriptParameter& each : place->parameters) found.emplace_back(each.name, each.unit, each.value);
+  }
+  return found;
+}
+
+std::map<std::string, py::bytes> file_data(const World& world, ObjectId object) {
+  std::map<std::string, py::bytes> found;
+  if (const TreePlace* place = place_of(world, object)) {
+    for (const auto& [name, bytes] : place->data) found.emplace(name, py::bytes(bytes));
+  }
+  return found;
 }
 
 }  // namespace
@@ -290,6 +335,23 @@ void bind_world(py::module_& module) {
       .def("set_target_effort", of_joints(&WorldJoints::set_target_effort), py::arg("joint"), py::arg("effort"),
            py::arg("axis") = 0,
            "Set the force or torque on the child of an effort-controlled joint; its force limit applies.")
+      .def("is_kinematic", of_joints(&WorldJoints::is_kinematic), py::arg("joint"),
+           "Return whether a joint has no physics: it moves what is below it only when its position is set.")
+      .def(
+          "old_name",
+          [](const World& w, ObjectId id) {
+            const TreePlace* place = place_of(w, id);
+            return place == nullptr ? std::string() : place->old_name;
+          },
+          py::arg("object"),
+          "Return the unique name of an object in an old scene, such as 'wheel#0'; '' if it has none.")
+      .def("find_old_name", &find_old_name, py::arg("name"),
+           "Return the object with a unique name of an old scene, -1 if there is none.")
+      .def(
+          "script_parameters", &script_parameters, py::arg("object"),
+          "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
+      .def("file_data", &file_data, py::arg("object"),
+           "Return the bytes that the scene's file attaches to an object, by name.")
       .def("joint_type", [](const World& w, ObjectId joint) { return w.joints().description(joint).type; })
       .def(
           "joint_limits",

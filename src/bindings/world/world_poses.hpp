@@ -19,7 +19,8 @@ inline Pose to_pose(const Pose7& p) { return {Vector3(p[0], p[1], p[2]), Quatern
 
 /// The frame for poses relative to an object; for a joint, its moving frame.
 inline Pose frame_of(const World& world, ObjectId object) {
-  return world.tree().at(object).kind == ObjectKind::kJoint ? world.joints().child_pose(object) : world.pose(object);
+  const bool is_joint = world.tree().at(object).kind == ObjectKind::kJoint || world.joints().is_kinematic(object);
+  return is_joint ? world.joints().child_pose(object) : world.pose(object);
 }
 
 }  // namespace bubblesim::bindings

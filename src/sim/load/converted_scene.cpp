@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
@@ -101,6 +103,41 @@ bool is_conversion_of(const fs::path& folder, const fs::path& name, const std::s
          read_text(folder / name) == content;
 }
 
+/// Bytes of the files in a folder.
+std::uintmax_t size_of(const fs::path& folder) {
+  std::uintmax_t size = 0;
+  std::error_code error;
+  for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder, error)) {
+    if (file.is_regular_file(error)) size += file.file_size(error);
+  }
+  return size;
+}
+
+/// Removes the conversions that were used longest ago when all take more than a gigabyte. Other processes may do the
+/// same: what is gone already is no error.
+void remove_old(const fs::path& all, const fs::path& kept) {
+  constexpr std::uintmax_t kMost = 1'000'000'000;
+  struct Known {
+    fs::file_time_type used;
+    fs::path folder;
+    std::uintmax_t size;
+  };
+  std::error_code error;
+  std::vector<Known> known;
+  std::uintmax_t total = 0;
+  for (const fs::directory_entry& folder : fs::directory_iterator(all, error)) {
+    known.push_back({folder.last_write_time(error), folder.path(), size_of(folder.path())});
+    total += known.back().size;
+  }
+  std::sort(known.begin(), known.end(), [](const Known& a, const Known& b) { return a.used < b.used; });
+  for (const Known& each : known) {
+    if (total <= kMost) return;
+    if (each.folder == kept) continue;
+    fs::remove_all(each.folder, error);
+    total -= each.size;
+  }
+}
+
 }  // namespace
 
 bool is_foreign_scene(const fs::path& file) { return file.extension() == ".ttt" || file.extension() == ".ttm"; }
@@ -116,7 +153,10 @@ ConvertedScene convert_scene(const fs::path& file) {
     run_converter(program, file, made.path());
     fs::remove_all(folder);
     made.move_to(folder);
+    remove_old(folder.parent_path(), folder);
   }
+  std::error_code ignored;
+  fs::last_write_time(folder, fs::file_time_type::clock::now(), ignored);  // used now
   return {folder / ttt::kSceneFile, lines_of(read_text(folder / ttt::kLeftOutFile))};
 }
 

@@ -86,7 +86,24 @@ SharedRayModel prepare_rays(const SceneTree& tree, ObjectId model, const ModelDe
   return prepared;
 }
 
-std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayModel>& models) {
+SharedRayModel loosened(const RayModel& model, ObjectId link, const Pose& pose) {
+  auto loose = std::make_shared<RayModel>();
+  loose->object = model.object;
+  std::vector<const RayShape*> shapes;
+  for (const RayModel::Fixed& fixed : model.fixed) {
+    if (fixed.shape->link != link) continue;
+    RayShape shape = *fixed.shape;
+    shape.pose = pose.inverse() * shape.pose;
+    shape.turn = shape.pose.orientation.toRotationMatrix();
+    shape.turn_back = shape.turn.transpose();
+    shapes.push_back(loose->shapes.emplace_back(std::make_unique<RayShape>(std::move(shape))).get());
+  }
+  if (!shapes.empty()) loose->links.push_back(make_link(link, shapes));
+  return loose;
+}
+
+std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayModel>& models,
+                                                 const std::set<ObjectId>& loose) {
   // Simulations in other threads may attach the same geometries; Embree does not document that it allows that.
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
@@ -95,6 +112,7 @@ std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayMode
   statics->housings = make_scene(RTC_BUILD_QUALITY_HIGH);
   for (const SharedRayModel& model : models) {
     for (const auto& [shape, geometry] : model->fixed) {
+      if (loose.count(shape->link) > 0) continue;
       const auto id = static_cast<unsigned>(statics->shapes.size());
       statics->shapes.push_back(shape);
       if (is_traced_as_round(*shape) && shape->houses_sensor) {

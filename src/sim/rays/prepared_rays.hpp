@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "bubblesim/scene.hpp"
@@ -55,6 +56,11 @@ struct PreparedRays {
 /// The shapes of a model whose objects are in the tree.
 SharedRayModel prepare_rays(const SceneTree& tree, ObjectId model, const ModelDescription& description);
 
-std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayModel>& models);
+/// A link of a static model as one that moves. `pose`: of the link, where the model was prepared.
+SharedRayModel loosened(const RayModel& model, ObjectId link, const Pose& pose);
+
+/// `loose`: the links of static models that move.
+std::shared_ptr<const StaticRays> gather_statics(const std::vector<SharedRayModel>& models,
+                                                 const std::set<ObjectId>& loose = {});
 
 }  // namespace bubblesim::rays

@@ -75,12 +75,17 @@ void RayScene::place(SharedRayModel model) {
   statics_changed_ = statics_changed_ || !model->fixed.empty();
   has_retro_ = has_retro_ || std::any_of(model->shapes.begin(), model->shapes.end(),
                                          [](const auto& shape) { return shape->laser_retro != 0; });
-  for (const RayModel::Link& link : model->links) {
+  place_links(*model);
+  models_.push_back(std::move(model));
+}
+
+void RayScene::place_links(const RayModel& model) {
+  for (const RayModel::Link& link : model.links) {
     // Of all build qualities and flags, these commit a scene of instances fastest: twice as fast as the lowest quality.
     if (movers_ == nullptr) movers_ = make_scene(RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_DYNAMIC);
     auto moving = std::make_unique<MovingLink>();
     moving->link = &link;
-    moving->model = model->object;
+    moving->model = model.object;
     moving->instance.reset(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryInstancedScene(moving->instance.get(), link.scene.get());
     const unsigned id = rtcAttachGeometry(movers_.get(), moving->instance.get());
@@ -88,7 +93,19 @@ void RayScene::place(SharedRayModel model) {
     links_[id] = std::move(moving);
     movers_changed_ = true;
   }
-  models_.push_back(std::move(model));
+}
+
+/// Takes a link out of the static shapes.
+void RayScene::loosen(const World& world, ObjectId link) {
+  const ObjectId object = world.tree().outermost_model_of(link);
+  const auto model = std::find_if(models_.begin(), models_.end(),
+                                  [object](const SharedRayModel& placed) { return placed->object == object; });
+  if (model == models_.end()) return;
+  const ModelDescription& description = world.models().description(link);
+  const Pose pose = description.pose * description.links[world.tree().at(link).index].pose;
+  loosened_.push_back(loosened(**model, link, pose));
+  place_links(*loosened_.back());
+  statics_changed_ = true;
 }
 
 void RayScene::remove_model(ObjectId model) {
@@ -108,10 +125,16 @@ void RayScene::remove_model(ObjectId model) {
     statics_ = nullptr;  // refers to shapes of the model
   }
   models_.erase(found);
+  loosened_.erase(std::remove_if(loosened_.begin(), loosened_.end(),
+                                 [model](const SharedRayModel& loose) { return loose->object == model; }),
+                  loosened_.end());
 }
 
 void RayScene::refresh(const World& world) {
   if (scene_ != nullptr) place_scene(world.tree());
+  for (const ObjectId link : world.moved_statics()) {
+    if (world.tree().contains(link) && loose_.insert(link).second) loosen(world, link);
+  }
   for (const auto& link : links_) {
     if (link == nullptr) continue;
     const Pose pose = world.pose(link->link->id);
@@ -127,7 +150,7 @@ void RayScene::refresh(const World& world) {
   }
   // Sensors on several threads call this: it writes only what changed.
   if (statics_changed_) {
-    statics_ = gather_statics(models_);
+    statics_ = gather_statics(models_, loose_);
     statics_changed_ = false;
   }
   if (movers_changed_) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene of all ray-traced sensors: the visuals in Embree, in single precision. Static models are traced directly;
-// each moving link is an instance, moved only when a sensor measures. Rays hit surfaces from outside only, so a sensor
+// each moving link, and each link of a static model that was ever moved, is an instance, moved only when a sensor
+// measures. Rays hit surfaces from outside only, so a sensor
 // inside its own housing sees through it. Geometries are shared with the other simulations of a scene.
 #pragma once
 
 #include <memory>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -64,6 +66,8 @@ class RayScene {
   struct MovingLink;
 
   void place(rays::SharedRayModel model);
+  void place_links(const rays::RayModel& model);
+  void loosen(const World& world, ObjectId link);
   void place_scene(const SceneTree& tree);
   void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
   bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
@@ -71,6 +75,8 @@ class RayScene {
 
   std::shared_ptr<const Scene> scene_;  // null when its models are placed
   std::vector<rays::SharedRayModel> models_;
+  std::vector<rays::SharedRayModel> loosened_;  // the links of static models that were moved
+  std::set<ObjectId> loose_;                    // the same links
   std::vector<rays::RayModel::InfinitePlane> planes_;
   std::shared_ptr<const rays::StaticRays> statics_;
   rays::SceneHandle movers_;                        // null without moving links

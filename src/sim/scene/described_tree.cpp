@@ -21,6 +21,8 @@ std::string_view frame_kind_name(FrameKind kind) {
       return "graph";
     case FrameKind::kScript:
       return "script";
+    case FrameKind::kJoint:
+      return "joint";
   }
   return "frame";
 }

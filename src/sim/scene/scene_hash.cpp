@@ -144,6 +144,7 @@ class DescriptionHash {
   void add(const LinkDescription& l) {
     (*this)(l.name, l.gravity_enabled, l.wind_enabled, l.linear_decay, l.angular_decay, l.pose, l.start, l.mass,
             l.centre_of_mass, l.inertia_diagonal, l.inertia_products, l.collisions, l.visuals, l.sensors, l.lights);
+    if (!l.carrier.empty()) add(l.carrier);
   }
   void add(const MimicDescription& m) { (*this)(m.joint, m.axis, m.multiplier, m.offset, m.reference); }
   void add(const AxisDescription& a) {
@@ -156,7 +157,10 @@ class DescriptionHash {
             j.gearbox_reference);
   }
   void add(const NestedModelDescription& n) { (*this)(n.name, n.pose, n.canonical_link, n.plugins); }
-  void add(const FrameDescription& f) { (*this)(f.name, f.link, f.pose); }
+  void add(const FrameDescription& f) {
+    (*this)(f.name, f.link, f.pose);
+    if (f.joint) (*this)(*f.joint, f.joint_position);
+  }
   void add(const ModelDescription& m) {
     (*this)(m.name, m.pose, m.is_static, m.self_collide, m.canonical_link, m.links, m.joints, m.nested, m.plugins);
     if (!m.frames.empty()) add(m.frames);

@@ -78,6 +78,26 @@ void add_places(PlaceCheck& places, const ModelDescription& model) {
   for (const FrameDescription& frame : model.frames) places.add(frame, path + frame.name);
 }
 
+/// The links that carry those of static models.
+void check_carriers(Checker& checker, const SceneDescription& scene) {
+  std::set<std::string> links;
+  for (const ModelDescription& model : scene.models) {
+    for (const LinkDescription& link : model.links) {
+      if (!model.is_static) links.insert(link.name);
+    }
+  }
+  for (const ModelDescription& model : scene.models) {
+    for (const LinkDescription& link : model.links) {
+      if (link.carrier.empty()) continue;
+      checker.at(link.source, "/" + model.name + "/" + link.name);
+      if (!model.is_static)
+        checker.report("only links of static models are carried by others: remove <bubblesim:carrier>");
+      if (links.count(link.carrier) == 0)
+        checker.report("its carrier '" + link.carrier + "' is no link of a model that moves");
+    }
+  }
+}
+
 }  // namespace
 
 void check_places(Checker& checker, const SceneDescription& scene) {
@@ -85,6 +105,7 @@ void check_places(Checker& checker, const SceneDescription& scene) {
   for (const ModelDescription& model : scene.models) add_places(places, model);
   for (const FrameDescription& frame : scene.frames) places.add(frame, "/" + frame.name);
   places.finish(true);
+  check_carriers(checker, scene);
 }
 
 void check_places(Checker& checker, const ModelDescription& model) {

@@ -236,8 +236,8 @@ TEST(Snapshot, RemovesModelsThatWereAddedSince) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 5) << "version";
-  EXPECT_EQ(saved.size(), 723U) << "bytes";
+  EXPECT_EQ(static_cast<int>(saved[16]), 6) << "version";
+  EXPECT_EQ(saved.size(), 839U) << "bytes";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "load/ttt/names.hpp"
+#include "load/ttt/write_joints.hpp"
 
 namespace bubblesim::ttt {
 namespace {
@@ -31,9 +32,10 @@ void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left
     const Joint* joint = file.objects[i].as<Joint>();
     if (joint == nullptr) continue;
     const std::string& alias = file.objects[i].alias;
-    if (simulated.count(static_cast<int>(i)) == 0) {
-      left_out.add("joint that moves no body (kinematic): fixed at its position", alias);
-    } else if (joint->control == JointControl::kCallback) {
+    if (simulated.count(static_cast<int>(i)) > 0 && is_left_over(*joint)) {
+      left_out.add("joint with a target velocity that is left over from a run: it starts at rest", alias);
+    }
+    if (simulated.count(static_cast<int>(i)) > 0 && joint->control == JointControl::kCallback) {
       left_out.add("joint controlled by a callback: it moves freely", alias);
     }
   }
@@ -60,7 +62,6 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   for (const Object& object : file.objects) {
     if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
     if (const auto* sensor = object.as<VisionSensor>()) {
-      if (!sensor->is_perspective) left_out.add("orthographic vision sensor: it sees in perspective", object.alias);
       if (sensor->has_filters) left_out.add("image filters of a vision sensor: not applied", object.alias);
     }
     if (const auto* sensor = object.as<ForceSensor>(); sensor != nullptr && sensor->can_break) {

@@ -11,6 +11,10 @@ namespace bubblesim::ttt {
 /// Letters, digits, _ and - remain, others become _; never empty, at most 100 characters.
 std::string plain_name(const std::string& name);
 
+/// A name as paths of scripts may have it, in UTF-8: control characters, / [ ] { } *, and a . or : at the start become
+/// _.
+std::string path_name(const std::string& name);
+
 /// Gives each name once; further ones get _2, _3 ...
 class UniqueNames {
  public:

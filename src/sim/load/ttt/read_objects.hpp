@@ -26,6 +26,10 @@ Lamp read_lamp(const TagList& list);
 
 /// The list of a script, at the top level or in an object.
 Script read_script(const TagList& list);
+/// The parameters in an item `Par`.
+std::vector<Parameter> read_parameters(const TagList& list);
+/// The list GRP.
+Collection read_collection(const TagList& list);
 /// A script's text as it is read by people.
 std::string clear_text(std::string_view obscured);
 

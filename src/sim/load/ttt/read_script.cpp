@@ -52,6 +52,21 @@ std::string clear_text(std::string_view obscured) {
   return text;
 }
 
+std::vector<Parameter> read_parameters(const TagList& list) {
+  std::vector<Parameter> parameters;
+  auto bytes = list.item("Par");
+  if (!bytes) return parameters;
+  constexpr std::size_t kLeast = 16;  // bytes of three empty strings and the flags
+  for (std::size_t count = bytes->count(kLeast); count > 0; --count) {
+    Parameter& parameter = parameters.emplace_back();
+    parameter.name = bytes->text();
+    parameter.unit = bytes->text();
+    parameter.value = bytes->text();
+    bytes->i32();  // flags
+  }
+  return parameters;
+}
+
 Script read_script(const TagList& list) {
   Script script;
   if (auto bytes = list.item("Si2")) {
@@ -66,6 +81,7 @@ Script read_script(const TagList& list) {
   script.is_disabled = (bits & 2U) != 0;
   script.is_default_main = script.kind == ScriptKind::kMain && (bits & 8U) == 0;
   const auto language = list.text("Lne");
+  script.parameters = read_parameters(list.list("Prm"));
   script.is_python = language ? *language == "python" : names_python(script.text);
   return script;
 }

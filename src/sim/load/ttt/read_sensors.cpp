@@ -82,6 +82,22 @@ ForceSensor read_force_sensor(const TagList& list) { return {(list.u8("Vab").val
 
 Dummy read_dummy(const TagList& list) { return {list.integer("Lli", -1), list.integer("Dl2", 8)}; }
 
+Collection read_collection(const TagList& list) {
+  Collection collection;
+  collection.handle = list.integer("Gix", -1);
+  collection.name = list.text("Grn").value_or("");
+  for (const Item& item : list.items()) {
+    if (item.tag != "Asg") continue;
+    Bytes bytes = item.content;
+    const TagList own(bytes);
+    Collection::Element& element = collection.elements.emplace_back();
+    element.kind = static_cast<ElementKind>(own.u8("Gty").value_or(0));
+    if (auto object = own.item("Obj")) element.object = object->i32();
+    element.adds = (own.u8("Var").value_or(1) & 1U) != 0;
+  }
+  return collection;
+}
+
 Lamp read_lamp(const TagList& list) {
   Lamp lamp;
   if (auto bytes = list.item(list.has("_p2") ? "_p2" : "Cp2")) {

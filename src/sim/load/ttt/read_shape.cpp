@@ -95,6 +95,7 @@ class ShapeReader {
     find_arrays(mesh, part, start);
     part.frame = mesh.position_first("Ppf", "_pf").value_or(Pose());
     part.is_convex = (mesh.u8("Va2").value_or(0) & 1U) != 0 || (body.u8("Var").value_or(0) & 4U) != 0;
+    part.is_wireframe = (mesh.u8("Var").value_or(0) & 4U) != 0;
     read_primitive(mesh, part);
     read_color(mesh.list("Cl0"), part);
     read_texture(mesh.list("Toj"), part);

@@ -18,8 +18,7 @@ constexpr int kMostTexturePixels = 8192;
 const std::map<std::string_view, const char*>& other_items() {
   static const std::map<std::string_view, const char*> names = {
       {"IKO", "old IK group"},           {"COL", "old collision object"}, {"DST", "old distance object"},
-      {"PPL", "old path planning task"}, {"BBK", "old user interface"},   {"GRP", "collection"},
-      {"COB", "custom object"},
+      {"PPL", "old path planning task"}, {"BBK", "old user interface"},   {"COB", "custom object"},
   };
   return names;
 }
@@ -53,14 +52,22 @@ Object read_common(const TagList& list, std::string_view tag, std::size_t offset
   object.handle = ids->i32();
   object.parent = ids->i32();
   object.pose = list.rotation_first("Cfq", "_fq").value_or(Pose());
-  const std::string old_name = list.text("Nme").value_or("");  // with `#0` for copies
-  object.alias = list.text("Ali").value_or(old_name.substr(0, old_name.find('#')));
+  object.old_name = list.text("Nme").value_or("");  // with `#0` for copies
+  object.alias = list.text("Ali").value_or(object.old_name.substr(0, object.old_name.find('#')));
   const auto base = list.u8("Va3") ? list.u8("Va3") : list.u8("Va2") ? list.u8("Va2") : list.u8("Var");
   object.is_model = (base.value_or(0) & 1U) != 0;
   object.model_flags = static_cast<unsigned>(list.integer("Mpo", 0));
   if ((object.model_flags & 0xf000U) == 0xf000U) object.is_model = false;
   object.layers = list.u16("Lar").value_or(0xff);
   object.order = list.integer("Cor", -1);
+  object.parameters = read_parameters(list.list("Lsp"));
+  const TagList data = list.list("Cda");
+  for (const Item& item : data.items()) {
+    if (item.tag != "Cdt") continue;
+    Bytes bytes = item.content;
+    const std::string name = bytes.text();
+    object.data[name] = std::string(bytes.take(bytes.count(1)));
+  }
   return object;
 }
 
@@ -97,6 +104,8 @@ class FileReader {
       read_object(item.tag, bytes);
     } else if (item.tag == "LST") {
       add_script(read_script(TagList(bytes)));
+    } else if (item.tag == "GRP") {
+      file_.collections.push_back(read_collection(TagList(bytes)));
     } else if (item.tag == "TEX") {
       if (Image image = read_image(TagList(bytes)); image.width > 0) file_.images.push_back(std::move(image));
     } else if (const auto other = other_items().find(item.tag); other != other_items().end()) {

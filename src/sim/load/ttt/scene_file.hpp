@@ -32,6 +32,7 @@ struct Part {
   Vector3 size;           ///< of the primitive, full lengths
   bool has_hole = false;  ///< in the primitive
   bool is_convex = false;
+  bool is_wireframe = false;  ///< only its edges are drawn
   Rgb color{0.7, 0.7, 0.7};  ///< ambient and diffuse
   Rgb emission{0, 0, 0};
   double opacity = 1;
@@ -126,17 +127,27 @@ struct Other {};
 
 using Details = std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp>;
 
+/// A parameter of a script, as text.
+struct Parameter {
+  std::string name;
+  std::string unit;
+  std::string value;
+};
+
 struct Object {
   std::string tag;  ///< SHP, JNT ...
   int handle = -1;
   int parent = -1;  ///< handle; -1: none
   std::string alias;
-  Pose pose;  ///< relative to the parent's moving frame
+  std::string old_name;  ///< unique, such as `wheel#0`; empty: not given
+  Pose pose;             ///< relative to the parent's moving frame
   bool is_model = false;
   unsigned model_flags = 0;
   unsigned layers = 0;
   int order = -1;  ///< among siblings; -1: not given
   Details details;
+  std::vector<Parameter> parameters{};        ///< of its script
+  std::map<std::string, std::string> data{};  ///< custom data, by name
 
   template <class Kind>
   const Kind* as() const {
@@ -155,6 +166,22 @@ struct Script {
   bool is_disabled = false;
   bool is_default_main = false;
   std::string text;
+  std::vector<Parameter> parameters{};
+};
+
+/// What an element of a collection stands for. Others are not known.
+enum class ElementKind { kObject = 0, kTree = 1, kChain = 2, kAll = 5 };
+
+/// A collection that the file has saved: its elements add objects to it or remove them, one after the other.
+struct Collection {
+  struct Element {
+    ElementKind kind = ElementKind::kObject;
+    int object = -1;  ///< handle
+    bool adds = true;
+  };
+  int handle = -1;
+  std::string name;
+  std::vector<Element> elements;
 };
 
 struct Image {
@@ -182,6 +209,7 @@ struct SceneFile {
   std::vector<Object> objects;
   std::vector<Script> scripts;
   std::vector<Image> images;
+  std::vector<Collection> collections;
   Settings settings;
   std::map<std::string, int> left_out;  ///< what has no counterpart and is not an object, with its number
 };

@@ -22,6 +22,7 @@ std::map<int, std::string> write_scripts(const std::filesystem::path& folder, Co
     }
     const std::string path = "scripts/" + names.take(owner) + (script.is_python ? ".py" : ".lua");
     write_file(folder / path, script.text);
+    conversion.parameters[place] = script.parameters;
     paths.emplace(place, path);
   }
   return paths;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "load/ttt/bytes.hpp"
+
 namespace bubblesim::ttt {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr unsigned kNotDynamic = 0x20;
 constexpr unsigned kNotVisible = 0x100;
 constexpr unsigned kNoModel = 0xf000;
 constexpr int kClosedLoop = 0;
+constexpr int kDeepestObject = 500;
 
 class Builder {
  public:
@@ -45,6 +48,10 @@ class Builder {
     for (int i = 0; i < count(); ++i) siblings(node(i).parent).push_back(i);
     sort(built_.roots);
     for (Node& parent : built_.nodes) sort(parent.children);
+    for (std::size_t i = 0; i < built_.roots.size(); ++i) node(built_.roots[i]).number = static_cast<int>(i);
+    for (const Node& parent : built_.nodes) {
+      for (std::size_t i = 0; i < parent.children.size(); ++i) node(parent.children[i]).number = static_cast<int>(i);
+    }
   }
 
   std::vector<int>& siblings(int parent) { return parent == kNone ? built_.roots : node(parent).children; }
@@ -70,6 +77,8 @@ class Builder {
     Node& self = node(i);
     const Object& described = object(i);
     const Node* parent = self.parent == kNone ? nullptr : &node(self.parent);
+    self.depth = parent == nullptr ? 0 : parent->depth + 1;
+    if (self.depth > kDeepestObject) throw FormatError("objects are nested more than 500 deep: the file is damaged");
     self.world = (parent == nullptr ? Pose() : parent->moving) * described.pose;
     self.world.orientation.normalize();
     const Joint* joint = described.as<Joint>();
@@ -85,6 +94,7 @@ class Builder {
       built_.bodies.emplace_back().shape = i;
     } else {
       self.body = parent == nullptr ? kWorld : parent->body;
+      self.is_on_joint = parent != nullptr && (parent->is_on_joint || object(self.parent).as<Joint>() != nullptr);
     }
     if (self.body != kWorld) built_.bodies[static_cast<std::size_t>(self.body)].members.push_back(i);
   }

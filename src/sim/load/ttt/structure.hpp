@@ -17,11 +17,15 @@ constexpr int kWorld = -1;  ///< the body of what does not move
 struct Node {
   int parent = kNone;
   std::vector<int> children;  ///< in their order
+  int number = 0;             ///< among its siblings
+  int depth = 0;              ///< 0 at the top
   Pose world;                 ///< the object's frame
   Pose moving;                ///< the frame of its children: beyond a joint's position
   unsigned model_flags = 0;   ///< of the object and all above it
   int body = kWorld;          ///< what it moves with, an index of Structure::bodies
   bool is_visible = true;     ///< by its layers and flags
+  /// Whether a joint without physics is between it and its body, or the top where nothing moves: scripts may move it.
+  bool is_on_joint = false;
 };
 
 /// What moves as one piece.
@@ -57,7 +61,8 @@ struct Structure {
   }
 };
 
-/// Broken or circular parents are left out: such objects are at the top.
+/// Broken or circular parents are left out: such objects are at the top. Throws FormatError for objects that are nested
+/// more than 500 deep.
 Structure structure_of(const SceneFile& file);
 
 /// From the frame of a joint to that of its children.

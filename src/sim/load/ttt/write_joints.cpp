@@ -6,7 +6,15 @@
 #include "load/ttt/xml_writer.hpp"
 
 namespace bubblesim::ttt {
-namespace {
+
+bool is_left_over(const Joint& joint) {
+  constexpr double kSlow = 1;    // rad/s
+  constexpr double kSoon = 0.5;  // s
+  const double speed = std::abs(joint.target_velocity);
+  if (joint.control != JointControl::kVelocity || joint.type != JointType::kRevolute || joint.is_cyclic) return false;
+  const double way = joint.target_velocity > 0 ? joint.upper - joint.position : joint.position - joint.lower;
+  return speed > kSlow && way < kSoon * speed;
+}
 
 const char* type_of(const Joint& joint) {
   if (joint.type == JointType::kSpherical) return "ball";
@@ -14,6 +22,8 @@ const char* type_of(const Joint& joint) {
   if (joint.lead != 0) return "screw";
   return joint.is_cyclic ? "continuous" : "revolute";
 }
+
+namespace {
 
 const char* motor_of(const Joint& joint) {
   switch (joint.control) {
@@ -59,7 +69,9 @@ void write_axis(pugi::xml_node element, const Joint& joint, double zero, const J
     return;
   }
   if (const char* motor = motor_of(joint)) put(axis, "bubblesim:motor", motor);
-  if (joint.control == JointControl::kVelocity) put(axis, "bubblesim:target", joint.target_velocity);
+  if (joint.control == JointControl::kVelocity) {
+    put(axis, "bubblesim:target", is_left_over(joint) ? 0 : joint.target_velocity);
+  }
   if (joint.control == JointControl::kPosition) put(axis, "bubblesim:target", joint.target_position - zero);
 }
 
@@ -69,7 +81,7 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
   const Object& object = conversion.object(connection.object);
   const Node& node = conversion.node(connection.object);
   const Joint* joint = object.as<Joint>();
-  const std::string alias = plain_name(object.alias);
+  const std::string alias = path_name(object.alias);
   const auto known = site.names.find(object.handle);
   const std::string name = connection.kind != ConnectionKind::kWeld && known != site.names.end()
                                ? known->second

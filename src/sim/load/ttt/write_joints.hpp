@@ -16,6 +16,10 @@ struct JointSite {
   std::map<int, std::string> names;           ///< of the joints, by the handle of their object
 };
 
+/// Whether a target velocity is that of the program of the last run: a hinge would be at its stop in half a second.
+bool is_left_over(const Joint& joint);
+/// SDFormat's name of the type.
+const char* type_of(const Joint& joint);
 void write_joint(pugi::xml_node model, const Connection& connection, const JointSite& site, Conversion& conversion);
 
 }  // namespace bubblesim::ttt

@@ -6,6 +6,8 @@
 #include <pugixml.hpp>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "load/ttt/left_out.hpp"
 #include "load/ttt/mesh_files.hpp"
@@ -19,9 +21,13 @@ struct Conversion {
   const Structure& structure;
   MeshFiles meshes;
   LeftOut left_out;
-  UniqueNames names;                     ///< of all that has a name
-  std::map<int, std::string> scripts{};  ///< the files of the scripts, by object
-  std::set<int> placed{};                ///< the objects that have a place in the tree
+  UniqueNames names;                                   ///< of all that has a name
+  std::map<int, std::string> scripts{};                ///< the files of the scripts, by object
+  std::map<int, std::vector<Parameter>> parameters{};  ///< of the scripts, by object
+  std::set<int> placed{};                              ///< the objects that have a place in the tree
+  std::map<int, std::string> joints{};                 ///< the names of the joints, by object
+  std::map<int, std::string> links{};  ///< the names of the links that are shapes, or have them, by object
+  std::vector<std::pair<int, pugi::xml_node>> entities{};  ///< what proximity sensors detect, and their elements
 
   const Object& object(int i) const { return file.objects[static_cast<std::size_t>(i)]; }
   const Node& node(int i) const { return structure.nodes[static_cast<std::size_t>(i)]; }
@@ -42,6 +48,8 @@ void write_place(pugi::xml_node element, int object, Conversion& conversion);
 /// Adds an object without physics; `link` carries it, or nothing if that is empty.
 void write_frame(pugi::xml_node owner, int object, const std::string& link, const Pose& link_pose,
                  Conversion& conversion);
+/// Completes the proximity sensors that detect only some objects, when all links are written.
+void write_entities(Conversion& conversion);
 /// Adds a light that is on, to the world or to a link.
 void write_lamp(pugi::xml_node parent, int lamp, const Pose& parent_pose, Conversion& conversion);
 

@@ -27,10 +27,7 @@ class ModelWriter {
     const int leader = group_.leader(c_.structure);
     is_static_ = group_.bodies.empty();
     if (is_static_ && !has_physics()) return;
-    const std::string name = c_.names.take(c_.object(leader).alias + "_model");
-    model_ = named(world_, "model", name);
-    // In the tree are the objects of the file, not what moves together.
-    put(model_, "bubblesim:is_object", "false");
+    const std::string name = add_model(leader);
     model_pose_ = is_static_ || group_.fixed != kNone ? c_.node(leader).world : at_zero(group_.bodies.front());
     put_pose(model_, model_pose_);
     if (is_static_) put(model_, "static", "true");
@@ -42,11 +39,33 @@ class ModelWriter {
     for (const int i : group_.bodies) write_body(i);
     write_joints();
     write_state(name);
+    if (is_static_) write_loose();
     if (group_.fixed != kNone) write_frames(group_.members, links_.at(kWorld), c_.node(group_.fixed).world);
     for (const int i : group_.bodies) write_frames(body(i).members, links_.at(i), in_file(i));
+    if (is_static_ || loose_.empty()) return;
+    // A model of its own: they have no part in the physics of this one.
+    add_model(leader);
+    model_pose_ = Pose();
+    put(model_, "static", "true");
+    write_loose();
   }
 
  private:
+  /// A shape that scripts may move on its own.
+  struct Loose {
+    int object = kNone;
+    std::string carrier;  // the link with which it moves; empty: it stays
+  };
+
+  /// Returns its name.
+  std::string add_model(int leader) {
+    const std::string name = c_.names.take(c_.object(leader).alias + "_model");
+    model_ = named(world_, "model", name);
+    // In the tree are the objects of the file, not what moves together.
+    put(model_, "bubblesim:is_object", "false");
+    return name;
+  }
+
   const Body& body(int i) const { return c_.structure.bodies[static_cast<std::size_t>(i)]; }
   const Pose& in_file(int i) const { return c_.node(body(i).shape).world; }
   bool has_loops() const { return group_.at_zero.empty(); }
@@ -65,10 +84,27 @@ class ModelWriter {
 
   pugi::xml_node write_link(int i, int object) {
     pugi::xml_node link = named(model_, "link", links_.at(i));
-    const std::string alias = plain_name(c_.object(object).alias);
+    const std::string alias = path_name(c_.object(object).alias);
     if (links_.at(i) != alias) put(link, "bubblesim:alias", alias);
     if (c_.object(object).as<Shape>() != nullptr) write_place(link, object, c_);
+    c_.links[object] = links_.at(i);
     return link;
+  }
+
+  /// Each as a link of a static model.
+  void write_loose() {
+    for (const auto& [object, carrier] : loose_) {
+      const std::string alias = path_name(c_.object(object).alias);
+      const std::string name = c_.names.take(alias);
+      pugi::xml_node link = named(model_, "link", name);
+      if (name != alias) put(link, "bubblesim:alias", alias);
+      if (!carrier.empty()) put(link, "bubblesim:carrier", carrier);
+      const Pose& pose = c_.node(object).world;
+      put_pose(link, model_pose_.inverse() * pose);
+      write_shape(link, object, pose, {true, false}, c_);
+      write_place(link, object, c_);
+      c_.links[object] = name;
+    }
   }
 
   /// What does not move, as a link of its own. It is fixed to the world, so that neighbours of joints pass it.
@@ -76,7 +112,7 @@ class ModelWriter {
     const Pose& pose = c_.node(group_.fixed).world;
     pugi::xml_node link = write_link(kWorld, group_.fixed);
     put_pose(link, model_pose_.inverse() * pose);
-    write_members(link, group_.members, pose, {is_static_, false});
+    write_members(link, kWorld, group_.members, pose, {is_static_, false});
     if (is_static_) return;
     pugi::xml_node joint = named(model_, "joint", c_.names.take(links_.at(kWorld) + "_held"));
     joint.append_attribute("type").set_value("fixed");
@@ -88,7 +124,7 @@ class ModelWriter {
     pugi::xml_node link = write_link(i, body(i).shape);
     put_pose(link, model_pose_.inverse() * at_zero(i));
     write_inertial(link, *c_.object(body(i).shape).as<Shape>());
-    write_members(link, body(i).members, in_file(i), {false, is_wheel(i)});
+    write_members(link, i, body(i).members, in_file(i), {false, is_wheel(i)});
   }
 
   bool is_wheel(int i) const {
@@ -114,9 +150,20 @@ class ModelWriter {
     put(inertia, "izz", m(2, 2));
   }
 
-  void write_members(pugi::xml_node link, const std::vector<int>& members, const Pose& pose, const LinkKind& kind) {
+  /// Whether scripts can move a shape on its own: what does not move has a link for each.
+  bool is_loose(int i) const { return is_static_ ? i != group_.fixed : c_.node(i).is_on_joint; }
+
+  void write_members(pugi::xml_node link, int of_body, const std::vector<int>& members, const Pose& pose,
+                     const LinkKind& kind) {
     for (const int member : members) {
-      if (c_.object(member).as<Shape>() != nullptr) write_shape(link, member, pose, kind, c_);
+      if (c_.object(member).as<Shape>() != nullptr) {
+        if (is_loose(member)) {
+          loose_.push_back({member, of_body == kWorld ? "" : links_.at(of_body)});
+          continue;
+        }
+        write_shape(link, member, pose, kind, c_);
+        c_.links[member] = links_.at(of_body);
+      }
       write_sensor(link, member, pose, c_);
       // Lights that do not move are the world's.
       if (c_.object(member).as<Lamp>() != nullptr && c_.node(member).body != kWorld) write_lamp(link, member, pose, c_);
@@ -126,7 +173,8 @@ class ModelWriter {
   /// The members that are nothing else.
   void write_frames(const std::vector<int>& members, const std::string& link, const Pose& link_pose) {
     for (const int i : members) {
-      if (c_.placed.count(i) == 0) write_frame(model_, i, link, link_pose, c_);
+      const bool is_loose_shape = c_.object(i).as<Shape>() != nullptr && is_loose(i);
+      if (c_.placed.count(i) == 0 && !is_loose_shape) write_frame(model_, i, link, link_pose, c_);
     }
   }
 
@@ -138,7 +186,8 @@ class ModelWriter {
       const Connection& connection = c_.structure.connections[static_cast<std::size_t>(i)];
       if (connection.kind == ConnectionKind::kWeld) continue;
       const Object& object = c_.object(connection.object);
-      site.names.emplace(object.handle, c_.names.take(object.alias));
+      if (object.as<Joint>() == nullptr) c_.joints[connection.object] = c_.names.take(object.alias);
+      site.names.emplace(object.handle, c_.joints.at(connection.object));
     }
     for (const int i : group_.connections) {
       write_joint(model_, c_.structure.connections[static_cast<std::size_t>(i)], site, c_);
@@ -164,6 +213,7 @@ class ModelWriter {
   Pose model_pose_;
   bool is_static_ = false;
   std::map<int, std::string> links_;  // names by body
+  std::vector<Loose> loose_;
 };
 
 /// Whole substeps in a step.
@@ -179,6 +229,7 @@ void write_settings(pugi::xml_node world, const Settings& settings) {
   pugi::xml_node physics = named(world, "physics", "engine");
   physics.append_attribute("type").set_value("ode");
   put(physics, "max_step_size", substep_of(settings));
+  put(physics, "bubblesim:substeps", "auto");  // ropes of many links need shorter ones
   pugi::xml_node scene = world.append_child("scene");
   put(scene, "ambient", color_text(settings.ambient));
   put(scene, "background", color_text(settings.background));
@@ -216,6 +267,10 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
     if (is_fixed_lamp) write_lamp(world, i, Pose(), conversion);
   }
   conversion.scripts = write_scripts(folder, conversion);
+  for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
+    const Object& object = conversion.object(i);
+    if (object.as<Joint>() != nullptr) conversion.joints[i] = conversion.names.take(object.alias);
+  }
   if (!file.is_scene) write_floor(world, conversion);
   pugi::xml_node state = sdf.append_child("state");
   for (const Group& group : groups_of(file, structure)) {
@@ -224,6 +279,7 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
   for (int i = 0; i < static_cast<int>(file.objects.size()); ++i) {
     if (conversion.placed.count(i) == 0) write_frame(world, i, "", Pose(), conversion);
   }
+  write_entities(conversion);
   if (state.first_child()) {
     state.append_attribute("world_name").set_value(plain_name(name).c_str());
     world.append_move(state);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <string_view>
 
 #include "load/ttt/write_parts.hpp"
 #include "load/ttt/xml_writer.hpp"
@@ -16,7 +19,7 @@ Pose looking_along_x(const Pose& along_z) {
 }
 
 pugi::xml_node add(pugi::xml_node link, const char* type, int sensor, const Pose& link_pose, Conversion& conversion) {
-  const std::string alias = plain_name(conversion.object(sensor).alias);
+  const std::string alias = path_name(conversion.object(sensor).alias);
   const std::string name = conversion.names.take(alias);
   pugi::xml_node element = named(link, "sensor", name);
   element.append_attribute("type").set_value(type);
@@ -43,11 +46,8 @@ const char* volume_name(VolumeKind volume) {
 
 /// Half the opening of the volume, seen from the sensor.
 double half_angle(const ProximitySensor& sensor, double range) {
-  // A cone that reports only surfaces that face it does not see the ground beside its axis.
-  constexpr double kFacing = 10 * M_PI / 180;
   switch (sensor.volume) {
     case VolumeKind::kCone:
-      return sensor.max_normal_angle > 0 ? std::min(sensor.angle / 2, kFacing) : sensor.angle / 2;
     case VolumeKind::kDisc:
       return sensor.angle / 2;
     case VolumeKind::kPyramid:
@@ -74,6 +74,39 @@ void write_proximity(pugi::xml_node link, int i, const ProximitySensor& sensor, 
   put(sonar, "max", range);
   put(sonar, "radius", range * std::tan(std::clamp(half_angle(sensor, range), 0.0, kWidest)));
   put(sonar, "bubblesim:volume", volume_name(sensor.volume));
+  if (sensor.max_normal_angle > 0) put(sonar, "bubblesim:max_normal_angle", std::min(sensor.max_normal_angle, M_PI));
+  if (sensor.entity != -1) conversion.entities.emplace_back(i, sonar);
+}
+
+/// The objects that an object or collection stands for; nothing if there is none of that handle.
+std::optional<std::set<int>> objects_of(int entity, const Conversion& conversion) {
+  const Structure& structure = conversion.structure;
+  if (const int place = structure.place(entity); place != kNone) return std::set<int>{place};
+  const std::vector<Collection>& all = conversion.file.collections;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [entity](const Collection& each) { return each.handle == entity; });
+  if (found == all.end()) return std::nullopt;
+  std::set<int> objects;
+  for (const Collection::Element& element : found->elements) {
+    std::vector<int> meant;
+    if (element.kind == ElementKind::kAll) {
+      for (int i = 0; i < static_cast<int>(structure.nodes.size()); ++i) meant.push_back(i);
+    } else if (const int place = structure.place(element.object); place != kNone) {
+      meant.push_back(place);
+      for (std::size_t i = 0; i < meant.size() && element.kind == ElementKind::kTree; ++i) {
+        const std::vector<int>& children = conversion.node(meant[i]).children;
+        meant.insert(meant.end(), children.begin(), children.end());
+      }
+    }
+    for (const int each : meant) {
+      if (element.adds) {
+        objects.insert(each);
+      } else {
+        objects.erase(each);
+      }
+    }
+  }
+  return objects;
 }
 
 void write_vision(pugi::xml_node link, int i, const VisionSensor& sensor, const Pose& link_pose,
@@ -85,10 +118,11 @@ void write_vision(pugi::xml_node link, int i, const VisionSensor& sensor, const 
   put(element, "update_rate", kRate);
   pugi::xml_node camera = element.append_child("camera");
   const double far = std::max(sensor.far, kLeastFar);
-  double half = sensor.is_perspective ? sensor.angle / 2 : std::atan2(sensor.width / 2, far);
-  // The angle is that of the larger side.
-  if (sensor.columns < sensor.rows) half = std::atan(std::tan(half) * sensor.columns / sensor.rows);
+  // The angle and the width are those of the larger side.
+  const double part = std::min(1.0, static_cast<double>(sensor.columns) / sensor.rows);
+  const double half = std::atan(part * std::tan(std::clamp(sensor.angle / 2, 0.0, kWidest)));
   put(camera, "horizontal_fov", 2 * std::clamp(half, 0.005, kWidest));
+  if (!sensor.is_perspective && sensor.width > 0) put(camera, "bubblesim:orthographic_width", part * sensor.width);
   pugi::xml_node image = camera.append_child("image");
   put(image, "width", sensor.columns);
   put(image, "height", sensor.rows);
@@ -105,6 +139,31 @@ void write_sensor(pugi::xml_node link, int sensor, const Pose& link_pose, Conver
     write_proximity(link, sensor, *proximity, link_pose, conversion);
   }
   if (const auto* vision = object.as<VisionSensor>()) write_vision(link, sensor, *vision, link_pose, conversion);
+}
+
+void write_entities(Conversion& conversion) {
+  for (auto& [sensor, sonar] : conversion.entities) {
+    const auto objects = objects_of(conversion.object(sensor).as<ProximitySensor>()->entity, conversion);
+    if (!objects) continue;  // all
+    // The sensor's own model is not detected anyway.
+    pugi::xml_node model = sonar;
+    while (std::string_view(model.name()) != "model") model = model.parent();
+    std::set<std::string> own;
+    for (const pugi::xml_node link : model.children("link")) own.insert(link.attribute("name").value());
+    std::set<std::string> detected;
+    bool is_all = true;
+    for (const auto& [object, link] : conversion.links) {
+      if (objects->count(object) > 0) {
+        detected.insert(link);
+      } else if (own.count(link) == 0) {
+        is_all = false;
+      }
+    }
+    if (is_all) continue;
+    std::string names;
+    for (const std::string& link : detected) names += (names.empty() ? "" : " ") + link;
+    put(sonar, "bubblesim:detects", names.empty() ? "-" : names);  // no link has that name
+  }
 }
 
 void write_lamp(pugi::xml_node parent, int i, const Pose& parent_pose, Conversion& conversion) {

@@ -139,6 +139,7 @@ class ShapeWriter {
     using Look = std::tuple<Rgb, Rgb, double, std::string>;
     std::map<Look, std::vector<const Part*>> meshes;
     for (const Part& part : shape_.parts) {
+      if (part.is_wireframe) continue;  // its edges are on the faces of others
       const std::string texture = conversion_.meshes.texture(part);
       if (is_plain(part) && texture.empty()) {
         pugi::xml_node element = visual(in_link_ * plain_pose(part), part, texture);

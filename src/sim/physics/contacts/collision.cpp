@@ -60,6 +60,11 @@ void touch(void* data, dGeomID first, dGeomID second) {
   const Collider& a = collider_of(first);
   const Collider& b = collider_of(second);
   if (a.link == b.link) return;
+  // Static shapes come second: those that move with a model do not collide with it.
+  if (b.carrier != kNoObject && a.model != Collider::kNoModel &&
+      substep.moving[static_cast<std::size_t>(a.model)]->object == b.carrier) {
+    return;
+  }
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
   if (sleeps(body_a) && sleeps(body_b)) return;

@@ -30,10 +30,11 @@ struct Collider {
   const Surface& given_surface;                // of the description
   std::unique_ptr<const Surface> own_surface;  // in its place, after a change
   const Pose& in_link;
-  bool watched = false;   // observed by a contact sensor
-  int model = kNoModel;   // index of its outermost model among the moving ones; kNoModel when it is static
-  int number = 0;         // in the order of the models, moving ones first
-  double model_mass = 0;  // kg, of its outermost model; infinite when it is static
+  bool watched = false;          // observed by a contact sensor
+  int model = kNoModel;          // index of its outermost model among the moving ones; kNoModel when it is static
+  int number = 0;                // in the order of the models, moving ones first
+  ObjectId carrier = kNoObject;  // the outermost model that carries its static link: they do not collide
+  double model_mass = 0;         // kg, of its outermost model; infinite when it is static
 
   const Surface& surface() const { return own_surface == nullptr ? given_surface : *own_surface; }
 };

@@ -19,12 +19,14 @@ struct Sweep {
   static constexpr double kNoSize = 1e300;  // of a link that is not tested
 };
 
-/// Static links have no body and stay at `pose`.
+/// Static links have no body and stay at `pose`, or move with another link.
 struct Link {
   ode::BodyHandle body;
-  double mass = 0;         // kg, at present; 0 without a body
-  Vector3 centre_of_mass;  // body's origin, in the link's frame
-  Pose pose;               // of static links, in the world
+  double mass = 0;               // kg, at present; 0 without a body
+  Vector3 centre_of_mass;        // body's origin, in the link's frame
+  Pose pose;                     // of static links, in the world
+  ObjectId carrier = kNoObject;  // of a static link: with which it moves
+  Pose in_carrier;
   ObjectId object = kNoObject;
   int number = 0;  // among the links of moving models
   Pose rest_pose;  // of the body, where it came to rest last

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world_frames.hpp"
@@ -21,7 +22,12 @@ ObjectId link_of(const PlacedModel& model, const std::string& name) {
 }
 
 PlacedFrame placed(const FrameDescription& description, ObjectId link) {
-  return {link, description.pose, description.kind, false};
+  PlacedFrame frame{link, description.pose, description.kind};
+  if (description.joint) {
+    frame.joint = &description;
+    frame.position = description.joint_position;
+  }
+  return frame;
 }
 
 /// The link that a frame below this object moves with.
@@ -75,7 +81,7 @@ void place_frames(WorldState& state, const std::vector<FrameDescription>& frames
 
 void transfer_frames(StateArchive& archive, WorldState& state) {
   for (auto& [id, frame] : state.frames) {
-    if (!frame.is_added) archive(frame.link, frame.pose);
+    if (!frame.is_added) archive(frame.link, frame.pose, frame.position, frame.velocity);
   }
 }
 
@@ -86,6 +92,7 @@ void add_frames(Fnv1a& hash, const WorldState& state) {
     const double numbers[] = {pose.position.x(),    pose.position.y(),    pose.position.z(),   pose.orientation.x(),
                               pose.orientation.y(), pose.orientation.z(), pose.orientation.w()};
     hash.add(numbers, 7);
+    if (frame.joint != nullptr) hash.add(&frame.position, 1);
   }
 }
 
@@ -115,14 +122,33 @@ ObjectId WorldFrames::link(ObjectId frame) const {
   return state().frames.at(frame).link;
 }
 
+const TreePlace* WorldFrames::place(ObjectId frame) const {
+  kind(frame);  // throws
+  const Object& object = state().tree().at(frame);
+  if (state().frames.at(frame).is_added) return nullptr;
+  const ObjectId model = state().tree().outermost_model_of(frame);
+  const std::vector<FrameDescription>& described =
+      model == kNoObject ? *state().scene_frames : state().model_of(model).description.frames;
+  const auto& place = described[object.index].place;
+  return place ? &*place : nullptr;
+}
+
 void WorldFrames::set_parent(ObjectId object, ObjectId parent) {
   changing_tree(state()).set_parent(object, parent);
-  const auto carry_along = [this](const auto& self, ObjectId id) -> void {
-    if (state().tree().at(id).kind != ObjectKind::kFrame) return;
-    carry(state(), id, link_that_carries(state(), state().tree().at(id).parent));
-    for (const ObjectId child : state().tree().at(id).children) self(self, child);
-  };
-  carry_along(carry_along, object);
+  std::vector<ObjectId> open{object};
+  while (!open.empty()) {
+    const Object& next = state().tree().at(open.back());
+    open.pop_back();
+    const bool is_static = next.kind == ObjectKind::kLink && state().model_of(next.id).description.is_static;
+    if (next.kind != ObjectKind::kFrame && !is_static) continue;
+    const ObjectId link = link_that_carries(state(), next.parent);
+    if (is_static) {
+      attach_static(state(), next.id, link);
+    } else {
+      carry(state(), next.id, link);
+    }
+    open.insert(open.end(), next.children.begin(), next.children.end());
+  }
 }
 
 void WorldFrames::set_alias(ObjectId object, std::string alias) {

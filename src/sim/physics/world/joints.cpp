@@ -68,25 +68,32 @@ std::vector<ObjectId> hanging_on(const PlacedModel& model, const PlacedJoint& jo
 }  // namespace
 
 Pose WorldJoints::child_pose(ObjectId joint) const {
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint))
+    return frame_pose(state(), *frame) * motion_of(*frame);
   const PlacedJoint& placed = placed_joint(state(), joint);
   return link_pose(state().link(placed.child)) * placed.in_child;
 }
 
 double WorldJoints::position(ObjectId joint, int axis) const {
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint)) return frame->position;
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.position(found.index);
 }
 
 double WorldJoints::velocity(ObjectId joint, int axis) const {
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint)) return frame->velocity;
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.velocity(found.index);
 }
 
 double WorldJoints::motor_effort(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return 0;
   const int index = joint_axis(state(), joint, axis).index;
   const auto& meter = placed_joint(state(), joint).motor_meters[static_cast<std::size_t>(index)];
   return meter == nullptr || state().last_duration == 0 ? 0 : meter->impulse() / state().last_duration;
 }
+
+bool WorldJoints::is_kinematic(ObjectId joint) const { return kinematic_joint(state(), joint) != nullptr; }
 
 std::pair<ObjectId, ObjectId> WorldJoints::links(ObjectId joint) const {
   const PlacedJoint& placed = placed_joint(state(), joint);
@@ -94,31 +101,39 @@ std::pair<ObjectId, ObjectId> WorldJoints::links(ObjectId joint) const {
 }
 
 int WorldJoints::axes(ObjectId joint) const {
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint)) {
+    return static_cast<int>(frame->joint->joint->axes.size());
+  }
   const PlacedJoint& placed = placed_joint(state(), joint);
   return placed.joint == nullptr ? 0 : placed.joint->axis_count();
 }
 
 double WorldJoints::target_position(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return position(joint);
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_position(found.index);
 }
 
 double WorldJoints::target_velocity(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return velocity(joint);
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_velocity(found.index);
 }
 
 double WorldJoints::target_effort(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return 0;
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.target_effort(found.index);
 }
 
 double WorldJoints::max_force(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return 0;
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.axis(found.index).max_force;
 }
 
 MotorMode WorldJoints::motor_mode(ObjectId joint, int axis) const {
+  if (is_kinematic(joint)) return MotorMode::kNone;
   const JointAxis found = joint_axis(state(), joint, axis);
   return found.joint.axis(found.index).motor;
 }
@@ -132,12 +147,18 @@ void WorldJoints::set_motor_mode(ObjectId joint, MotorMode mode, int axis) {
 }
 
 void WorldJoints::set_target_position(ObjectId joint, double position, int axis) {
+  if (is_kinematic(joint)) return set_position(joint, position);
   const JointAxis found = joint_axis(state(), joint, axis);
   check_target(state(), joint, "target position", position);
   found.joint.set_target_position(found.index, position);
 }
 
 void WorldJoints::set_target_velocity(ObjectId joint, double velocity, int axis) {
+  if (PlacedFrame* frame = kinematic_joint(state(), joint)) {
+    check_target(state(), joint, "target velocity", velocity);
+    frame->velocity = velocity;
+    return;
+  }
   const JointAxis found = joint_axis(state(), joint, axis);
   check_target(state(), joint, "target velocity", velocity);
   found.joint.set_target_velocity(found.index, velocity);
@@ -153,11 +174,19 @@ void WorldJoints::set_target_effort(ObjectId joint, double effort, int axis) {
 }
 
 const JointDescription& WorldJoints::description(ObjectId joint) const {
+  if (const PlacedFrame* frame = kinematic_joint(state(), joint)) return *frame->joint->joint;
   placed_joint(state(), joint);
   return state().model_of(joint).description.joints[state().tree().at(joint).index];
 }
 
 void WorldJoints::set_position(ObjectId joint, double position) {
+  if (is_kinematic(joint)) {
+    if (description(joint).axes.empty())
+      throw WrongObject(state().shown(joint) + " is a ball joint: it has no position");
+    check_target(state(), joint, "position", position);
+    set_kinematic_position(state(), joint, position);
+    return;
+  }
   const PlacedJoint& placed = placed_joint(state(), joint);
   const JointDescription& description = this->description(joint);
   const JointKind& kind = *find_joint_kind(description.type);

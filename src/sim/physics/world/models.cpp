@@ -46,6 +46,8 @@ ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings
   }
   if (is_static) gather_statics(state());
   list_moving(state());
+  attach_statics(state(), *state().models.back());
+  find_leaders(state());
   ++state().revision;
   state().has_scene_models = false;
   return id;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poses and velocities of objects.
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bubblesim/error.hpp"
@@ -15,10 +17,26 @@
 namespace bubblesim {
 namespace {
 
+/// Whether a link has a shape that cannot be moved: an infinite plane.
+bool is_infinite(const WorldState& state, ObjectId link) {
+  const PlacedModel& model = state.model_of(link);
+  if (!model.description.is_static) return false;
+  return std::any_of(model.colliders.begin(), model.colliders.end(), [&](const Collider& collider) {
+    return collider.link->object == link && std::holds_alternative<Plane>(collider.geometry);
+  });
+}
+
+/// Whether a sensor may be moved in its link: it neither belongs to a joint, nor measures the motion of a body.
+bool is_loose(const WorldState& state, const Object& sensor) {
+  const bool is_of_link = state.tree().at(sensor.carrier).kind == ObjectKind::kLink;
+  return is_of_link && state.model_of(sensor.id).motion_meters.count(sensor.index) == 0;
+}
+
 /// What moves with an object that is set to a pose.
 struct Movers {
-  std::set<ObjectId> links;  // not static ones
+  std::set<ObjectId> links;
   std::vector<ObjectId> frames;
+  std::vector<ObjectId> sensors;
 };
 
 /// The objects with what is below them in the tree, and below the links of each model among these.
@@ -35,8 +53,8 @@ Movers movers(const WorldState& state, std::vector<ObjectId> open) {
       const std::vector<ObjectId> links = state.tree().parts(object.id, ObjectKind::kLink);
       open.insert(open.end(), links.begin(), links.end());
     }
-    const bool moves = object.kind == ObjectKind::kLink && !state.model_of(object.id).description.is_static;
-    if (moves) found.links.insert(object.id);
+    if (object.kind == ObjectKind::kLink && !is_infinite(state, object.id)) found.links.insert(object.id);
+    if (object.kind == ObjectKind::kSensor && is_loose(state, object)) found.sensors.push_back(object.id);
   }
   return found;
 }
@@ -49,12 +67,27 @@ void check_movable(const WorldState& state, ObjectId id) {
     throw WrongObject(state.shown(id) + " is a part of " + state.shown(state.frames.at(id).link) +
                       ": it cannot be moved on its own; move that");
   }
+  if (object.kind == ObjectKind::kSensor && is_loose(state, object)) return;
+  if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
+    throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
+                      ": it cannot be moved on its own; move its link or model");
+  }
+  std::vector<ObjectId> links{id};
+  if (object.kind == ObjectKind::kModel) links = state.tree().parts(id, ObjectKind::kLink);
+  for (const ObjectId link : links) {
+    if (is_infinite(state, link)) throw WrongObject(state.shown(id) + " has an infinite plane: it cannot be moved");
+  }
+}
+
+/// Throws for objects that have no velocity of their own.
+void check_has_velocity(const WorldState& state, ObjectId id) {
+  const Object& object = state.tree().at(id);
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                       ": it cannot be moved on its own; move its link or model");
   }
   if (state.model_of(id).description.is_static) {
-    throw WrongObject(state.shown(id) + " is static: it cannot be moved");
+    throw WrongObject(state.shown(id) + " is static: it cannot be moved by a velocity");
   }
 }
 
@@ -146,6 +179,12 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     const Pose moved = wanted * (before.inverse() * frame_pose(state, placed));
     placed.pose = placed.link == kNoObject ? moved : link_pose(state.link(placed.link)).inverse() * moved;
   }
+  for (const ObjectId id : moving.sensors) {
+    const Object& sensor = state.tree().at(id);
+    if (moving.links.count(sensor.carrier) > 0) continue;
+    const Pose moved = wanted * (before.inverse() * pose_of(state, id));
+    state.model_of(id).sensors[sensor.index] = link_pose(state.link(sensor.carrier)).inverse() * moved;
+  }
   if (moving.links.empty()) return;
   wake(state.moving);
   std::set<ObjectId> models;
@@ -154,9 +193,17 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
   for (const ObjectId id : moving.links) {
     const Link& link = state.link(id);
     const Pose moved = wanted * (before.inverse() * link_pose(link));
+    if (link.body == nullptr) {
+      place_static(state, id, {moved.position, moved.orientation.normalized()});
+      continue;
+    }
     const Vector3 centre = moved * link.centre_of_mass;
     dBodySetPosition(link.body.get(), centre.x(), centre.y(), centre.z());
     dBodySetQuaternion(link.body.get(), to_ode(moved.orientation).data());
+  }
+  // Those that are carried keep their new place on what carries them, which may have moved, too.
+  for (const ObjectId id : moving.links) {
+    if (state.link(id).body == nullptr) attach_static(state, id, state.link(id).carrier);
   }
 }
 
@@ -179,6 +226,10 @@ void move_object(WorldState& state, ObjectId object, const Pose& pose) {
   move(state, movers(state, {object}), pose_of(state, object), {pose.position, pose.orientation.normalized()});
 }
 
+void move_children(WorldState& state, ObjectId parent, const Pose& before, const Pose& wanted) {
+  move(state, movers(state, state.tree().at(parent).children), before, wanted);
+}
+
 void move_links(WorldState& state, const std::vector<ObjectId>& links, const Pose& motion) {
   Movers others = movers(state, links);
   for (const ObjectId link : links) {
@@ -190,27 +241,33 @@ void move_links(WorldState& state, const std::vector<ObjectId>& links, const Pos
   for (const ObjectId frame : others.frames) {
     if (others.links.count(state.frames.at(frame).link) == 0) frames.push_back(frame);
   }
-  move(state, {{}, frames}, Pose(), motion);
+  std::vector<ObjectId> sensors;
+  for (const ObjectId sensor : others.sensors) {
+    if (others.links.count(state.tree().at(sensor).carrier) == 0) sensors.push_back(sensor);
+  }
+  move(state, {{}, frames, sensors}, Pose(), motion);
   for (const ObjectId link : links) {
     const Pose before = pose_of(state, link);
     const Pose wanted = motion * before;
-    move(state, {{link}, {}}, before, {wanted.position, wanted.orientation.normalized()});
+    move(state, {{link}, {}, {}}, before, {wanted.position, wanted.orientation.normalized()});
     others.links.erase(link);
   }
   others.frames.clear();
+  others.sensors.clear();
   move(state, others, Pose(), motion);
 }
 
 void World::set_pose(ObjectId object, const Pose& pose) { move_object(*state_, object, pose); }
 
 void World::set_velocity(ObjectId object, const Twist& velocity) {
-  check_movable(*state_, object);
+  check_has_velocity(*state_, object);
   check_velocity(*state_, object, velocity);
   const Vector3 origin = pose(object).position;
   const std::set<ObjectId> links = movers(*state_, {object}).links;
-  for (const ObjectId link : links) dBodyEnable(state_->link(link).body.get());
   for (const ObjectId link : links) {
     dBodyID body = state_->link(link).body.get();
+    if (body == nullptr) continue;
+    dBodyEnable(body);
     const Vector3 linear = velocity.linear + velocity.angular.cross(to_vector(dBodyGetPosition(body)) - origin);
     dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
@@ -237,6 +294,7 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
 }
 
 void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) {
+  check_has_velocity(*state_, object);
   check_velocity(*state_, object, velocity);
   set_pose(object, pose);
   set_velocity(object, velocity);

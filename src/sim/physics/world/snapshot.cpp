@@ -126,6 +126,7 @@ void transfer_physics(StateArchive& archive, WorldState& state) {
   }
   for (PlacedModel* model : state.moving) transfer_model(archive, state, *model);
   transfer_frictions(archive, state);
+  transfer_places(archive, state);
   transfer_frames(archive, state);
   transfer_memory(archive, state, state.contacts.memory);
   transfer_touches(archive, state);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,11 @@ struct PlacedFrame {
   ObjectId link = kNoObject;  // that carries it; kNoObject: it stays in the world
   Pose pose;                  // in the frame of that link, or in the world
   FrameKind kind = FrameKind::kDummy;
-  bool is_added = false;  // by WorldFrames::add_dummy(): it is in no description
+  bool is_added = false;                    // by WorldFrames::add_dummy(): it is in no description
+  const FrameDescription* joint = nullptr;  // of a joint without physics; otherwise null
+  double position = 0;                      // of that joint, rad or m
+  double velocity = 0;                      // with which it moves, rad/s or m/s
+  ObjectId leader = kNoObject;              // the joint that it follows
 };
 /// Object::index of added frames.
 constexpr std::size_t kAddedFrame = std::numeric_limits<std::size_t>::max();
@@ -93,14 +98,16 @@ struct WorldState {
   std::deque<StateSample> history;    // of the last calls of advance()
   std::vector<ObjectId> lost_models;  // models that diverged
   bool diverged = false;
-  bool interrupted = false;    // ODE threw in the middle of a step
-  bool statics_stale = false;  // a static model was removed since gather_statics()
+  bool interrupted = false;          // ODE threw in the middle of a step
+  bool statics_stale = false;        // a static model was removed since gather_statics()
+  std::set<ObjectId> moved_statics;  // links of static models that were ever moved
 
   const SceneTree& tree() const { return *shared_tree; }
   /// Throws WrongObject for a frame that is part of no model.
   PlacedModel& model_of(ObjectId id) { return *model_at[place_of_model(id)]; }
   const PlacedModel& model_of(ObjectId id) const { return *model_at[place_of_model(id)]; }
   const Link& link(ObjectId id) const { return model_of(id).links[tree().at(id).index]; }
+  Link& link(ObjectId id) { return model_of(id).links[tree().at(id).index]; }
   const ModelFrame& frame(ObjectId id) const {
     const Object& object = tree().at(id);
     return object.is_outermost_model() ? model_of(id).frame : model_of(id).nested[object.index];
@@ -121,8 +128,35 @@ Pose pose_of(const WorldState& state, ObjectId object);
 Twist velocity_of(const WorldState& state, ObjectId object);
 /// Moves an object and what is below it in the tree, see World::set_pose().
 void move_object(WorldState& state, ObjectId object, const Pose& pose);
+/// Moves what is below an object in the tree from one frame to another.
+void move_children(WorldState& state, ObjectId parent, const Pose& before, const Pose& wanted);
 /// Moves links, and what is below them in the tree, by a motion in the world.
 void move_links(WorldState& state, const std::vector<ObjectId>& links, const Pose& motion);
+
+/// Sets the pose of a link of a static model.
+void place_static(WorldState& state, ObjectId link, const Pose& pose);
+/// Moves the links of static models with the links that carry them.
+void carry_statics(WorldState& state);
+/// Lets a link of a static model move with another link from where it is now; kNoObject: it stays.
+void attach_static(WorldState& state, ObjectId link, ObjectId carrier);
+/// Attaches the links of a model to the carriers of their descriptions, which are built.
+void attach_statics(WorldState& state, const PlacedModel& model);
+/// Saves or restores where the links of static models are, and the sensors in their links.
+void transfer_places(StateArchive& archive, WorldState& state);
+/// Adds what is not where its description has it.
+void add_places(Fnv1a& hash, const WorldState& state);
+
+/// A joint without physics; null for other objects.
+const PlacedFrame* kinematic_joint(const WorldState& state, ObjectId object);
+PlacedFrame* kinematic_joint(WorldState& state, ObjectId object);
+/// From the frame of such a joint to that of what it moves.
+Pose motion_of(const PlacedFrame& joint);
+/// Moves what is below such a joint in the tree, and the joints that follow it.
+void set_kinematic_position(WorldState& state, ObjectId joint, double position);
+/// Finds the leaders of the joints without physics, when all models are built.
+void find_leaders(WorldState& state);
+/// Moves the joints that have a velocity, and those that follow a joint with physics.
+void move_kinematic_joints(WorldState& state, double duration);
 
 /// The tree, to change it: a copy of the scene's, made at the first change.
 SceneTree& changing_tree(WorldState& state);

@@ -71,6 +71,7 @@ std::uint64_t World::state_hash() const {
   add_wrenches(hash, state_->wrenches);
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   add_frames(hash, *state_);
+  add_places(hash, *state_);
   hash.add(state_->seed);
   hash.add(static_cast<std::uint64_t>(state_->ode.random));
   return hash.value();

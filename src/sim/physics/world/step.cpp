@@ -161,7 +161,9 @@ void World::advance(double duration, double step, std::optional<double> time) {
   for (long done = 0; done < substeps; ++done) {
     update_devices(*this, *state_, start + static_cast<double>(done) * step, step);
     simulate(*state_, wrenches, step);
+    carry_statics(*state_);
   }
+  move_kinematic_joints(*state_, duration);
   dWorldCleanupWorkingMemory(state_->ode.id());  // a third of the memory of a small world, for one of many
   state_->age += duration;
 }

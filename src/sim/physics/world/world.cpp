@@ -22,7 +22,16 @@ void take_statics(WorldState& state, WorldState& from) {
     if (state.models[i] != nullptr) continue;
     state.models[i] = std::move(from.models[i]);
     for (Collider& collider : state.models[i]->colliders) collider.own_surface.reset();
+    for (std::size_t k = 0; k < state.models[i]->sensors.size(); ++k) {
+      state.models[i]->sensors[k] = state.models[i]->described_sensors[k]->pose;
+    }
     state.model_at[SceneTree::index_of(state.models[i]->object)] = state.models[i].get();
+    for (std::size_t k = 0; k < state.models[i]->links.size(); ++k) {
+      Link& link = state.models[i]->links[k];
+      link.carrier = kNoObject;
+      if (state.moved_statics.count(link.object) == 0) continue;
+      place_static(state, link.object, state.models[i]->description.pose * state.models[i]->description.links[k].pose);
+    }
     place_frames(state, *state.models[i]);
   }
 }
@@ -58,6 +67,8 @@ void World::build(const Scene& scene, std::uint64_t seed) {
   }
   gather_statics(*state_);
   list_moving(*state_);
+  for (const auto& model : state_->models) attach_statics(*state_, *model);
+  find_leaders(*state_);
 }
 
 void World::rebuild(const Scene& scene) {
@@ -94,6 +105,7 @@ void World::reset() {
   built->frames = std::move(state_->frames);
   built->revision = state_->revision;
   built->has_scene_models = state_->has_scene_models;
+  built->moved_statics = state_->moved_statics;
   for (const auto& model : state_->models) {
     if (keeps_statics && model->space == nullptr) {
       built->models.push_back(nullptr);
@@ -106,12 +118,16 @@ void World::reset() {
   built->scene_frames = std::move(state_->scene_frames);
   if (!keeps_statics || state_->statics_stale) gather_statics(*built);
   list_moving(*built);
+  for (const auto& model : built->models) attach_statics(*built, *model);
+  find_leaders(*built);
   std::vector<DeviceSlot> devices = std::move(state_->devices);
   state_ = std::move(built);
   reset_devices(*this, std::move(devices), *state_);
 }
 
 const SceneTree& World::tree() const { return state_->tree(); }
+
+const std::set<ObjectId>& World::moved_statics() const { return state_->moved_statics; }
 
 std::uint64_t World::revision() const { return state_->revision; }
 

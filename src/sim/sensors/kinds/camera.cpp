@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera: a pinhole image with depth and visible objects. The centre of pixel (column, row) is at column + 0.5, row +
-// 0.5 from the upper left corner; the optical axis is at the centre of the image.
+// Camera: an image of a pinhole, or of parallel rays, with depth and visible objects. The centre of pixel (column, row)
+// is at column + 0.5, row + 0.5 from the upper left corner; the optical axis is at the centre of the image.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,9 @@ class Camera final : public Sensor {
         description_(description),
         id_(id),
         shading_(environment),
-        focal_(description.width / (2 * std::tan(description.horizontal_fov / 2))) {
+        is_parallel_(description.orthographic_width > 0),
+        focal_(description.width /
+               (is_parallel_ ? description.orthographic_width : 2 * std::tan(description.horizontal_fov / 2))) {
     const std::size_t padded = columns_per_packet(static_cast<std::size_t>(description.width));
     const auto fill = [&](double part, std::vector<double>& left) {
       for (std::size_t column = 0; column < padded; ++column) {
@@ -134,13 +136,20 @@ class Camera final : public Sensor {
     }
   }
 
-  /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length.
-  /// Directions have length 1 along the camera's axis: distances are depths.
+  /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length,
+  /// or in m for parallel rays. Directions have length 1 along the camera's axis: distances are depths.
   void trace(const View& view, double down, const double* left, std::size_t count, rays::RayPacket& packet) const {
     // Surfaces nearer than the near plane are clipped, as by a graphics card.
     packet.start(view.eye, static_cast<float>(description_.near), static_cast<float>(description_.far), count);
     const double up = (description_.height / 2.0 - down) / focal_;
     const auto& turn = view.turn;
+    if (is_parallel_) {
+      for (std::size_t i = 0; i < rays::kPacket; ++i) {
+        rays::aim(packet.data.ray, i, view.eye + turn * Vector3(0, left[std::min(i, count - 1)], up), turn.col(0));
+      }
+      view.scene.trace(packet, false);
+      return;
+    }
     const Vector3 base(turn(0, 0) + up * turn(0, 2), turn(1, 0) + up * turn(1, 2), turn(2, 0) + up * turn(2, 2));
     rays::aim(packet.data.ray, base, {turn(0, 1), turn(1, 1), turn(2, 1)}, left);
     view.scene.trace(packet, true);
@@ -168,7 +177,8 @@ class Camera final : public Sensor {
   CameraDescription description_;
   ObjectId id_;
   Shading shading_;
-  double focal_;                 // in pixels
+  bool is_parallel_;
+  double focal_;                 // in pixels; of parallel rays in pixels per m
   std::vector<double> centres_;  // of the columns, left of the axis, as parts of the focal length
   std::array<std::vector<double>, 2> quarters_;
   std::vector<float> colors_;  // of an image before its noise; three per pixel
@@ -214,11 +224,13 @@ std::optional<Sizes> observed_depths(const CameraDescription& camera) {
 const MemberTable& CameraDescription::members() {
   using D = CameraDescription;
   static const MemberTable table = member_table<D>(
-      "CameraDescription", "A pinhole camera that looks along x, with y to the left and z up.",
+      "CameraDescription", "A camera that looks along x, with y to the left and z up: a pinhole, or parallel rays.",
       {
           member<&D::width>("width", "", "pixels"),
           member<&D::height>("height", "", "pixels"),
           member<&D::horizontal_fov>("horizontal_fov", "rad", "horizontal field of view"),
+          member<&D::orthographic_width>("orthographic_width", "m",
+                                         "that the image shows from left to right, by parallel rays; 0: a pinhole"),
           member<&D::near>("near", "m", "near plane, along the axis"),
           member<&D::far>("far", "m", "far plane, along the axis"),
           member<&D::color>("color", "", "whether it measures colours besides depths"),
@@ -289,6 +301,7 @@ class CameraKind final : public SensorDefinitionOf<CameraDescription, CameraImag
     optical_frame_id text
     camera_info_topic text
     bubblesim:antialias text false
+    bubblesim:orthographic_width number 0
 )";
     observe("image", "", "0 to 255", observed_colors, [](const CameraImage& image, Row& row) {
       for (const std::uint8_t value : image.rgb) row.put(value);
@@ -308,6 +321,7 @@ class CameraKind final : public SensorDefinitionOf<CameraDescription, CameraImag
     description.width = sensor.integer("camera/image/width");
     description.height = sensor.integer("camera/image/height");
     description.horizontal_fov = read_field_of_view(sensor);
+    description.orthographic_width = sensor.number("camera/bubblesim:orthographic_width");
     description.near = distance("near");
     description.far = distance("far");
     // Plugins of depth cameras publish colour images, too.
@@ -324,6 +338,8 @@ class CameraKind final : public SensorDefinitionOf<CameraDescription, CameraImag
                   "1 to " + std::to_string(kMaxPixels) + " pixels in width and height");
     check.require(camera.horizontal_fov > 0 && camera.horizontal_fov < 3.14, "the horizontal field of view",
                   text(camera.horizontal_fov) + " rad", "above 0 and below 3.14 (pinhole camera)");
+    check.require(camera.orthographic_width >= 0 && camera.orthographic_width <= kMaxSize, "the orthographic width",
+                  text(camera.orthographic_width) + " m", "0 or more");
     check.require(camera.far > 0 && camera.far <= kMaxSize, "the distance of the far plane", text(camera.far) + " m",
                   "above 0");
     check.require(camera.near > 0 && camera.near < camera.far, "the distance of the near plane",

@@ -2,6 +2,8 @@
 // Sonar and other proximity sensors: the nearest surface in a volume, found by rays that fill the volume.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "rays/ray_scene.hpp"
@@ -72,8 +74,13 @@ std::vector<VolumeRay> fill(const SonarDescription& sonar) {
 
 class Sonar final : public Sensor {
  public:
-  Sonar(const SonarDescription& description, ObjectId id, ObjectId model)
-      : Sensor(ProximityReading{}), description_(description), id_(id), model_(model), rays_(fill(description)) {}
+  Sonar(const SonarDescription& description, ObjectId id, const World& world)
+      : Sensor(ProximityReading{}),
+        description_(description),
+        id_(id),
+        model_(world.tree().outermost_model_of(id)),
+        rays_(fill(description)),
+        least_cosine_(description.max_normal_angle > 0 ? std::cos(description.max_normal_angle) : -1) {}
 
   std::size_t ray_count() const override { return rays_.size(); }
 
@@ -97,18 +104,26 @@ class Sonar final : public Sensor {
         const double distance = packet.data.ray.tfar[i];
         if (!packet.hit(i) || distance > nearest.distance) continue;
         const VolumeRay& ray = rays_[first + i];
-        nearest = {true, distance, ray.start + ray.direction * distance,
-                   sensor.orientation.conjugate() * context.rays.normal(packet, i), context.rays.shape(packet, i).link};
+        const Vector3 normal = sensor.orientation.conjugate() * context.rays.normal(packet, i);
+        if (-normal.dot(ray.direction) < least_cosine_) continue;
+        if (!detects(context.world, context.rays.shape(packet, i).link)) continue;
+        nearest = {true, distance, ray.start + ray.direction * distance, normal, context.rays.shape(packet, i).link};
       }
     }
     if (!nearest.detected) nearest.distance = 0;
     measurement = nearest;
   }
 
+  bool detects(const World& world, ObjectId link) const {
+    const std::vector<std::string>& names = description_.detects;
+    return names.empty() || std::find(names.begin(), names.end(), world.tree().at(link).name) != names.end();
+  }
+
   SonarDescription description_;
   ObjectId id_;
   ObjectId model_;  // the sensor's own model, which it does not detect
   std::vector<VolumeRay> rays_;
+  double least_cosine_;  // of the angle between a ray and the normal
 };
 
 }  // namespace
@@ -122,6 +137,9 @@ const MemberTable& SonarDescription::members() {
           member<&SonarDescription::half_angle>("half_angle", "rad", "between the axis and the volume's side"),
           member<&SonarDescription::volume>("volume", "", "shape of the volume")
               .with_choices({"ray", "cone", "pyramid", "disc", "cylinder"}),
+          member<&SonarDescription::max_normal_angle>("max_normal_angle", "rad",
+                                                      "between a ray and the normal of a surface; 0: any"),
+          member<&SonarDescription::detects>("detects", "", "names of the links that it detects; empty: all"),
       });
   return table;
 }
@@ -151,6 +169,8 @@ class SonarKind final : public SensorDefinitionOf<SonarDescription, ProximityRea
     max number 1 required
     radius number 0.5
     bubblesim:volume text cone
+    bubblesim:max_normal_angle number 0
+    bubblesim:detects text
 )";
     observe("distance", "m", "to the nearest surface; the maximum range if nothing was detected", Sizes{},
             [](const ProximityReading& reading, const SonarDescription& sonar, Row& row) {
@@ -170,6 +190,9 @@ class SonarKind final : public SensorDefinitionOf<SonarDescription, ProximityRea
     const auto volume = sensor.choice("sonar/bubblesim:volume", SonarDescription::members().find("volume")->choices);
     if (!volume) return std::nullopt;
     sonar.volume = static_cast<ProximityVolume>(*volume);
+    sonar.max_normal_angle = sensor.number("sonar/bubblesim:max_normal_angle");
+    std::istringstream names(sensor.text("sonar/bubblesim:detects"));
+    for (std::string name; names >> name;) sonar.detects.push_back(name);
     return sonar;
   }
 
@@ -177,10 +200,12 @@ class SonarKind final : public SensorDefinitionOf<SonarDescription, ProximityRea
     check.require_ranges(sonar.min_range, sonar.max_range);
     check.require(sonar.half_angle >= 0 && sonar.half_angle < M_PI / 2, "the cone's half angle",
                   text(sonar.half_angle) + " rad", "from 0 to below pi/2");
+    check.require(sonar.max_normal_angle >= 0 && sonar.max_normal_angle <= M_PI, "the angle to the normal",
+                  text(sonar.max_normal_angle) + " rad", "from 0 to pi");
   }
 
   std::unique_ptr<Sensor> make(const SonarDescription& description, const SensorSite& site) const override {
-    return std::make_unique<Sonar>(description, site.id, site.world.tree().outermost_model_of(site.id));
+    return std::make_unique<Sonar>(description, site.id, site.world);
   }
 };
 

@@ -287,6 +287,11 @@ TEST(Places, ThatContradictEachOtherAreRefused) {
       << problem(described);
 
   described = tree_scene();
+  described.models[0].links[0].carrier = "none";
+  EXPECT_NE(problem(described).find("/body/base: its carrier 'none' is no link"), std::string::npos)
+      << problem(described);
+
+  described = tree_scene();
   described.models[0].frames[0].link = "whell";
   EXPECT_NE(problem(described).find("whell"), std::string::npos) << problem(described);
 }

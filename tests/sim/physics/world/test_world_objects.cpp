@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
@@ -221,10 +222,25 @@ TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
                  {"/Sonar", "sensor", "not a joint"});
   expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "cannot be moved on its own"});
-  expect_refused(world, [&] { world.set_pose(find("/Wall"), {}); }, {"/Wall", "static"});
   expect_refused(world, [&] { world.set_velocity(find("/Wall/link"), {}); }, {"/link", "static"});
   expect_refused(world, [&] { world.joints().position(find("/joint"), 1); }, {"/joint", "index 1"});
   expect_refused(world, [&] { world.joints().position(find("/joint"), -1); }, {"/joint", "index -1"});
+}
+
+TEST_F(RobotWorld, StaticModelsAndSensorsStayWhereTheyAreMoved) {
+  const Pose elsewhere(7, 1, 0, 0, 0, 0.5);
+  world.set_pose(find("/Wall"), elsewhere);
+  world.set_pose(find("/Sonar"), elsewhere);
+  world.advance(0.1, kStep);
+  expect_near(world.pose(find("/Wall/link")), elsewhere, 1e-12);
+  EXPECT_EQ(world.moved_statics(), std::set<ObjectId>{find("/Wall/link")});
+  const auto hit = world.geometry().cast_ray({7, 1, 3}, {0, 0, -1}, 10);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance, 2.5, 1e-12);
+  world.reset();
+  expect_near(world.pose(find("/Wall/link")), described.models[1].pose, 1e-12);
+  const ModelDescription& robot = described.models[0];
+  expect_near(world.pose(find("/Sonar")), robot.pose * robot.links[0].pose * robot.links[0].sensors[0].pose, 1e-12);
 }
 
 TEST_F(RobotWorld, HandlesThatNameNothingAreRefused) {

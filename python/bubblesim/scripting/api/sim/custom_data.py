@@ -96,14 +96,21 @@ class CustomDataFunctions(SignalFunctions):
 
     def _write(self, handle: int, tag: str, data: Any) -> None:
         key = self._key(handle, tag)
-        if data:
-            self._caller.shared.custom_data[key] = data
+        if data or tag in self._of_file(key[0]):
+            self._caller.shared.custom_data[key] = data or b""
         else:
             self._caller.shared.custom_data.pop(key, None)
 
     def _read(self, handle: int, tag: str) -> Any:
-        return self._caller.shared.custom_data.get(self._key(handle, tag))
+        key = self._key(handle, tag)
+        data = self._caller.shared.custom_data.get(key)
+        return (self._of_file(key[0]).get(tag) if data is None else data) or None
 
     def _tags(self, handle: int) -> list[str]:
         owner, _ = self._key(handle, "")
-        return [tag for of, tag in self._caller.shared.custom_data if of == owner]
+        tags = [*self._of_file(owner), *(tag for of, tag in self._caller.shared.custom_data if of == owner)]
+        return [tag for tag in dict.fromkeys(tags) if self._read(handle, tag) is not None]
+
+    def _of_file(self, owner: int) -> dict[str, bytes]:
+        """Return the data that the scene's file attaches to an object."""
+        return {} if owner == self.handle_scene else self._world.file_data(owner)

@@ -20,7 +20,10 @@ class JointFunctions(ApiContext):
 
     def setJointPosition(self, joint: Handle, position: float) -> None:
         """Set the joint position at once; for a position-controlled joint, also set the target position."""
-        self._world.set_joint_position(self._resolve(joint), position)
+        joint = self._resolve(joint)
+        self._world.set_joint_position(joint, position)
+        if self._world.motor_mode(joint) == MotorMode.POSITION:
+            self._world.set_target_position(joint, position)
 
     def getJointInterval(self, joint: Handle) -> tuple[bool, list[float]]:
         """Return whether the joint has no limits, and [lower limit, range]."""
@@ -35,9 +38,11 @@ class JointFunctions(ApiContext):
         return kinds.get(self._world.joint_type(self._resolve(joint)), self.joint_revolute)
 
     def getJointMode(self, joint: Handle) -> tuple[int, int]:
-        """Return sim.jointmode_dynamic for joints moved by physics (all except fixed joints), and 0."""
-        fixed = self._world.joint_type(self._resolve(joint)) == "fixed"
-        return (self.jointmode_kinematic if fixed else self.jointmode_dynamic), 0
+        """Return sim.jointmode_dynamic for joints moved by physics, otherwise sim.jointmode_kinematic, and 0."""
+        joint = self._resolve(joint)
+        is_held = joint in self._edits.held_joints or self._world.is_kinematic(joint)
+        is_still = is_held or self._world.joint_type(joint) == "fixed"
+        return (self.jointmode_kinematic if is_still else self.jointmode_dynamic), 0
 
     def getJointVelocity(self, joint: Handle) -> float:
         """Return the joint velocity."""
@@ -94,10 +99,27 @@ class JointFunctions(ApiContext):
         return float(self._world.max_force(self._resolve(joint)))
 
     def setJointMode(self, joint: Handle, mode: int, options: int = 0) -> None:
-        """Accept sim.jointmode_dynamic, the only mode of joints here; raise ValueError for others."""
-        if mode != self.getJointMode(joint)[0]:
-            path = self._tree.short_path(self._resolve(joint))
-            raise ValueError(f"the mode of {path} cannot be changed: all joints except fixed ones are dynamic")
+        """Let physics move a joint (sim.jointmode_dynamic), or only setJointPosition (sim.jointmode_kinematic).
+
+        A kinematic joint that connects bodies is held at its position with any force that this takes. The end of the
+        run brings back its mode. A joint that moves no body stays kinematic.
+        """
+        joint = self._resolve(joint)
+        is_dynamic = mode == self.jointmode_dynamic
+        if is_dynamic == (self.getJointMode(joint)[0] == self.jointmode_dynamic):
+            return
+        if self._world.is_kinematic(joint) or self._world.joint_type(joint) in ("fixed", "ball"):
+            path = self._tree.short_path(joint)
+            raise ValueError(f"the mode of {path} cannot be changed: physics moves nothing by it, or only as a whole")
+        if is_dynamic:
+            motor, force = self._edits.held_joints.pop(joint)
+            self._world.set_motor_mode(joint, motor)
+            self._world.set_max_force(joint, force)
+            return
+        self._edits.held_joints[joint] = (self._world.motor_mode(joint), self._world.max_force(joint))
+        self._world.set_target_position(joint, self._world.joint_position(joint))
+        self._world.set_motor_mode(joint, MotorMode.POSITION)
+        self._world.set_max_force(joint, math.inf)
 
     def _control_modes(self) -> dict[int, MotorMode]:
         return {

@@ -65,8 +65,12 @@ class ObjectFunctions(ApiContext):
         if name.startswith(("/", ".", ":")):
             return self.getObject(name, options)
         start = self._caller.object_handle
-        own_copy = str(self._world.name(start)).partition("#")[1:] if start >= 0 else ("", "")
+        own_name = (self._world.old_name(start) or str(self._world.name(start))) if start >= 0 else ""
+        own_copy = own_name.partition("#")[1:]
         names = [name.removesuffix("#")] if "#" in name else [name + "".join(own_copy), name]
+        for each in names:
+            if (found := int(self._world.find_old_name(each))) >= 0:
+                return self._shown(found)
         for each in names[:-1]:
             with contextlib.suppress(LookupError):
                 return self._shown(self._tree.find(f"/{each}", start))
@@ -108,8 +112,8 @@ class ObjectFunctions(ApiContext):
         return found[index] if 0 <= index < len(found) else -1
 
     def getObjectName(self, handle: Handle) -> str:
-        """Return the name of an object (old style)."""
-        return self.getObjectAlias(handle)
+        """Return the name of an object (old style): in an old scene the unique one, such as 'wheel#0'."""
+        return self._world.old_name(self._resolve(handle)) or self.getObjectAlias(handle)
 
     def getObjectParent(self, handle: Handle) -> int:
         """Return the handle of the parent object, -1 at the top of the scene."""

@@ -52,11 +52,27 @@ const char* const kModelTable = R"TABLE(
   order integer 0
   model flag false
   script text
+  old_name text
+  parameter text
+    @name text
+    @unit text
+  data text
+    @name text
 
 =object
   @name text
   kind text dummy
   link text
+  joint none
+    @type text revolute
+    position number 0
+    lower number -1e16
+    upper number 1e16
+    screw_thread_pitch number 0
+    mimic none
+      @joint text
+      multiplier number 1
+      offset number 0
   pose pose
     &pose
   bubblesim:alias text
@@ -159,6 +175,7 @@ const char* const kModelTable = R"TABLE(
   battery any ! batteries are not simulated
   particle_emitter any ! particles are not simulated
   bubblesim:alias text
+  bubblesim:carrier text
   bubblesim:place none
     &place
 

@@ -186,6 +186,7 @@ LinkDescription read_link(const SdfElement& link, const Frames& frames, const st
   description.name = link.name();
   description.alias = read_alias(link, path, context);
   description.place = read_place(link);
+  description.carrier = link.text("bubblesim:carrier");
   description.pose = frames.pose(link.name());
   description.source = link.source();
   description.gravity_enabled = link.flag("gravity");

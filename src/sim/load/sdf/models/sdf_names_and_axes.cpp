@@ -2,8 +2,8 @@
 #include "load/sdf/models/sdf_names_and_axes.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
+#include <string_view>
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/elements/own_elements.hpp"
@@ -14,10 +14,13 @@ namespace {
 constexpr const char* kAlias = "bubblesim:alias";
 constexpr const char* kAxisConvention = "bubblesim:axis_convention";
 
+/// What paths can lead to: they give other meanings to some signs.
 bool is_alias(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char sign) {
-    return std::isalnum(sign) != 0 || sign == '_' || sign == '-';
-  });
+  return !text.empty() && text.front() != '.' && text.front() != ':' &&
+         std::all_of(text.begin(), text.end(), [](unsigned char sign) {
+           return sign >= ' ' && sign != 0x7f &&
+                  std::string_view("/[]{}*").find(static_cast<char>(sign)) == std::string_view::npos;
+         });
 }
 
 }  // namespace
@@ -25,8 +28,9 @@ bool is_alias(const std::string& text) {
 std::string read_alias(const SdfElement& element, const std::string& path, LoadContext& context) {
   const std::optional<std::string> given = own_text(element, kAlias);
   if (!given || is_alias(*given)) return given.value_or("");
-  context.report(element.source(kAlias), path,
-                 "<" + std::string(kAlias) + "> is '" + *given + "', it must consist of letters, digits, _ and -");
+  context.report(
+      element.source(kAlias), path,
+      "<" + std::string(kAlias) + "> is '" + *given + "', it must not have / [ ] { } * or begin with . or :");
   return "";
 }
 

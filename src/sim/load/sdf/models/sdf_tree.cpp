@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/models/sdf_tree.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/models/sdf_names_and_axes.hpp"
@@ -11,8 +14,9 @@ namespace {
 
 constexpr const char* kPlace = "bubblesim:place";
 constexpr const char* kObject = "bubblesim:object";
-constexpr FrameKind kKinds[] = {FrameKind::kDummy, FrameKind::kShape, FrameKind::kCamera,
-                                FrameKind::kLight, FrameKind::kGraph, FrameKind::kScript};
+constexpr FrameKind kKinds[] = {FrameKind::kDummy, FrameKind::kShape,  FrameKind::kCamera, FrameKind::kLight,
+                                FrameKind::kGraph, FrameKind::kScript, FrameKind::kJoint};
+constexpr double kNoLimit = 1e15;  // SDFormat has +-1e16
 
 FrameKind read_kind(const SdfElement& object, const std::string& path, LoadContext& context) {
   const std::string given = object.text("kind");
@@ -26,6 +30,52 @@ FrameKind read_kind(const SdfElement& object, const std::string& path, LoadConte
   return FrameKind::kDummy;
 }
 
+/// The bytes of a string in base64; signs that are not of base64 are skipped.
+std::string from_base64(const std::string& text) {
+  static const std::string kSigns = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char sign : text) {
+    const std::size_t value = kSigns.find(sign);
+    if (value == std::string::npos) continue;
+    bits = (bits << 6U | static_cast<unsigned>(value)) & 0xffffU;
+    if ((count += 6) < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<char>(bits >> static_cast<unsigned>(count) & 0xffU));
+  }
+  return bytes;
+}
+
+/// The joint of an object without physics.
+void read_joint(const SdfElement& object, const std::string& path, LoadContext& context, FrameDescription& frame) {
+  const SdfElement element = object.child("joint");
+  JointDescription joint;
+  joint.name = frame.name;
+  joint.source = frame.source;
+  joint.type = element.attribute("type");
+  joint.screw_lead = element.number("screw_thread_pitch");
+  const std::vector<std::string> known = {"revolute", "continuous", "prismatic", "screw", "ball"};
+  if (std::find(known.begin(), known.end(), joint.type) == known.end()) {
+    context.report(element.source(), path,
+                   "the joint's type is '" + joint.type + "', it must be " + joined(known, " or ") +
+                       did_you_mean(joint.type, known));
+  }
+  if (joint.type == "ball") {
+    frame.joint = std::move(joint);
+    return;
+  }
+  AxisDescription axis;
+  if (const double lower = element.number("lower"); lower > -kNoLimit) axis.lower = lower;
+  if (const double upper = element.number("upper"); upper < kNoLimit) axis.upper = upper;
+  if (const SdfElement mimic = element.child("mimic")) {
+    axis.mimic = MimicDescription{mimic.attribute("joint"), 0, mimic.number("multiplier"), mimic.number("offset"), 0};
+  }
+  joint.axes.push_back(axis);
+  frame.joint_position = element.number("position");
+  frame.joint = std::move(joint);
+}
+
 }  // namespace
 
 std::optional<TreePlace> read_place(const SdfElement& element) {
@@ -36,6 +86,11 @@ std::optional<TreePlace> read_place(const SdfElement& element) {
   if (const std::string script = place.text("script"); !script.empty()) {
     read.child_script = std::filesystem::path(element.source().file).parent_path() / script;
   }
+  read.old_name = place.text("old_name");
+  for (const SdfElement& parameter : place.children("parameter")) {
+    read.parameters.push_back({parameter.name(), parameter.attribute("unit"), parameter.as_text()});
+  }
+  for (const SdfElement& data : place.children("data")) read.data[data.name()] = from_base64(data.as_text());
   return read;
 }
 
@@ -50,6 +105,7 @@ std::vector<FrameDescription> read_objects(const SdfElement& owner, const std::s
     frame.link = object.text("link");
     frame.pose = object.child("pose").as_pose();
     frame.source = object.source();
+    if (frame.kind == FrameKind::kJoint) read_joint(object, of_object, context, frame);
     frame.place = read_place(object);
     if (frame.name.empty()) context.report(frame.source, path, "<bubblesim:object> has no name");
     frames.push_back(std::move(frame));
